@@ -1,0 +1,18 @@
+# The commit that a build was made from, for --version and run.json; "unknown" outside a git checkout.
+set(MPMFAST_GIT "unknown")
+find_package(Git QUIET)
+if(Git_FOUND)
+  execute_process(COMMAND ${GIT_EXECUTABLE} describe --always --dirty
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE MPMFAST_GIT_OUT
+    OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE MPMFAST_GIT_RESULT)
+  if(MPMFAST_GIT_RESULT EQUAL 0)
+    set(MPMFAST_GIT "${MPMFAST_GIT_OUT}")
+  endif()
+endif()
+string(TOUPPER "${CMAKE_BUILD_TYPE}" MPMFAST_BUILD_UPPER)
+set(MPMFAST_FLAGS "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${MPMFAST_BUILD_UPPER}}")
+if(MPMFAST_NATIVE)
+  string(APPEND MPMFAST_FLAGS " -march=native")
+endif()
+string(STRIP "${MPMFAST_FLAGS}" MPMFAST_FLAGS)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/version.hpp.in ${PROJECT_BINARY_DIR}/generated/mpmfast_version.hpp @ONLY)

@@ -1,0 +1,101 @@
+#pragma once
+
+/// @file Everything a run leaves behind (design §4): history.csv, particle series, pictures, run.json.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/particles.hpp"
+
+namespace mpmfast {
+
+/// Prepares the output folder: refuses an existing one without `force` (SceneError-free; throws FileError),
+/// with `force` removes what an earlier run of ours left there and nothing else. Writes scene.yaml.
+void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
+
+/// What one row of history.csv says. Energies in J, per `thickness` in 2-D.
+struct HistoryRow {
+  std::uint64_t step = 0;
+  double time = 0, dt = 0;
+  double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
+  Vec3 momentum{};
+  struct Body {
+    std::array<double, 6> mean_stress{};  ///< Pa, Cauchy, xx yy zz xy yz xz, weighted by current volume
+    double mass = 0;
+    Vec3 position{}, velocity{};          ///< of the centre of mass
+  };
+  std::vector<Body> bodies;               ///< as Scene::bodies
+  std::vector<Vec3> boundary_force;       ///< N, on the material, mean over the interval; as Scene::boundaries
+  std::vector<Vec3> rigid_force;          ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
+};
+
+/// Sums over particles of one row: kinetic energy, momentum, body means (stored energy is the caller's).
+template <int Dim>
+void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
+
+/// history.csv, flushed after each row.
+class HistoryFile {
+ public:
+  HistoryFile(const std::filesystem::path& folder, const Scene& scene);
+  void append(const HistoryRow& row);
+
+ private:
+  std::filesystem::path path_;
+  std::ofstream file_;
+  const Scene* scene_;
+};
+
+/// particles.pvd and particles/NNNNNN.vtu: appended raw, zlib level 1, vertex cells, TimeValue in each file.
+template <int Dim>
+class ParticleSeries {
+ public:
+  ParticleSeries(const std::filesystem::path& folder, const Scene& scene);
+  void append(const Particles<Dim>& particles, double time);
+
+ private:
+  std::filesystem::path folder_;
+  const Scene* scene_;
+  std::vector<std::pair<double, std::string>> frames_;
+};
+
+/// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured by
+/// `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and a colour bar
+/// with units.
+template <int Dim>
+void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
+                    const std::string& field, double time);
+
+/// XXH3-128 over the particle state (all columns, ordered by id), as hexadecimal text. Independent of sort order.
+template <int Dim>
+std::string checksum(const Particles<Dim>& particles);
+
+/// The content of run.json.
+struct RunSummary {
+  std::string scene_name, status = "finished", reason;
+  int dimension = 2, threads = 1;
+  std::uint64_t particles = 0, fields = 0, nodes_active_peak = 0, steps = 0;
+  double time = 0, dt_min = 0, dt_max = 0, wall = 0, particle_steps_per_second = 0;
+  std::uint64_t peak_memory_bytes = 0;
+  std::vector<std::pair<std::string, double>> seconds;  ///< by pass name
+  struct Contact {
+    std::uint64_t nodes_peak = 0, regressions = 0, fallbacks = 0, unconverged = 0;
+    double mean_iterations = 0;
+  } contact;
+  double energy_error = 0;
+  std::string checksum;
+  std::string command;                    ///< the command line
+  std::vector<std::string> overrides;     ///< --set arguments
+};
+/// Written aside and renamed.
+void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
+
+/// The largest resident set of this process so far, bytes.
+std::uint64_t peak_memory_bytes();
+
+}  // namespace mpmfast

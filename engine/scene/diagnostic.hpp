@@ -1,0 +1,31 @@
+#pragma once
+
+/// @file What is wrong with a scene, said for people (design: file:line:col: path: what (expected), got VALUE).
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mpmfast {
+
+struct Diagnostic {
+  std::string file;
+  int line = 0, column = 0;  ///< 1-based; 0 when the file as a whole is meant
+  std::string path;          ///< dotted path of the key, e.g. materials.steel.young
+  std::string message;
+  std::string hint;          ///< e.g. "Did you mean 'GPa'?"; may be empty
+
+  std::string text() const;
+};
+
+/// Every error found in a scene. what() is all of them, a line each.
+class SceneError : public std::runtime_error {
+ public:
+  explicit SceneError(std::vector<Diagnostic> diagnostics);
+  const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,25 @@
+#pragma once
+
+/// @file YAML → Scene.
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/diagnostic.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace mpmfast {
+
+/// Dotted path and the YAML text that replaces its scalar (list entries by index: bodies.0.velocity).
+using Override = std::pair<std::string, std::string>;
+
+/// Reads and validates a scene. Throws SceneError with every error found, FileError when it cannot be read.
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// The same from text; `file` is the name that messages show and the folder that relative paths start from.
+Scene parse_scene(const std::string& text, const std::filesystem::path& file,
+                  const std::vector<Override>& overrides = {});
+
+}  // namespace mpmfast

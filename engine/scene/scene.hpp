@@ -1,0 +1,179 @@
+#pragma once
+
+/// @file The scene: what a user states, resolved to SI units with every default filled in.
+/// Read by engine/scene/read_scene.hpp, consumed by engine/plan. Plain values, no behaviour.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mpmfast {
+
+using Vec3 = std::array<double, 3>;
+
+enum class Space { plane_strain, three_dimensional };
+enum class BasisKind { linear, ugimp, lcpdi, bspline2 };
+enum class UpdateKind { flip, pic, xpic };
+/// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
+enum class StrainKind { first, last, average };
+/// How XPIC and PIC move particles: with the grid's midpoint velocity, with ½(V_old + V_new), with V_new.
+enum class PositionKind { grid, trapezoid, particle };
+enum class NormalKind { logistic_regression, smoothed_logistic_regression, average_gradient, specified };
+enum class SeparationKind { ellipsoid, position_offset, position_power, none };
+enum class LawKind { coulomb, frictionless, stick, perfect, ignore };
+
+/// A quantity tabulated in time: linear between the points, constant before the first and after the last.
+struct TimeTable {
+  std::vector<double> time;   ///< s, strictly increasing, at least one entry
+  std::vector<double> value;  ///< as many entries as `time`
+};
+
+struct GridSpec {
+  Vec3 origin{0, 0, 0};  ///< m, lower corner of the domain that particles may occupy; a node lies there
+  Vec3 size{0, 0, 0};    ///< m
+  double cell = 0;       ///< m, edge of a (cubic) cell
+};
+
+struct TimeSpec {
+  double end = 0;                                          ///< s
+  double cfl = 0.5;                                        ///< Δt = cfl Δx / max_p(c_p + |v_p|)
+  double max_step = std::numeric_limits<double>::infinity();  ///< s
+};
+
+struct MethodSpec {
+  BasisKind basis = BasisKind::ugimp;
+  UpdateKind update = UpdateKind::flip;
+  int xpic_order = 1;             ///< m of XPIC(m), 2..20 when update is xpic
+  bool contact_correction = true; ///< the Δv* terms of N20 Eq. 42
+  StrainKind strain = StrainKind::first;
+  PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid
+  int deformation_terms = 2;      ///< terms of exp(Δt ∇v) kept after the identity: 1 or 2
+};
+
+/// N20 Eq. 18.
+struct NeoHookeanSpec {
+  double density = 0, bulk = 0, shear = 0;  ///< kg/m³, Pa, Pa
+};
+/// Infinitesimal isotropic elasticity, ε = sym(F) − I.
+struct LinearElasticSpec {
+  double density = 0, young = 0, poisson = 0;  ///< kg/m³, Pa, –
+};
+/// Particles that move as their body says and never deform.
+struct RigidSpec {
+  double density = 1000;  ///< kg/m³, only weighs the nodal mean of several rigid particles
+};
+
+struct MaterialSpec {
+  std::string name;
+  std::variant<NeoHookeanSpec, LinearElasticSpec, RigidSpec> model;
+};
+
+struct BoxShape {
+  Vec3 lower{}, upper{};
+};
+/// Disk, sphere, ellipse, ellipsoid: radii along the axes, turned by `angle` about z.
+struct EllipsoidShape {
+  Vec3 centre{}, radii{};
+  double angle = 0;  ///< rad
+};
+/// Ring (2-D) or tube along z (3-D, between the z values of lower and upper).
+struct RingShape {
+  Vec3 centre{};
+  double inner = 0, outer = 0;  ///< m
+  double half_length = 0;       ///< m, along z, 3-D only
+};
+/// Simple closed polygon in the xy plane; in 3-D extruded from z_lower to z_upper.
+struct PolygonShape {
+  std::vector<std::array<double, 2>> points;  ///< m
+  double z_lower = 0, z_upper = 0;
+};
+/// The pixels of one grey level of an image stretched over a rectangle (2-D).
+struct BitmapShape {
+  std::filesystem::path file;
+  Vec3 lower{}, upper{};     ///< m
+  int grey = 0;              ///< the level that belongs to this body
+  std::shared_ptr<const struct GreyImage> image;
+};
+
+using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape>;
+
+struct BodySpec {
+  std::string name;
+  Shape shape;
+  int material = 0;                      ///< index into Scene::materials
+  std::string field;                     ///< bodies with the same name here share a velocity field; default: own name
+  std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
+  Vec3 velocity{0, 0, 0};                ///< m/s, initial; of a rigid body: constant unless tables are given
+  std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
+};
+
+/// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
+struct WallSpec {
+  int axis = 0;             ///< 0..2
+  bool upper = false;       ///< nodes at and beyond `position` in +axis (true) or −axis direction
+  double position = 0;      ///< m, at time 0
+  TimeTable speed;          ///< m/s along +axis; the plane moves with it
+  bool held = false;        ///< also fixes the tangential velocity
+};
+/// Prescribed velocity along one direction at every node inside a box.
+struct VelocityBoxSpec {
+  Vec3 lower{}, upper{};    ///< m
+  Vec3 direction{};         ///< unit vector
+  TimeTable speed;          ///< m/s along `direction`
+};
+
+struct BoundarySpec {
+  std::string name;
+  std::variant<WallSpec, VelocityBoxSpec> condition;
+};
+
+struct GravitySpec {
+  Vec3 acceleration{0, 0, 0};  ///< m/s²
+  double ramp = 0;             ///< s, linear from 0 to full
+};
+
+struct ContactSpec {
+  bool active = true;  ///< false: every body shares one velocity field
+  NormalKind normal = NormalKind::logistic_regression;
+  Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
+  SeparationKind separation = SeparationKind::ellipsoid;
+  double position_offset = 0.8;    ///< c of `position_offset`, in cells
+  LawKind law = LawKind::coulomb;
+  double friction = 0;             ///< Coulomb coefficient
+  double penalty = 1e-7;           ///< λ of the regression in cell units
+  bool advance_separation = false; ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
+  double hysteresis = 0;           ///< cells; a node in contact stays so up to this gap
+  double mass_screen = 1e-5;       ///< pairs with m_a/m_tot outside (s, 1 − s) are skipped (NN Eq. 4.1)
+};
+
+struct OutputSpec {
+  int frames = 20;          ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
+  int history = 200;        ///< rows of history.csv beside the initial one
+  std::string picture = "pressure";  ///< field of the second picture: pressure, von_mises, stress_xx, …
+};
+
+struct Scene {
+  std::string title;
+  std::filesystem::path file;  ///< where it was read from
+  Space space = Space::plane_strain;
+  double thickness = 1;        ///< m, 2-D only
+  GridSpec grid;
+  TimeSpec time;
+  MethodSpec method;
+  std::vector<MaterialSpec> materials;
+  std::vector<BodySpec> bodies;
+  std::vector<BoundarySpec> boundaries;
+  GravitySpec gravity;
+  ContactSpec contact;
+  OutputSpec output;
+  std::string resolved_yaml;   ///< the scene with every default written out; reading it gives this scene again
+  int dimension() const { return space == Space::three_dimensional ? 3 : 2; }
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,105 @@
+#pragma once
+
+/// @file The particles: a structure of arrays, one column per component.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "engine/state/columns.hpp"
+#include "kernels/dimension.hpp"
+
+namespace mpmfast {
+
+/// Every particle quantity there is. A plan lists the ones that a scene needs; the others are not allocated.
+enum class Quantity { position, velocity, deformation_gradient, kirchhoff_stress, mass, initial_volume, wave_speed, domain_edges };
+inline constexpr int kQuantities = 8;
+
+struct QuantityInfo {
+  Quantity quantity;
+  std::string_view name, unit;
+  int components_2d, components_3d;
+  std::string_view reason;  ///< who needs it, for `mpmfast check`
+};
+
+/// The one table of particle columns: allocation, sorting, output and `check` follow it.
+inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
+    {Quantity::position, "position", "m", 2, 3, "every scene"},
+    {Quantity::velocity, "velocity", "m/s", 2, 3, "every scene"},
+    {Quantity::deformation_gradient, "deformation_gradient", "-", 4, 9, "strain (row-major F; plane strain: F_zz = 1)"},
+    {Quantity::kirchhoff_stress, "kirchhoff_stress", "Pa", 4, 6, "internal force, output (xx yy zz xy yz xz)"},
+    {Quantity::mass, "mass", "kg", 1, 1, "every scene"},
+    {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force"},
+    {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
+    {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
+}};
+
+/// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiles.hpp).
+template <int Dim>
+class Particles {
+ public:
+  static constexpr int components(Quantity q) {
+    const auto& info = kQuantityTable[static_cast<std::size_t>(q)];
+    return Dim == 2 ? info.components_2d : info.components_3d;
+  }
+
+  /// Room for n particles in the columns of `quantities` (id and body are always there). Contents are zero.
+  void allocate(std::size_t n, const std::vector<Quantity>& quantities) {
+    count_ = n;
+    quantities_ = quantities;
+    for (Quantity q : quantities_) {
+      auto& columns = columns_[static_cast<std::size_t>(q)];
+      columns.resize(static_cast<std::size_t>(components(q)));
+      for (auto& c : columns) c.resize_discard(n);
+    }
+    id_.resize_discard(n);
+    body_.resize_discard(n);
+  }
+
+  std::size_t size() const { return count_; }
+  bool has(Quantity q) const { return !columns_[static_cast<std::size_t>(q)].empty(); }
+  const std::vector<Quantity>& quantities() const { return quantities_; }
+
+  /// The column of component k of q; valid until the next sort.
+  double* column(Quantity q, int k = 0) { return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)].data(); }
+  const double* column(Quantity q, int k = 0) const {
+    return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)].data();
+  }
+  Column<double>& raw(Quantity q, int k) { return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)]; }
+
+  /// Stable number of a particle, from its seeding.
+  Column<std::uint32_t>& id() { return id_; }
+  const Column<std::uint32_t>& id() const { return id_; }
+  /// Index into Scene::bodies.
+  Column<std::uint16_t>& body() { return body_; }
+  const Column<std::uint16_t>& body() const { return body_; }
+
+  Vec<Dim> vector(Quantity q, std::size_t p) const {
+    Vec<Dim> v;
+    for (int k = 0; k < Dim; ++k) v[k] = column(q, k)[p];
+    return v;
+  }
+  Mat<Dim> deformation_gradient(std::size_t p) const {
+    Mat<Dim> f;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) f(i, j) = column(Quantity::deformation_gradient, Dim * i + j)[p];
+    return f;
+  }
+
+  /// Bytes of all columns as planned (without padding).
+  std::size_t planned_bytes() const {
+    std::size_t doubles = 0;
+    for (Quantity q : quantities_) doubles += static_cast<std::size_t>(components(q));
+    return count_ * (doubles * sizeof(double) + sizeof(std::uint32_t) + sizeof(std::uint16_t));
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<Quantity> quantities_;
+  std::array<std::vector<Column<double>>, kQuantities> columns_;
+  Column<std::uint32_t> id_;
+  Column<std::uint16_t> body_;
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,148 @@
+#pragma once
+
+/// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic B-spline.
+/// To add one: a struct with kSupport, first_node and weights, and a line in engine/step/dispatch.hpp.
+
+#include <cmath>
+
+#include "kernels/basis/weights.hpp"
+
+namespace mpmfast {
+
+/// Classic MPM: hat functions at the particle's point.
+struct LinearFunction {
+  static constexpr int kSupport = 2;
+  /// Lowest node of the support for coordinate r in cells.
+  template <class V>
+  static V first_node(V r) {
+    return floor_of(r);
+  }
+  /// Values and derivatives (per cell) on the support for s = r − first node; l: half-size in cells.
+  template <class V>
+  static void weights(V s, double, V (&w)[2], V (&g)[2]) {
+    w[1] = s;
+    w[0] = 1.0 - s;
+    g[0] = broadcast<V>(-1.0);
+    g[1] = broadcast<V>(1.0);
+  }
+  /// The function is non-zero for |r − r_i| below this.
+  static double reach(double) { return 1.0; }
+};
+
+/// uGIMP: the hat averaged over an undeformed domain of half-size l ≤ ½ cell (N20 Eq. 2 with a top-hat χ_p).
+/// With s in [½, 3/2) the outer two nodes lie at distances a ≥ ½ ≥ l, where the average is 1 − a up to a = 1 − l and
+/// (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
+struct UGimpFunction {
+  static constexpr int kSupport = 3;
+  template <class V>
+  static V first_node(V r) {
+    return floor_of(r - 0.5);
+  }
+  template <class V>
+  static void weights(V s, double l, V (&w)[3], V (&g)[3]) {
+    const V below = outer(s, l, g[0]), above = outer(2.0 - s, l, g[2]);
+    w[0] = below;
+    w[2] = above;
+    w[1] = 1.0 - below - above;
+    g[0] = -g[0];
+    g[1] = -(g[0] + g[2]);
+  }
+  static double reach(double l) { return 1.0 + l; }
+
+ private:
+  template <class V>
+  static V outer(V a, double l, V& slope) {
+    const V left = larger(1.0 + l - a, broadcast<V>(0.0));
+    slope = a < 1.0 - l ? broadcast<V>(1.0) : left * (0.5 / l);
+    return a < 1.0 - l ? 1.0 - a : left * left * (0.25 / l);
+  }
+};
+
+/// Quadratic B-spline at the particle's point.
+struct BSpline2Function {
+  static constexpr int kSupport = 3;
+  template <class V>
+  static V first_node(V r) {
+    return floor_of(r - 0.5);
+  }
+  template <class V>
+  static void weights(V s, double, V (&w)[3], V (&g)[3]) {
+    const V below = 1.5 - s, above = s - 0.5, middle = s - 1.0;
+    w[0] = 0.5 * below * below;
+    w[1] = 0.75 - middle * middle;
+    w[2] = 0.5 * above * above;
+    g[0] = -below;
+    g[1] = -2.0 * middle;
+    g[2] = above;
+  }
+  static double reach(double) { return 1.5; }
+};
+
+/// Tensor product of a one-dimensional function.
+template <int Dim, class Function>
+struct SeparableBasis {
+  static constexpr int kMinSupport = Function::kSupport, kMaxSupport = Function::kSupport;
+  static constexpr bool kConvected = false;  ///< needs no half-edge vectors
+
+  /// Stages the weights of a chunk. @return false if a support leaves the window.
+  template <int K>
+  static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
+    static_assert(K == Function::kSupport);
+    alignas(64) double first[Dim][kChunk<Dim>];
+    for (int k = 0; k < g.count; k += kLanes) {
+      Lanes w[Dim][K], slope[Dim][K];
+      for (int d = 0; d < Dim; ++d) {
+        const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
+        const Lanes node = Function::first_node(r);
+        store_lanes(&first[d][k], node);
+        Function::weights(r - node, g.half_size[d] * g.inverse_cell, w[d], slope[d]);
+        for (int i = 0; i < K; ++i) slope[d][i] *= g.inverse_cell;
+      }
+      for (int n = 0; n < out.kNodes; ++n) {
+        const int i = n % K, j = n / K % K;
+        if constexpr (Dim == 2) {
+          store_lanes(&out.value[n][k], w[0][i] * w[1][j]);
+          store_lanes(&out.gradient[0][n][k], slope[0][i] * w[1][j]);
+          store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j]);
+        } else {
+          const int l = n / (K * K);
+          const Lanes yz = w[1][j] * w[2][l];
+          store_lanes(&out.value[n][k], w[0][i] * yz);
+          store_lanes(&out.gradient[0][n][k], slope[0][i] * yz);
+          store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j] * w[2][l]);
+          store_lanes(&out.gradient[2][n][k], w[0][i] * w[1][j] * slope[2][l]);
+        }
+      }
+    }
+    return place_in_window<Dim, K>(first, g, out.first);
+  }
+
+  /// The support that a chunk needs: always the same here.
+  static int chunk_support(const ChunkGeometry<Dim>&) { return kMinSupport; }
+
+  /// Lowest node (coordinates) of the support of particle k.
+  static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
+    NodeIndex<Dim> node;
+    for (int d = 0; d < Dim; ++d)
+      node[d] = static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell));
+    return node;
+  }
+
+  /// Is S_pi non-zero at the node with these coordinates (in cells from the grid's node 0)?
+  static bool covers(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+    for (int d = 0; d < Dim; ++d) {
+      const double r = (g.position[d][k] - g.origin[d]) * g.inverse_cell;
+      if (!(std::abs(r - node[d]) < Function::reach(g.half_size[d] * g.inverse_cell))) return false;
+    }
+    return true;
+  }
+};
+
+template <int Dim>
+using LinearBasis = SeparableBasis<Dim, LinearFunction>;
+template <int Dim>
+using UGimpBasis = SeparableBasis<Dim, UGimpFunction>;
+template <int Dim>
+using BSpline2Basis = SeparableBasis<Dim, BSpline2Function>;
+
+}  // namespace mpmfast

@@ -1,0 +1,66 @@
+#pragma once
+
+/// @file What every basis hands to the transfers: for a chunk of particles, the first node of the support and the
+/// values S_pi and gradients G_pi (N20 Eq. 2, 12) on a small cube of nodes.
+
+#include "kernels/dimension.hpp"
+#include "kernels/simd/lanes.hpp"
+
+namespace mpmfast {
+
+/// Particles whose weights are staged at once: few enough that they stay in the first-level cache.
+template <int Dim>
+inline constexpr int kChunk = Dim == 2 ? 64 : 16;
+
+/// What a basis reads of a chunk of particles of one body.
+template <int Dim>
+struct ChunkGeometry {
+  const double* position[Dim];         ///< [count], m
+  const double* edge[Dim * Dim];       ///< [count], m; half-edge vectors of CPDI domains, row-major; else null
+  double half_size[Dim];               ///< m, of the undeformed domain
+  double origin[Dim];                  ///< m, of node (0, …, 0)
+  double inverse_cell;                 ///< 1/m
+  int window[Dim];                     ///< coordinates of the first node of the tile's window
+  int count;                           ///< ≤ kChunk
+};
+
+/// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] + window_offset(n).
+template <int Dim, int K>
+struct ChunkWeights {
+  static constexpr int kNodes = power(K, Dim);
+  int first[kChunk<Dim>];
+  alignas(64) double value[kNodes][kChunk<Dim>];          ///< S_pi
+  alignas(64) double gradient[Dim][kNodes][kChunk<Dim>];  ///< G_pi, 1/m
+};
+
+/// Index of the n-th node (x fastest) of a K-cube within the window, relative to its first node.
+template <int Dim, int K>
+constexpr int window_offset(int n) {
+  int offset = 0, stride = 1;
+  for (int d = 0; d < Dim; ++d) {
+    offset += (n % K) * stride;
+    n /= K;
+    stride *= kWindowSide;
+  }
+  return offset;
+}
+
+/// Turns first-node coordinates (whole numbers, [Dim][kChunk]) into window indices.
+/// @return false if a particle's support leaves the window: the particles must be sorted anew.
+template <int Dim, int K>
+inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g, int* index) {
+  bool inside = true;
+  for (int k = 0; k < g.count; ++k) {
+    int at = 0, stride = 1;
+    for (int d = 0; d < Dim; ++d) {
+      const double offset = first[d][k] - g.window[d];
+      inside &= offset >= 0 && offset <= kWindowSide - K;  // false for NaN too
+      at += static_cast<int>(inside ? offset : 0) * stride;
+      stride *= kWindowSide;
+    }
+    index[k] = at;
+  }
+  return inside;
+}
+
+}  // namespace mpmfast

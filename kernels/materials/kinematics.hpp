@@ -1,0 +1,97 @@
+#pragma once
+
+/// @file Strain measures from the row-major deformation gradient, for a double or for Lanes. In 2-D, plane strain:
+/// F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
+
+#include "kernels/dimension.hpp"
+#include "kernels/simd/lanes.hpp"
+
+namespace mpmfast {
+
+template <int Dim, class V>
+inline V determinant(const V (&f)[Dim * Dim]) {
+  if constexpr (Dim == 2) {
+    return f[0] * f[3] - f[1] * f[2];
+  } else {
+    return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
+           f[2] * (f[3] * f[7] - f[4] * f[6]);
+  }
+}
+
+/// B = F Fᵀ.
+template <int Dim, class V>
+inline void left_cauchy_green(const V (&f)[Dim * Dim], V (&b)[kSymmetric<Dim>]) {
+  if constexpr (Dim == 2) {
+    b[0] = f[0] * f[0] + f[1] * f[1];
+    b[1] = f[2] * f[2] + f[3] * f[3];
+    b[2] = broadcast<V>(1.0);
+    b[3] = f[0] * f[2] + f[1] * f[3];
+  } else {
+    b[0] = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+    b[1] = f[3] * f[3] + f[4] * f[4] + f[5] * f[5];
+    b[2] = f[6] * f[6] + f[7] * f[7] + f[8] * f[8];
+    b[3] = f[0] * f[3] + f[1] * f[4] + f[2] * f[5];
+    b[4] = f[3] * f[6] + f[4] * f[7] + f[5] * f[8];
+    b[5] = f[0] * f[6] + f[1] * f[7] + f[2] * f[8];
+  }
+}
+
+/// ε = sym(F) − I.
+template <int Dim, class V>
+inline void small_strain(const V (&f)[Dim * Dim], V (&e)[kSymmetric<Dim>]) {
+  if constexpr (Dim == 2) {
+    e[0] = f[0] - 1.0;
+    e[1] = f[3] - 1.0;
+    e[2] = broadcast<V>(0.0);
+    e[3] = 0.5 * (f[1] + f[2]);
+  } else {
+    e[0] = f[0] - 1.0;
+    e[1] = f[4] - 1.0;
+    e[2] = f[8] - 1.0;
+    e[3] = 0.5 * (f[1] + f[3]);
+    e[4] = 0.5 * (f[5] + f[7]);
+    e[5] = 0.5 * (f[2] + f[6]);
+  }
+}
+
+/// A lower bound of the smallest eigenvalue of B over directions in the plane (2-D: exact) or in space.
+/// 3-D: J² = b1 b2 b3 ≤ b1 ((I1 − b1)/2)² gives b1 ≥ 4J²/(I1 − b1)²; from b1 = 0 this rises to the bound.
+template <int Dim, class V>
+inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
+  if constexpr (Dim == 2) {
+    const V mean = 0.5 * (b[0] + b[1]), half = 0.5 * (b[0] - b[1]);
+    return mean - square_root(half * half + b[3] * b[3]);
+  } else {
+    const V i1 = b[0] + b[1] + b[2], j2 = 4.0 * j * j;
+    V b1 = broadcast<V>(0.0);
+    for (int k = 0; k < 4; ++k) b1 = j2 / ((i1 - b1) * (i1 - b1));
+    return b1;
+  }
+}
+
+/// F ← (I + Δt L [+ ½ Δt² L²]) F, the exponential of the velocity gradient to one or two terms.
+/// @param l row-major velocity gradient, 1/s
+template <int Dim, class V>
+inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
+  V a[Dim * Dim], g[Dim * Dim];
+  for (int i = 0; i < Dim * Dim; ++i) a[i] = dt * l[i];
+  if (terms > 1) {
+    V square[Dim * Dim];
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) {
+        V s = a[Dim * i] * a[j];
+        for (int k = 1; k < Dim; ++k) s += a[Dim * i + k] * a[Dim * k + j];
+        square[Dim * i + j] = s;
+      }
+    for (int i = 0; i < Dim * Dim; ++i) a[i] += 0.5 * square[i];
+  }
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) {
+      V s = f[Dim * i + j];
+      for (int k = 0; k < Dim; ++k) s += a[Dim * i + k] * f[Dim * k + j];
+      g[Dim * i + j] = s;
+    }
+  for (int i = 0; i < Dim * Dim; ++i) f[i] = g[i];
+}
+
+}  // namespace mpmfast

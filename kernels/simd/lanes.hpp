@@ -1,0 +1,101 @@
+#pragma once
+
+/// @file Short vectors of doubles: Lanes holds one quantity of several particles, Record four quantities of one node.
+/// Both are GCC vector types, so that arithmetic, comparison and ?: read as for a double.
+
+#include <cstdint>
+#include <cstring>
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wignored-attributes"
+
+namespace mpmfast {
+
+#if defined(__AVX512F__)
+inline constexpr int kLanes = 8;
+#elif defined(__AVX__)
+inline constexpr int kLanes = 4;
+#else
+inline constexpr int kLanes = 2;
+#endif
+
+using Lanes = double __attribute__((vector_size(8 * kLanes)));
+using IntLanes = std::int64_t __attribute__((vector_size(8 * kLanes)));
+/// Four doubles on every machine: a 512-bit record would be spilled where only 256-bit registers exist.
+using Record = double __attribute__((vector_size(32)));
+
+template <class V>
+struct LaneTraits;
+template <>
+struct LaneTraits<double> {
+  using Int = std::int64_t;
+  static constexpr int count = 1;
+};
+template <>
+struct LaneTraits<Lanes> {
+  using Int = IntLanes;
+  static constexpr int count = kLanes;
+};
+
+inline Lanes load_lanes(const double* p) {
+  Lanes v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store_lanes(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
+
+/// The same value in every lane (or the value itself).
+template <class V>
+inline V broadcast(double x) {
+  return V{} + x;
+}
+
+template <class V>
+inline V larger(V a, V b) {
+  return a > b ? a : b;
+}
+template <class V>
+inline V smaller(V a, V b) {
+  return a < b ? a : b;
+}
+template <class V>
+inline V magnitude(V a) {
+  return a < 0.0 ? -a : a;
+}
+
+inline double square_root(double x) { return __builtin_sqrt(x); }
+inline Lanes square_root(Lanes x) {
+  Lanes r{};
+  for (int i = 0; i < kLanes; ++i) r[i] = __builtin_sqrt(x[i]);
+  return r;
+}
+
+/// Largest integer not above x, as a double; |x| < 2^51.
+template <class V>
+inline V floor_of(V x) {
+  constexpr double magic = 6755399441055744.0;  // 1.5 · 2^52: adding it rounds to the nearest integer
+  V nearest = (x + magic) - magic;
+  return nearest > x ? nearest - 1.0 : nearest;
+}
+
+inline double sum_of(double x) { return x; }
+inline double sum_of(Lanes x) {
+  double s = 0;
+  for (int i = 0; i < kLanes; ++i) s += x[i];
+  return s;
+}
+
+/// Transposes four records in place: row i of the result holds component i of each.
+inline void transpose(Record& a, Record& b, Record& c, Record& d) {
+  using Pick = std::int64_t __attribute__((vector_size(32)));
+  const Record ab_even = __builtin_shuffle(a, b, Pick{0, 4, 2, 6}), ab_odd = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
+  const Record cd_even = __builtin_shuffle(c, d, Pick{0, 4, 2, 6}), cd_odd = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
+  a = __builtin_shuffle(ab_even, cd_even, Pick{0, 1, 4, 5});
+  b = __builtin_shuffle(ab_odd, cd_odd, Pick{0, 1, 4, 5});
+  c = __builtin_shuffle(ab_even, cd_even, Pick{2, 3, 6, 7});
+  d = __builtin_shuffle(ab_odd, cd_odd, Pick{2, 3, 6, 7});
+}
+
+}  // namespace mpmfast
+
+#pragma GCC diagnostic pop

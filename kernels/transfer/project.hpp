@@ -1,0 +1,65 @@
+#pragma once
+
+/// @file Particles to nodes: mass and momentum, and what grid-based contact asks for beside them.
+
+#include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/window.hpp"
+#include "kernels/views.hpp"
+
+namespace mpmfast {
+
+template <int Dim, class Basis>
+struct ProjectRoom {
+  WeightRoom<Dim, Basis> weights;
+  Window<Dim, 1> mass_momentum, gradient_volume, mass_position;
+};
+
+/// Nodal mass and momentum of one tile (N20 Eq. 5): m_i = Σ S_pi M_p, p_i = Σ S_pi M_p V_p.
+/// @param out  mass, momentum; accumulated
+/// @return     false if the tile must be sorted anew (out is then untouched)
+template <int Dim, class Basis>
+bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
+  const ParticleView<Dim>& p = *c.particles;
+  clear(room.mass_momentum);
+  const bool inside = for_each_chunk<Dim, Basis>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+    for (int k = 0; k < count; ++k) {
+      const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+      const double m = p.mass[q];
+      Record a{m, m * p.velocity[0][q], m * p.velocity[1][q], 0};
+      if constexpr (Dim == 3) a[3] = m * p.velocity[2][q];
+      scatter_values(w, k, a, room.mass_momentum.at[0]);
+    }
+  });
+  if (inside) flush_window<Dim, 1 + Dim>(room.mass_momentum, c.tile->slot, out);
+  return inside;
+}
+
+/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing into the
+/// material), and m_i x_i = Σ S_pi M_p X_p with positions relative to the grid origin.
+template <int Dim, class Basis>
+void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+                           const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position) {
+  const ParticleView<Dim>& p = *c.particles;
+  clear(room.gradient_volume);
+  clear(room.mass_position);
+  for_each_chunk<Dim, Basis>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+    for (int k = 0; k < count; ++k) {
+      const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+      double f[Dim * Dim];
+      for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
+      const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
+      Record x{};
+      Record unit[Dim] = {};
+      for (int d = 0; d < Dim; ++d) {
+        x[d] = m * (p.position[d][q] - c.grid->origin[d]);
+        unit[d][d] = volume;
+      }
+      scatter_values(w, k, x, room.mass_position.at[0]);
+      scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+    }
+  });
+  flush_window<Dim, Dim>(room.gradient_volume, c.tile->slot, volume_gradient);
+  flush_window<Dim, Dim>(room.mass_position, c.tile->slot, mass_position);
+}
+
+}  // namespace mpmfast

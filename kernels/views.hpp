@@ -1,0 +1,110 @@
+#pragma once
+
+/// @file What the kernels see of the engine's memory: pointers and sizes, nothing owned.
+
+#include <cstdint>
+
+#include "kernels/basis/weights.hpp"
+
+namespace mpmfast {
+
+/// Pointers to the particle columns (SI); those that a plan does not allocate are null.
+template <int Dim>
+struct ParticleView {
+  double* position[Dim];
+  double* velocity[Dim];
+  double* deformation[Dim * Dim];      ///< row-major F
+  double* stress[kSymmetric<Dim>];     ///< Kirchhoff
+  double* edges[Dim * Dim];            ///< half-edge vectors of CPDI domains
+  double* mass;
+  double* volume;                      ///< undeformed
+  double* wave_speed;
+};
+
+/// Consecutive particles of one body in one tile, sorted by cell.
+template <int Dim>
+struct ParticleRun {
+  std::uint32_t begin, end;
+  std::uint32_t cell_begin[kTileNodes<Dim> + 1];  ///< first particle of each cell when last sorted
+  int body;
+};
+
+/// The particles of one velocity field whose supports begin in one tile of nodes, and the nodes they touch.
+template <int Dim>
+struct ParticleTile {
+  int field;
+  int run_begin, run_end;        ///< into the list of runs
+  int window[Dim];               ///< node coordinates of the window's first node
+  int slot[kCorners<Dim>];       ///< first slot of each node tile under the window
+};
+
+template <int Dim>
+struct GridView {
+  double origin[Dim];   ///< m, of node (0, …, 0)
+  double cell, inverse_cell;
+};
+
+/// What a transfer knows of a body.
+template <int Dim>
+struct BodyView {
+  double half_size[Dim];  ///< m, of its particles' undeformed domains
+  int material;
+  bool rigid;
+};
+
+/// Everything that the transfers of one tile read beside the nodal columns.
+template <int Dim>
+struct TileContext {
+  const ParticleView<Dim>* particles;
+  const ParticleTile<Dim>* tile;
+  const ParticleRun<Dim>* runs;
+  const BodyView<Dim>* bodies;
+  const GridView<Dim>* grid;
+};
+
+template <int Dim>
+inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const ParticleRun<Dim>& run, std::uint32_t begin,
+                                         int count) {
+  ChunkGeometry<Dim> g;
+  for (int d = 0; d < Dim; ++d) {
+    g.position[d] = c.particles->position[d] + begin;
+    g.half_size[d] = c.bodies[run.body].half_size[d];
+    g.origin[d] = c.grid->origin[d];
+    g.window[d] = c.tile->window[d];
+  }
+  for (int e = 0; e < Dim * Dim; ++e)
+    g.edge[e] = c.particles->edges[e] ? c.particles->edges[e] + begin : nullptr;
+  g.inverse_cell = c.grid->inverse_cell;
+  g.count = count;
+  return g;
+}
+
+/// Room for the weights of one chunk on any support of a basis.
+template <int Dim, class Basis>
+struct WeightRoom {
+  alignas(64) ChunkWeights<Dim, Basis::kMinSupport> narrow;
+  alignas(64) ChunkWeights<Dim, Basis::kMaxSupport> wide;
+};
+
+/// Stages each chunk of the tile and calls f(weights, run, begin, count).
+/// @return false if a particle's support left the window (the rest of the tile is then skipped).
+template <int Dim, class Basis, class F>
+inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, F f) {
+  for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
+    const ParticleRun<Dim>& run = c.runs[r];
+    for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
+      const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
+      const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
+      if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
+        if (!Basis::stage(g, room.narrow)) return false;
+        f(room.narrow, run, begin, count);
+      } else {
+        if (!Basis::stage(g, room.wide)) return false;
+        f(room.wide, run, begin, count);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace mpmfast
