@@ -16,7 +16,8 @@
 namespace mpmfast {
 
 /// Prepares the output folder: refuses an existing one without `force` (SceneError-free; throws FileError),
-/// with `force` removes what an earlier run of ours left there and nothing else. Writes scene.yaml.
+/// with `force` removes what an earlier run of ours left there and nothing else (pictures: picture_*.png).
+/// Writes scene.yaml.
 void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
 
 /// What one row of history.csv says. Energies in J, per `thickness` in 2-D.
@@ -25,6 +26,7 @@ struct HistoryRow {
   double time = 0, dt = 0;
   double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
   Vec3 momentum{};
+  std::array<double, 6> mean_stress{};      ///< Pa, as Body::mean_stress, over all bodies that deform
   struct Body {
     std::array<double, 6> mean_stress{};  ///< Pa, Cauchy, xx yy zz xy yz xz, weighted by current volume
     double mass = 0;
@@ -35,7 +37,8 @@ struct HistoryRow {
   std::vector<Vec3> rigid_force;          ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
 };
 
-/// Sums over particles of one row: kinetic energy, momentum, body means (stored energy is the caller's).
+/// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise the same
+/// for any order of the particles. Rigid bodies have means, but no share in the kinetic energy and momentum.
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
@@ -66,7 +69,7 @@ class ParticleSeries {
 
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured by
 /// `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and a colour bar
-/// with units.
+/// with units. Throws std::invalid_argument for a field that there is not.
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
                     const std::string& field, double time);
@@ -91,6 +94,7 @@ struct RunSummary {
   std::string checksum;
   std::string command;                    ///< the command line
   std::vector<std::string> overrides;     ///< --set arguments
+  std::string resolved_yaml;              ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);

@@ -109,17 +109,23 @@ struct LcpdiBasis {
     return node;
   }
 
-  static bool covers(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+  static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+    Lanes r[Dim], edge[Dim][Dim];
+    centre_and_edges(g, k, r, edge);
+    Lanes best = broadcast<Lanes>(-1e300);
     for (int c = 0; c < kCorners<Dim>; ++c) {
-      bool near = true;
+      Lanes margin = broadcast<Lanes>(1e300);
       for (int d = 0; d < Dim; ++d) {
-        double x = g.position[d][k] - g.origin[d];
-        for (int j = 0; j < Dim; ++j) x += (c >> j & 1) ? g.edge[Dim * d + j][k] : -g.edge[Dim * d + j][k];
-        near &= std::abs(x * g.inverse_cell - node[d]) < 1.0;
+        Lanes x = r[d] - static_cast<double>(node[d]);
+        for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
+        margin = smaller(margin, 1.0 - magnitude(x));
       }
-      if (near) return true;
+      best = larger(best, margin);
     }
-    return false;
+    return best;
+  }
+  static bool covers(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+    return coverage(g, k, node)[0] > 0;
   }
 
  private:

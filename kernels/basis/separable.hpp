@@ -128,13 +128,19 @@ struct SeparableBasis {
     return node;
   }
 
-  /// Is S_pi non-zero at the node with these coordinates (in cells from the grid's node 0)?
-  static bool covers(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+  /// For particles k … k + kLanes − 1: is S_pi non-zero at the node with these coordinates?
+  /// @return positive where it is
+  static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+    Lanes margin = broadcast<Lanes>(1e300);
     for (int d = 0; d < Dim; ++d) {
-      const double r = (g.position[d][k] - g.origin[d]) * g.inverse_cell;
-      if (!(std::abs(r - node[d]) < Function::reach(g.half_size[d] * g.inverse_cell))) return false;
+      const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
+      const double reach = Function::reach(g.half_size[d] * g.inverse_cell);
+      margin = smaller(margin, reach - magnitude(r - static_cast<double>(node[d])));
     }
-    return true;
+    return margin;
+  }
+  static bool covers(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
+    return coverage(g, k, node)[0] > 0;
   }
 };
 

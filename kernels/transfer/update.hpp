@@ -29,11 +29,13 @@ struct UpdateRoom : StrainForceRoom<Dim, Basis> {
   alignas(64) double value[4 * kRecords][kChunk<Dim>];  ///< by component
   alignas(64) double moved[2 * Dim][kChunk<Dim>];       ///< new positions, new velocities
   alignas(64) double edge[Dim * Dim][kChunk<Dim>];
+  alignas(64) double drift[kChunk<Dim>];
 };
 
 /// What an update reports of a tile.
 struct TileReport {
   double fastest = 0;        ///< max_p (c_p + |v_p|), m/s
+  double speed = 0;          ///< max_p |V_p| and |mean velocity of its motion|, m/s
   double smallest_j = 1e300;
   bool lost = false;         ///< a particle is not finite or outside the allowed box
 };
@@ -69,7 +71,7 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, 
           });
         }
         for (int k = 0; k < count; k += kLanes) {
-          Lanes speed2 = broadcast<Lanes>(0.0);
+          Lanes speed2 = broadcast<Lanes>(0.0), drift2 = broadcast<Lanes>(0.0);
           for (int d = 0; d < Dim; ++d) {
             const Lanes grid = load_lanes(&room.value[d][k]), jump = load_lanes(&room.value[Dim + d][k]);
             const Lanes v = load_lanes(p.velocity[d] + begin + k), x = load_lanes(p.position[d] + begin + k);
@@ -82,9 +84,11 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, 
             store_lanes(&room.moved[d][k], x + rule.dt * mean);
             store_lanes(&room.moved[Dim + d][k], v_new);
             speed2 += v_new * v_new;
+            drift2 += mean * mean;
           }
-          const Lanes fast = square_root(speed2) + load_lanes(p.wave_speed + begin + k);
-          store_lanes(&room.jacobian[k], fast);
+          const Lanes speed = square_root(speed2);
+          store_lanes(&room.jacobian[k], speed + load_lanes(p.wave_speed + begin + k));
+          store_lanes(&room.drift[k], square_root(larger(speed2, drift2)));
           if constexpr (Basis::kConvected) {
             Lanes f[Dim * Dim], edge[Dim * Dim];
             for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
@@ -102,6 +106,7 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, 
         bool inside = true;
         for (int k = 0; k < count; ++k) {
           report.fastest = larger(room.jacobian[k], report.fastest);
+          report.speed = larger(room.drift[k], report.speed);
           inside &= room.jacobian[k] < 1e300;  // false for NaN
         }
         for (int d = 0; d < Dim; ++d)

@@ -1,0 +1,21 @@
+#pragma once
+
+/// @file Writing files so that a reader, or a kill at any moment, never meets half of one.
+
+#include <cerrno>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace mpmfast {
+
+/// Writes `content` to a temporary name beside `path` and renames it. Throws FileError.
+void write_aside(const std::filesystem::path& path, std::string_view content);
+
+/// Makes a folder and its parents. Throws FileError.
+void make_folder(const std::filesystem::path& folder);
+
+/// Throws FileError: what could not be done to which file, and the system's reason.
+[[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path, int error = errno);
+
+}  // namespace mpmfast

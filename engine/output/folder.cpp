@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "engine/errors.hpp"
+#include "engine/output/files.hpp"
+#include "engine/output/output.hpp"
+
+namespace mpmfast {
+namespace {
+
+constexpr std::array<std::string_view, 7> kOurFiles{"scene.yaml",    "run.json",   "run.log", "history.csv",
+                                                    "particles.pvd", "failed.vtu", "checkpoint.h5"};
+
+bool ends_with(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+/// A name that a run of ours writes at the top of its folder.
+bool is_ours(std::string name) {
+  if (ends_with(name, ".tmp")) name.resize(name.size() - 4);
+  if (std::find(kOurFiles.begin(), kOurFiles.end(), name) != kOurFiles.end()) return true;
+  return name.rfind("picture_", 0) == 0 && ends_with(name, ".png");
+}
+
+/// NNNNNN.vtu, or what a kill left of it.
+bool is_frame(std::string name) {
+  if (ends_with(name, ".tmp")) name.resize(name.size() - 4);
+  if (!ends_with(name, ".vtu") || name.size() < 10) return false;
+  return std::all_of(name.begin(), name.end() - 4, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+template <class Chosen>
+void remove_files(const std::filesystem::path& folder, Chosen chosen) {
+  std::error_code error;
+  std::vector<std::filesystem::path> doomed;
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    if (!entry->is_directory(error) && chosen(entry->path().filename().string())) doomed.push_back(entry->path());
+  if (error) throw_file_error("read the folder", folder, error.value());
+  for (const auto& path : doomed) {
+    std::filesystem::remove(path, error);
+    if (error) throw_file_error("remove", path, error.value());
+  }
+}
+
+void remove_earlier_run(const std::filesystem::path& folder) {
+  remove_files(folder, is_ours);
+  const auto frames = folder / "particles";
+  std::error_code error;
+  if (!std::filesystem::is_directory(frames, error)) return;
+  remove_files(frames, is_frame);
+  if (std::filesystem::is_empty(frames, error)) std::filesystem::remove(frames, error);
+}
+
+}  // namespace
+
+void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force) {
+  std::error_code error;
+  if (std::filesystem::exists(folder, error)) {
+    if (!std::filesystem::is_directory(folder, error))
+      throw FileError("output folder " + folder.string() + " is a file");
+    if (!force)
+      throw FileError("output folder " + folder.string() + " exists already (--force replaces the run in it)");
+    remove_earlier_run(folder);
+  }
+  make_folder(folder);
+  write_aside(folder / "scene.yaml", scene.resolved_yaml);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,109 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <string_view>
+
+#include "engine/output/files.hpp"
+#include "engine/output/output.hpp"
+#include "engine/output/particle_access.hpp"
+
+namespace mpmfast {
+namespace {
+
+constexpr std::array<std::string_view, 6> kTensorNames{"xx", "yy", "zz", "xy", "yz", "xz"};
+constexpr std::array<std::string_view, 3> kAxisNames{"x", "y", "z"};
+
+std::size_t tensor_components(const Scene& scene) { return scene.dimension() == 2 ? 4 : 6; }
+std::size_t vector_components(const Scene& scene) { return static_cast<std::size_t>(scene.dimension()); }
+
+/// A header cell: quoted where the name of a body would otherwise end it (RFC 4180), and always on one line.
+std::string csv_cell(std::string text) {
+  bool quote = false;
+  std::string cell;
+  for (char c : text) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    if (c == ',' || c == '"') quote = true;
+    if (c == '"') cell += c;
+    cell += c;
+  }
+  return quote ? '"' + cell + '"' : cell;
+}
+
+void add_stress_names(std::vector<std::string>& names, const Scene& scene, const std::string& body) {
+  for (std::size_t k = 0; k < tensor_components(scene); ++k)
+    names.push_back(fmt::format("{}.mean_stress_{}_Pa", body, kTensorNames[k]));
+}
+
+std::vector<std::string> column_names(const Scene& scene) {
+  std::vector<std::string> names{"step",       "time_s",          "dt_s",       "kinetic_J",  "stored_J",
+                                 "friction_J", "boundary_work_J", "momentum_x", "momentum_y", "momentum_z"};
+  const std::size_t dim = vector_components(scene);
+  const auto add = [&](const std::string& owner, std::string_view before, std::string_view after) {
+    for (std::size_t k = 0; k < dim; ++k)
+      names.push_back(fmt::format("{}.{}{}{}", owner, before, kAxisNames[k], after));
+  };
+  for (const auto& body : scene.bodies) {
+    add_stress_names(names, scene, body.name);
+    names.push_back(body.name + ".mass_kg");
+    add(body.name, "", "_m");
+    add(body.name, "v", "");
+  }
+  for (const auto& boundary : scene.boundaries) add(boundary.name, "force_", "_N");
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (is_rigid(scene, b)) add(scene.bodies[b].name, "force_", "_N");
+  names.push_back("body_force_work_J");
+  add_stress_names(names, scene, "all");
+  return names;
+}
+
+/// One line of numbers.
+class Line {
+ public:
+  explicit Line(std::uint64_t step) : text_(std::to_string(step)) {}
+  void add(double number) { fmt::format_to(std::back_inserter(text_), ",{:.9g}", number); }
+  template <class Numbers>
+  void add(const Numbers& numbers, std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) add(numbers[k]);
+  }
+  const std::string& end() { return text_ += '\n'; }
+
+ private:
+  std::string text_;
+};
+
+}  // namespace
+
+HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene)
+    : path_(folder / "history.csv"), scene_(&scene) {
+  errno = 0;
+  file_.open(path_, std::ios::binary | std::ios::trunc);
+  std::vector<std::string> cells = column_names(scene);
+  for (auto& cell : cells) cell = csv_cell(cell);
+  file_ << fmt::format("{}\n", fmt::join(cells, ",")) << std::flush;
+  if (!file_) throw_file_error("write", path_);
+}
+
+void HistoryFile::append(const HistoryRow& row) {
+  const std::size_t dim = vector_components(*scene_), tensor = tensor_components(*scene_);
+  Line line(row.step);
+  for (double x : {row.time, row.dt, row.kinetic, row.stored, row.friction, row.boundary_work}) line.add(x);
+  line.add(row.momentum, 3);
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+    const HistoryRow::Body body = b < row.bodies.size() ? row.bodies[b] : HistoryRow::Body{};
+    line.add(body.mean_stress, tensor);
+    line.add(body.mass);
+    line.add(body.position, dim);
+    line.add(body.velocity, dim);
+  }
+  for (std::size_t i = 0; i < scene_->boundaries.size(); ++i)
+    line.add(i < row.boundary_force.size() ? row.boundary_force[i] : Vec3{}, dim);
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
+    if (is_rigid(*scene_, b)) line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
+  line.add(row.body_force_work);
+  line.add(row.mean_stress, tensor);
+  errno = 0;
+  file_ << line.end() << std::flush;
+  if (!file_) throw_file_error("write", path_);
+}
+
+}  // namespace mpmfast

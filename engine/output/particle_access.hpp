@@ -1,0 +1,49 @@
+#pragma once
+
+/// @file Reading particles for output: in the order of their ids, with the stress that users know.
+
+#include <Eigen/LU>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/particles.hpp"
+
+namespace mpmfast {
+
+/// Indices of the particles by ascending id: the one order that does not depend on the sort.
+template <int Dim>
+std::vector<std::uint32_t> order_by_id(const Particles<Dim>& particles);
+
+/// J = det F; 1 without a deformation gradient.
+template <int Dim>
+double volume_ratio(const Particles<Dim>& particles, std::size_t p) {
+  return particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p).determinant() : 1.0;
+}
+
+/// Cauchy stress σ = τ / J, Pa, in the order xx yy zz xy yz xz.
+struct CauchyStress {
+  std::array<double, 6> component{};
+  double pressure() const { return -(component[0] + component[1] + component[2]) / 3; }
+  double von_mises() const;
+};
+template <int Dim>
+CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p);
+
+inline bool is_rigid(const Scene& scene, std::size_t body) {
+  const auto material = static_cast<std::size_t>(scene.bodies[body].material);
+  return std::holds_alternative<RigidSpec>(scene.materials[material].model);
+}
+
+/// One scalar of every particle, in the particles' own order; NaN where the columns for it are missing.
+struct FieldValues {
+  std::vector<double> value;
+  std::string label, unit;
+};
+/// @param field as draw_particles; throws std::invalid_argument for a name that there is not.
+template <int Dim>
+FieldValues field_values(const Particles<Dim>& particles, const std::string& field);
+
+}  // namespace mpmfast

@@ -1,0 +1,116 @@
+#include <fmt/format.h>
+
+#include "engine/output/files.hpp"
+#include "engine/output/output.hpp"
+#include "engine/output/particle_access.hpp"
+#include "engine/output/vtu.hpp"
+
+namespace mpmfast {
+namespace {
+
+constexpr std::array<std::string_view, 3> kVectorNames{"X", "Y", "Z"};
+constexpr std::array<std::string_view, 6> kSymmetricNames{"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+constexpr std::array<std::string_view, 9> kMatrixNames{"XX", "XY", "XZ", "YX", "YY", "YZ", "ZX", "ZY", "ZZ"};
+
+/// A vector column as three numbers a particle; z is 0 in 2-D.
+template <class T, int Dim>
+std::vector<T> gather_vector(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order,
+                             Quantity quantity) {
+  std::vector<T> values(3 * order.size(), T{0});
+  for (int d = 0; d < Dim; ++d) {
+    const double* column = particles.column(quantity, d);
+    for (std::size_t i = 0; i < order.size(); ++i)
+      values[3 * i + static_cast<std::size_t>(d)] = static_cast<T>(column[order[i]]);
+  }
+  return values;
+}
+
+template <int Dim>
+void add_identity(const Particles<Dim>& particles, const Scene& scene, const std::vector<std::uint32_t>& order,
+                  VtuFile& file) {
+  std::vector<std::uint32_t> id(order.size());
+  std::vector<std::uint16_t> body(order.size()), material(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    id[i] = particles.id()[order[i]];
+    body[i] = particles.body()[order[i]];
+    material[i] = static_cast<std::uint16_t>(scene.bodies[body[i]].material);
+  }
+  file.add_point_data("id", id);
+  file.add_point_data("body", body);
+  file.add_point_data("material", material);
+}
+
+template <int Dim>
+void add_stress(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+  std::vector<float> stress(6 * order.size()), von_mises(order.size()), pressure(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const CauchyStress cauchy = cauchy_stress(particles, order[i]);
+    for (std::size_t k = 0; k < 6; ++k) stress[6 * i + k] = static_cast<float>(cauchy.component[k]);
+    von_mises[i] = static_cast<float>(cauchy.von_mises());
+    pressure[i] = static_cast<float>(cauchy.pressure());
+  }
+  file.add_point_data("stress", stress, kSymmetricNames);
+  file.add_point_data("von_mises", von_mises);
+  file.add_point_data("pressure", pressure);
+}
+
+/// F in double precision: small strains are its small difference from the identity.
+template <int Dim>
+void add_deformation(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+  std::vector<double> deformation(9 * order.size(), 0.0);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Mat<Dim> f = particles.deformation_gradient(order[i]);
+    for (int row = 0; row < Dim; ++row)
+      for (int column = 0; column < Dim; ++column)
+        deformation[9 * i + static_cast<std::size_t>(3 * row + column)] = f(row, column);
+    if constexpr (Dim == 2) deformation[9 * i + 8] = 1;
+  }
+  file.add_point_data("deformation_gradient", deformation, kMatrixNames);
+}
+
+template <int Dim>
+void add_volume(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+  std::vector<float> volume(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    volume[i] = static_cast<float>(particles.column(Quantity::initial_volume)[order[i]] *
+                                   volume_ratio(particles, order[i]));
+  file.add_point_data("volume", volume);
+}
+
+std::string pvd_text(const std::vector<std::pair<double, std::string>>& frames) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
+      "  <Collection>\n";
+  for (const auto& [time, file] : frames)
+    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
+  return text + "  </Collection>\n</VTKFile>\n";
+}
+
+}  // namespace
+
+template <int Dim>
+ParticleSeries<Dim>::ParticleSeries(const std::filesystem::path& folder, const Scene& scene)
+    : folder_(folder), scene_(&scene) {
+  make_folder(folder_ / "particles");
+}
+
+template <int Dim>
+void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
+  const std::vector<std::uint32_t> order = order_by_id(particles);
+  VtuFile file(gather_vector<double>(particles, order, Quantity::position));
+  add_identity(particles, *scene_, order, file);
+  if (particles.has(Quantity::velocity))
+    file.add_point_data("velocity", gather_vector<float>(particles, order, Quantity::velocity), kVectorNames);
+  if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
+  if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
+  if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
+  const std::string name = fmt::format("particles/{:06}.vtu", frames_.size());
+  file.write(folder_ / name, time);
+  frames_.emplace_back(time, name);
+  write_aside(folder_ / "particles.pvd", pvd_text(frames_));
+}
+
+template class ParticleSeries<2>;
+template class ParticleSeries<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,108 @@
+#include "engine/output/picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/output/font.hpp"
+
+namespace mpmfast {
+namespace {
+
+constexpr double kLongSide = 1000;  // pixels
+constexpr double kShortestBox = 260;
+constexpr double kLeft = 84, kTop = 84, kBottom = 64, kRight = 30, kRightWithBar = 150;
+constexpr double kTick = 6, kLineWidth = 1.5;
+constexpr Colour kInk{30, 30, 30};
+
+void widen(Range& range, double width) {
+  if (range.width() >= width) return;
+  const double middle = 0.5 * (range.lower + range.upper);
+  range = {middle - 0.5 * width, middle + 0.5 * width};
+}
+
+std::string fitted(const std::string& text, double room) {
+  std::string letters = printable(text);
+  if (Canvas::text_width(letters) <= room) return letters;
+  while (!letters.empty() && Canvas::text_width(letters + "...") > room) letters.pop_back();
+  return letters + "...";
+}
+
+double spacing_of(const std::vector<double>& ticks) { return ticks.size() > 1 ? ticks[1] - ticks[0] : 1; }
+
+}  // namespace
+
+Picture::Layout Picture::make_layout(Range x, Range y, bool room_for_bar) {
+  const double right = room_for_bar ? kRightWithBar : kRight;
+  const double room_x = kLongSide - kLeft - right, room_y = kLongSide - kTop - kBottom;
+  double scale = std::min(room_x / x.width(), room_y / y.width());
+  widen(x, kShortestBox / scale);
+  widen(y, kShortestBox / scale);
+  scale = std::min(room_x / x.width(), room_y / y.width());
+  return {x, y, scale, static_cast<int>(std::ceil(kLeft + x.width() * scale + right)),
+          static_cast<int>(std::ceil(kTop + y.width() * scale + kBottom))};
+}
+
+Picture::Picture(Range x, Range y, bool room_for_bar) : Picture(make_layout(x, y, room_for_bar)) {}
+
+Picture::Picture(const Layout& layout)
+    : x_(layout.x),
+      y_(layout.y),
+      scale_(layout.scale),
+      box_upper_left_{kLeft, kTop},
+      box_lower_right_{kLeft + layout.x.width() * layout.scale, kTop + layout.y.width() * layout.scale},
+      canvas_(layout.width, layout.height) {}
+
+void Picture::write_titles(const PictureText& text) {
+  constexpr double kMargin = 12;
+  const double room = canvas_.width() - 2 * kMargin;
+  canvas_.text({kMargin, 20}, Align::left, fitted(text.title, room), kInk);
+  canvas_.text({kMargin, 44}, Align::left, fitted(text.subtitle, room), kInk);
+}
+
+void Picture::draw_frame() { canvas_.frame(box_upper_left_, box_lower_right_, kLineWidth, kInk); }
+
+void Picture::draw_axes() {
+  const DisplayUnit unit = display_unit(0.5 * std::max(x_.width(), y_.width()), "m");
+  const auto scaled = [&](Range r) { return Range{r.lower / unit.in_si, r.upper / unit.in_si}; };
+  const double width = x_.width() * scale_, height = y_.width() * scale_;
+  const double bottom = box_lower_right_.y, left = box_upper_left_.x;
+  const std::vector<double> ticks_x = round_ticks(scaled(x_), std::max(2, static_cast<int>(width / 110)));
+  for (double tick : ticks_x) {
+    const double x = at(tick * unit.in_si, 0).x;
+    canvas_.line({x, bottom}, {x, bottom + kTick}, kLineWidth, kInk);
+    canvas_.text({x, bottom + kTick + 13}, Align::centre, tick_label(tick, spacing_of(ticks_x)), kInk);
+  }
+  const std::vector<double> ticks_y = round_ticks(scaled(y_), std::max(2, static_cast<int>(height / 90)));
+  for (double tick : ticks_y) {
+    const double y = at(0, tick * unit.in_si).y;
+    canvas_.line({left - kTick, y}, {left, y}, kLineWidth, kInk);
+    canvas_.text({left - kTick - 6, y}, Align::right, tick_label(tick, spacing_of(ticks_y)), kInk);
+  }
+  canvas_.text({left + 0.5 * width, bottom + 46}, Align::centre, "x (" + unit.name + ")", kInk);
+  canvas_.text({left - kTick - 6, box_upper_left_.y - 14}, Align::right, "y (" + unit.name + ")", kInk);
+  draw_frame();
+}
+
+void Picture::draw_colour_bar(const ColourScale& scale, const std::string& si_unit) {
+  const Range range = scale.range();
+  const double left = box_lower_right_.x + 22, right = left + 20;
+  const double top = box_upper_left_.y, bottom = box_lower_right_.y, height = bottom - top;
+  const int steps = static_cast<int>(height);
+  for (int i = 0; i < steps; ++i) {
+    const double value = range.lower + (i + 0.5) / steps * range.width();
+    canvas_.fill_rectangle({left, bottom - (i + 1) * height / steps}, {right, bottom - i * height / steps},
+                           scale(value));
+  }
+  canvas_.frame({left, top}, {right, bottom}, kLineWidth, kInk);
+  const DisplayUnit unit = display_unit(std::max(std::abs(range.lower), std::abs(range.upper)), si_unit);
+  const Range shown{range.lower / unit.in_si, range.upper / unit.in_si};
+  const std::vector<double> ticks = round_ticks(shown, std::max(3, static_cast<int>(height / 90)));
+  for (double tick : ticks) {
+    const double y = bottom - (tick - shown.lower) / shown.width() * height;
+    canvas_.line({right, y}, {right + kTick, y}, kLineWidth, kInk);
+    canvas_.text({right + kTick + 5, y}, Align::left, tick_label(tick, spacing_of(ticks)), kInk);
+  }
+  canvas_.text({left, top - 14}, Align::left, unit.name, kInk);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,50 @@
+#pragma once
+
+/// @file A picture of a field: a titled box of equal axes, with a colour bar where the field is a number.
+
+#include <filesystem>
+#include <string>
+
+#include "engine/output/canvas.hpp"
+#include "engine/output/scales.hpp"
+
+namespace mpmfast {
+
+/// What a picture shows beside the particles.
+struct PictureText {
+  std::string title, subtitle;
+};
+
+/// The plot box and what is written around it. Lengths in m, y up.
+class Picture {
+ public:
+  /// Widened about its middle where it is too narrow for labels.
+  Picture(Range x, Range y, bool room_for_bar);
+
+  PixelPoint at(double x, double y) const {
+    return {box_upper_left_.x + (x - x_.lower) * scale_, box_lower_right_.y - (y - y_.lower) * scale_};
+  }
+  double pixels_per_metre() const { return scale_; }
+  Canvas& canvas() { return canvas_; }
+
+  void write_titles(const PictureText& text);
+  void draw_axes();
+  void draw_frame();
+  void draw_colour_bar(const ColourScale& scale, const std::string& si_unit);
+
+ private:
+  struct Layout {
+    Range x, y;
+    double scale;
+    int width, height;
+  };
+  static Layout make_layout(Range x, Range y, bool room_for_bar);
+  explicit Picture(const Layout& layout);
+
+  Range x_, y_;
+  double scale_;
+  PixelPoint box_upper_left_, box_lower_right_;
+  Canvas canvas_;
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,40 @@
+#pragma once
+
+/// @file What a scene needs, and nothing else: columns, velocity fields, passes. The only place that decides.
+
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/nodes.hpp"
+#include "engine/state/particles.hpp"
+#include "kernels/transfer/update.hpp"
+
+namespace mpmfast {
+
+struct Plan {
+  int dimension = 2;
+  BasisKind basis{};
+  ParticleUpdate update{};
+  PositionUpdate position{};
+  int order = 1;                       ///< m of XPIC(m)
+  double strain_first = 1;             ///< share of the strain that is advanced before the forces; the rest comes last
+  int deformation_terms = 2;
+  bool contact = false;                ///< more than one velocity field, and a law that acts
+  bool paired = false;                 ///< XPIC carries Δv* beside v*
+  bool geometry = false;               ///< volume gradients and mean positions are projected
+  bool gravity = false;
+  std::vector<std::string> fields;     ///< names of the velocity fields
+  std::vector<int> body_field;         ///< as Scene::bodies
+  std::vector<bool> field_rigid;
+  std::vector<Quantity> particle_columns;
+  std::vector<Nodal> nodal_columns;
+  std::vector<std::string> passes;     ///< of a step, in order
+};
+
+Plan make_plan(const Scene& scene);
+
+/// Is the body made of a rigid material?
+bool is_rigid(const Scene& scene, const BodySpec& body);
+
+}  // namespace mpmfast

@@ -1,0 +1,23 @@
+#pragma once
+
+/// @file Particles of a scene at time zero.
+
+#include "engine/plan/plan.hpp"
+#include "engine/state/state.hpp"
+
+namespace mpmfast {
+
+/// Fills every body with particles (stress-free, F = I) and sets up grid, bodies, fields and materials.
+/// Throws SceneError for a body without particles or with particles outside the grid.
+template <int Dim>
+void seed(const Scene& scene, const Plan& plan, State<Dim>& state);
+
+/// Recomputes every particle's stress and wave speed from its F.
+template <int Dim>
+void refresh_stress(State<Dim>& state);
+
+/// Σ V0 W over all particles in order of their ids, J.
+template <int Dim>
+double stored_energy(const State<Dim>& state);
+
+}  // namespace mpmfast

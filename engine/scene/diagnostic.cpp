@@ -1,0 +1,34 @@
+#include "engine/scene/diagnostic.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace mpmfast {
+
+std::string Diagnostic::text() const {
+  std::string out = file;
+  if (line > 0) out += fmt::format(":{}:{}", line, column);
+  if (!path.empty()) out += ": " + path;
+  out += ": " + message;
+  if (!hint.empty()) out += ". " + hint;
+  return out;
+}
+
+namespace {
+
+std::string all_of(const std::vector<Diagnostic>& diagnostics) {
+  std::string out;
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if (!out.empty()) out += '\n';
+    out += diagnostic.text();
+  }
+  return out;
+}
+
+}  // namespace
+
+SceneError::SceneError(std::vector<Diagnostic> diagnostics)
+    : std::runtime_error(all_of(diagnostics)), diagnostics_(std::move(diagnostics)) {}
+
+}  // namespace mpmfast

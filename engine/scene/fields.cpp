@@ -1,0 +1,244 @@
+#include "engine/scene/fields.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <utility>
+
+#include "engine/scene/suggest.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+std::string expected_of(Quantity kind) {
+  const QuantityKind& known = kind_of(kind);
+  return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
+}
+
+}  // namespace
+
+bool is_name(const std::string& text) {
+  constexpr std::size_t kLongest = 80;
+  if (text.empty() || text.size() > kLongest) return false;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (!std::isalnum(byte) && byte < 0x80 && c != '_' && c != '-') return false;
+  }
+  return true;
+}
+
+void Value::complain(const std::string& message, const std::string& hint) const {
+  report(message + ", got " + describe(*node_), hint);
+}
+
+void Value::report(const std::string& message, const std::string& hint) const {
+  problems_->add(node_->place, path_, message, hint);
+}
+
+Value Value::item(std::size_t index) const {
+  return Value(node_->items[index], join(path_, std::to_string(index)), *problems_);
+}
+
+std::optional<double> Value::quantity(Quantity kind, const Limit& limit) const {
+  if (!is(Node::Kind::scalar)) {
+    complain(fmt::format("not a number ({})", expected_of(kind)));
+    return std::nullopt;
+  }
+  const auto parsed = parse_quantity(node_->scalar, kind);
+  if (const auto* error = std::get_if<QuantityError>(&parsed)) {
+    complain(error->message, error->hint);
+    return std::nullopt;
+  }
+  const double value = std::get<double>(parsed);
+  if (!limit.holds(value)) {
+    complain(fmt::format("must be {} ({})", limit.says, expected_of(kind)));
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<int> Value::integer(int lowest, int highest) const {
+  const auto refuse = [&] {
+    complain(fmt::format("not a whole number from {} to {}", lowest, highest));
+    return std::nullopt;
+  };
+  if (!is(Node::Kind::scalar)) return refuse();
+  const std::string& text = node_->scalar;
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc() && end == text.data() + text.size();
+  const bool leading_zeros = whole && text != std::to_string(value);
+  if (!whole || leading_zeros || value < lowest || value > highest) return refuse();
+  return value;
+}
+
+std::optional<bool> Value::boolean() const {
+  if (is_word("true")) return true;
+  if (is_word("false")) return false;
+  complain("not true or false");  // yes, no, on and off are words like any other
+  return std::nullopt;
+}
+
+std::optional<std::string> Value::text() const {
+  if (is(Node::Kind::scalar)) return node_->scalar;
+  complain("not text");
+  return std::nullopt;
+}
+
+std::optional<std::string> Value::name() const {
+  if (is(Node::Kind::scalar) && is_name(node_->scalar)) return node_->scalar;
+  complain("not a name (letters, digits, '_' and '-')");
+  return std::nullopt;
+}
+
+std::optional<Vec3> Value::vector(Quantity kind, int count, const Limit& limit) const {
+  if (!is(Node::Kind::list) || size() != static_cast<std::size_t>(count)) {
+    complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)));
+    return std::nullopt;
+  }
+  Vec3 out{};
+  bool good = true;
+  for (std::size_t k = 0; k < size(); ++k) {
+    const auto component = item(k).quantity(kind, limit);
+    if (component) out[k] = *component;
+    good = good && component;
+  }
+  if (!good) return std::nullopt;
+  return out;
+}
+
+int Value::word_index(std::span<const std::string> known) const {
+  if (is(Node::Kind::scalar)) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (known[k] == node_->scalar) return static_cast<int>(k);
+    }
+  }
+  complain(fmt::format("not known here (one of {})", fmt::join(known, ", ")),
+           is(Node::Kind::scalar) ? did_you_mean(node_->scalar, known) : "");
+  return -1;
+}
+
+bool Value::increasing(const std::vector<double>& times) const {
+  for (std::size_t k = 1; k < times.size(); ++k) {
+    if (times[k] > times[k - 1]) continue;
+    report(fmt::format("times must increase, but {} s follows {} s", times[k], times[k - 1]));
+    return false;
+  }
+  return true;
+}
+
+std::optional<TimeTable> Value::table_of_columns(Quantity kind) const {
+  MapReader map(*this);
+  TimeTable table;
+  bool good = true;
+  const auto read_column = [&](const char* key, Quantity column_kind, std::vector<double>& out) {
+    const auto column = map.need(key, "a list");
+    if (!column || !column->is(Node::Kind::list) || column->size() == 0) {
+      if (column) column->complain("not a list of one or more");
+      good = false;
+      return;
+    }
+    for (std::size_t k = 0; k < column->size(); ++k) {
+      const auto entry = column->item(k).quantity(column_kind);
+      good = good && entry;
+      out.push_back(entry.value_or(0));
+    }
+  };
+  read_column("times", Quantity::time, table.time);
+  read_column("values", kind, table.value);
+  map.finish();
+  if (!good) return std::nullopt;
+  if (table.time.size() != table.value.size()) {
+    report(fmt::format("{} times but {} values", table.time.size(), table.value.size()));
+    return std::nullopt;
+  }
+  if (!increasing(table.time)) return std::nullopt;
+  return table;
+}
+
+std::optional<TimeTable> Value::table_of_pairs(Quantity kind) const {
+  TimeTable table;
+  bool good = size() > 0;
+  if (!good) complain("not a table (one or more pairs [time, value])");
+  for (std::size_t k = 0; k < size(); ++k) {
+    const Value pair = item(k);
+    if (!pair.is(Node::Kind::list) || pair.size() != 2) {
+      pair.complain("not a pair [time, value]");
+      good = false;
+      continue;
+    }
+    const auto time = pair.item(0).quantity(Quantity::time);
+    const auto value = pair.item(1).quantity(kind);
+    good = good && time && value;
+    table.time.push_back(time.value_or(0));
+    table.value.push_back(value.value_or(0));
+  }
+  if (!good || !increasing(table.time)) return std::nullopt;
+  return table;
+}
+
+std::optional<TimeTable> Value::table(Quantity kind) const {
+  if (is(Node::Kind::map)) return table_of_columns(kind);
+  if (is(Node::Kind::list)) return table_of_pairs(kind);
+  const auto constant = quantity(kind);
+  if (!constant) return std::nullopt;
+  return TimeTable{{0}, {*constant}};
+}
+
+MapReader::MapReader(const Value& value, const std::string& expected)
+    : value_(value), valid_(value.is(Node::Kind::map)) {
+  if (!valid_) value_.complain("not " + expected);
+}
+
+std::optional<Value> MapReader::find(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  const int index = index_of(value_.node(), key);
+  if (index < 0) return std::nullopt;
+  return Value(value_.node().items[static_cast<std::size_t>(index)], join(value_.path(), key), value_.problems());
+}
+
+std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {
+  auto found = find(key);
+  if (!found && valid_) {
+    value_.problems().add(value_.node().place, join(value_.path(), key), fmt::format("missing ({})", expected));
+  }
+  return found;
+}
+
+void MapReader::quantity(const std::string& key, Quantity kind, const Limit& limit, double& out) {
+  const auto found = find(key);
+  if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
+}
+
+void MapReader::need_quantity(const std::string& key, Quantity kind, const Limit& limit, double& out) {
+  const auto found = need(key, expected_of(kind));
+  if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
+}
+
+void MapReader::integer(const std::string& key, int lowest, int highest, int& out) {
+  const auto found = find(key);
+  if (const auto read = found ? found->integer(lowest, highest) : std::nullopt) out = *read;
+}
+
+void MapReader::boolean(const std::string& key, bool& out) {
+  const auto found = find(key);
+  if (const auto read = found ? found->boolean() : std::nullopt) out = *read;
+}
+
+void MapReader::finish() {
+  if (!valid_) return;
+  for (const Key& key : value_.node().keys) {
+    if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
+    const std::string hint = did_you_mean(key.text, known_);
+    value_.problems().add(key.place, join(value_.path(), key.text),
+                          hint.empty() ? fmt::format("unknown key (known here: {})", fmt::join(known_, ", "))
+                                       : "unknown key",
+                          hint);
+  }
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,127 @@
+#pragma once
+
+/// @file Reading typed values out of the tree: each reader reports what is wrong with its value and goes on.
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/scene/names.hpp"
+#include "engine/scene/problems.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/tree.hpp"
+
+namespace mpmfast {
+
+/// The interval a number must lie in, and its name in messages.
+struct Limit {
+  const char* says;  ///< "positive"
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false, upper_open = false;
+
+  bool holds(double value) const {
+    return (lower_open ? value > lower : value >= lower) && (upper_open ? value < upper : value <= upper);
+  }
+};
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr Limit kAny{"finite"};
+inline constexpr Limit kPositive{"positive", 0, kInfinity, true};
+inline constexpr Limit kNotNegative{"zero or more", 0};
+
+/// May this head a column of a table, name a field, stand in a dotted path? Letters, digits, '_' and '-'.
+bool is_name(const std::string& text);
+
+/// One value of the scene: where it is, what it is called, and who hears of its faults.
+class Value {
+ public:
+  Value(const Node& node, std::string path, Problems& problems) : node_(&node), path_(std::move(path)), problems_(&problems) {}
+
+  const Node& node() const { return *node_; }
+  const std::string& path() const { return path_; }
+  Problems& problems() const { return *problems_; }
+  bool is(Node::Kind kind) const { return node_->kind == kind; }
+  bool is_word(const std::string& word) const { return is(Node::Kind::scalar) && node_->scalar == word; }
+
+  /// "message, got VALUE".
+  void complain(const std::string& message, const std::string& hint = "") const;
+  /// The message alone, at this value's place.
+  void report(const std::string& message, const std::string& hint = "") const;
+
+  Value item(std::size_t index) const;
+  std::size_t size() const { return node_->items.size(); }
+
+  std::optional<double> quantity(Quantity kind, const Limit& limit = kAny) const;
+  std::optional<int> integer(int lowest, int highest) const;
+  std::optional<bool> boolean() const;
+  std::optional<std::string> text() const;
+  /// Text that is_name.
+  std::optional<std::string> name() const;
+  /// Exactly `count` quantities; the rest of the result is zero.
+  std::optional<Vec3> vector(Quantity kind, int count, const Limit& limit = kAny) const;
+  /// A quantity (constant in time), {times: […], values: […]}, or a list of [time, value].
+  std::optional<TimeTable> table(Quantity kind) const;
+
+  /// One of a fixed set of words.
+  template <class E, std::size_t N>
+  std::optional<E> word(const std::array<Word<E>, N>& words) const {
+    std::vector<std::string> known;
+    for (const Word<E>& candidate : words) known.emplace_back(candidate.name);
+    const int index = word_index(known);
+    if (index < 0) return std::nullopt;
+    return words[static_cast<std::size_t>(index)].value;
+  }
+  /// Index of the word among `known`; −1 and a complaint when it is none of them.
+  int word_index(std::span<const std::string> known) const;
+
+ private:
+  bool increasing(const std::vector<double>& times) const;
+  std::optional<TimeTable> table_of_columns(Quantity kind) const;
+  std::optional<TimeTable> table_of_pairs(Quantity kind) const;
+
+  const Node* node_;
+  std::string path_;
+  Problems* problems_;
+};
+
+/// A map while it is read: each key asked for becomes a known key, and finish() refuses the others.
+class MapReader {
+ public:
+  explicit MapReader(const Value& value, const std::string& expected = "a map");
+
+  /// False when the value is no map (reported then).
+  bool valid() const { return valid_; }
+  const Value& value() const { return value_; }
+
+  std::optional<Value> find(const std::string& key);
+  /// As find, but its absence is an error that says what was expected.
+  std::optional<Value> need(const std::string& key, const std::string& expected);
+
+  /// Replaces `out` when the key is there and good.
+  void quantity(const std::string& key, Quantity kind, const Limit& limit, double& out);
+  void need_quantity(const std::string& key, Quantity kind, const Limit& limit, double& out);
+  void integer(const std::string& key, int lowest, int highest, int& out);
+  void boolean(const std::string& key, bool& out);
+  template <class E, std::size_t N>
+  bool word(const std::string& key, const std::array<Word<E>, N>& words, E& out) {
+    const auto found = find(key);
+    const auto read = found ? found->word(words) : std::nullopt;
+    if (read) out = *read;
+    return read.has_value();
+  }
+
+  /// Reports every key that nobody asked for.
+  void finish();
+
+ private:
+  Value value_;
+  bool valid_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace mpmfast

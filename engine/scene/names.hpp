@@ -1,0 +1,99 @@
+#pragma once
+
+/// @file Every word of a scene that stands for a choice: read, written and listed from these tables.
+
+#include <array>
+#include <string_view>
+
+#include "engine/scene/scene.hpp"
+
+namespace mpmfast {
+
+template <class E>
+struct Word {
+  E value;
+  const char* name;
+  const char* says;  ///< one line for `mpmfast list`
+};
+
+inline constexpr std::array<Word<Space>, 2> kSpaces{{
+    {Space::plane_strain, "plane_strain", "2-D, no strain along z"},
+    {Space::three_dimensional, "3d", "three dimensions"},
+}};
+
+inline constexpr std::array<Word<BasisKind>, 4> kBases{{
+    {BasisKind::linear, "linear", "classic: linear functions at the particle's point; a baseline"},
+    {BasisKind::ugimp, "ugimp", "generalised interpolation over the undeformed particle domain (default)"},
+    {BasisKind::lcpdi, "lcpdi", "linear functions over the domain convected with the deformation"},
+    {BasisKind::bspline2, "bspline2", "quadratic B-splines at the particle's point"},
+}};
+
+/// xpic is written with its order, xpic(5).
+inline constexpr std::array<Word<UpdateKind>, 3> kUpdates{{
+    {UpdateKind::flip, "flip", "particles take the grid's acceleration; no dissipation (default)"},
+    {UpdateKind::pic, "pic", "particles take the grid's velocity; strong damping"},
+    {UpdateKind::xpic, "xpic(m)", "order m = 2..20: removes noise that the grid cannot see, little dissipation"},
+}};
+
+inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
+    {StrainKind::first, "first", "strain updated before the forces"},
+    {StrainKind::last, "last", "strain updated after the particles"},
+    {StrainKind::average, "average", "half before, half after"},
+}};
+
+inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
+    {PositionKind::grid, "grid", "particles move with the grid's midpoint velocity"},
+    {PositionKind::trapezoid, "trapezoid", "particles move with the mean of old and new velocity"},
+    {PositionKind::particle, "particle", "particles move with their new velocity"},
+}};
+
+inline constexpr std::array<Word<NormalKind>, 4> kNormals{{
+    {NormalKind::logistic_regression, "logistic_regression", "the plane that best parts the particles (default)"},
+    {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
+     "the same with penalty 1 and an advanced separation: normals vary slowly"},
+    {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},
+    {NormalKind::specified, "specified", "specified_normal, from the lower-numbered field to the higher"},
+}};
+
+inline constexpr std::array<Word<SeparationKind>, 4> kSeparations{{
+    {SeparationKind::ellipsoid, "ellipsoid", "gap between the particles' domains along the normal"},
+    {SeparationKind::position_offset, "position_offset", "gap of extrapolated positions less position_offset cells"},
+    {SeparationKind::position_power, "position_power", "the same with a power law fitted to an edge's position"},
+    {SeparationKind::none, "none", "fields that approach are in contact"},
+}};
+
+inline constexpr std::array<Word<LawKind>, 5> kLaws{{
+    {LawKind::coulomb, "coulomb", "slides when friction × normal force is reached (default, friction 0)"},
+    {LawKind::frictionless, "frictionless", "slides freely"},
+    {LawKind::stick, "stick", "never slides while in contact"},
+    {LawKind::perfect, "perfect", "always tied, also in tension"},
+    {LawKind::ignore, "ignore", "bodies pass through each other"},
+}};
+
+/// Fields that output.picture can show.
+inline constexpr std::array<const char*, 10> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy", "stress_zz",
+                                                       "stress_xy", "stress_yz", "stress_xz", "speed",     "body"};
+
+struct FaceName {
+  const char* name;
+  int axis;
+  bool upper;
+};
+/// The faces of the grid; back and front in 3-D only.
+inline constexpr std::array<FaceName, 6> kFaces{{{"left", 0, false},
+                                                 {"right", 0, true},
+                                                 {"bottom", 1, false},
+                                                 {"top", 1, true},
+                                                 {"back", 2, false},
+                                                 {"front", 2, true}}};
+
+/// The name of a choice, as a scene writes it.
+template <class E, std::size_t N>
+std::string_view name_of(const std::array<Word<E>, N>& words, E value) {
+  for (const Word<E>& word : words) {
+    if (word.value == value) return word.name;
+  }
+  return "";
+}
+
+}  // namespace mpmfast

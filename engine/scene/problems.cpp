@@ -1,0 +1,38 @@
+#include "engine/scene/problems.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace mpmfast {
+
+void Problems::add(const Place& place, std::string path, std::string message, std::string hint) {
+  Diagnostic diagnostic;
+  diagnostic.file = sources_[static_cast<std::size_t>(place.source)];
+  if (place.source == 0) {  // a place within a --set argument would say nothing
+    diagnostic.line = place.line;
+    diagnostic.column = place.column;
+  }
+  diagnostic.path = std::move(path);
+  diagnostic.message = std::move(message);
+  diagnostic.hint = std::move(hint);
+  found_.push_back({place, std::move(diagnostic)});
+}
+
+std::vector<Diagnostic> Problems::sorted() const {
+  std::vector<Found> found = found_;
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+    return std::tie(a.place.source, a.place.line, a.place.column) <
+           std::tie(b.place.source, b.place.line, b.place.column);
+  });
+  std::vector<Diagnostic> out;
+  std::string previous;
+  for (Found& entry : found) {
+    std::string text = entry.diagnostic.text();
+    if (text == previous) continue;
+    previous = std::move(text);
+    out.push_back(std::move(entry.diagnostic));
+  }
+  return out;
+}
+
+}  // namespace mpmfast

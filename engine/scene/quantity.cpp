@@ -1,0 +1,137 @@
+#include "engine/scene/quantity.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+
+namespace mpmfast {
+
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
+  while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
+  return text;
+}
+
+/// How many characters at the front form a decimal number: [+-] digits [. digits] [e [+-] digits].
+/// Written out because from_chars also takes "nan", "inf" and, elsewhere, "010" is eight.
+std::size_t number_length(std::string_view text) {
+  std::size_t at = 0;
+  const auto digits = [&] {
+    const std::size_t first = at;
+    while (at < text.size() && is_digit(text[at])) ++at;
+    return at - first;
+  };
+  if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+  std::size_t count = digits();
+  if (at < text.size() && text[at] == '.') {
+    ++at;
+    count += digits();
+  }
+  if (count == 0) return 0;
+  const std::size_t mantissa_end = at;
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    ++at;
+    if (at < text.size() && (text[at] == '+' || text[at] == '-')) ++at;
+    if (digits() == 0) at = mantissa_end;
+  }
+  return at;
+}
+
+bool has_leading_zeros(std::string_view number) {
+  if (number.front() == '+' || number.front() == '-') number.remove_prefix(1);
+  return number.size() > 1 && number[0] == '0' && is_digit(number[1]);
+}
+
+/// The number at the front of `text`, which loses it.
+std::variant<double, QuantityError> take_number(std::string_view& text, const QuantityKind& kind) {
+  const std::string expected = *kind.units ? fmt::format("{}: {}", kind.name, kind.units) : kind.name;
+  const std::size_t length = number_length(text);
+  if (length == 0) {
+    const bool unit_alone = !text.empty() && std::holds_alternative<Unit>(parse_unit(text, Quantity::number));
+    if (unit_alone) {
+      return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected), ""};
+    }
+    return QuantityError{fmt::format("not a number ({})", expected), ""};
+  }
+  std::string_view number = text.substr(0, length);
+  text.remove_prefix(length);
+  if (has_leading_zeros(number)) {
+    return QuantityError{fmt::format("a number with leading zeros is ambiguous ({})", expected), ""};
+  }
+  if (number.front() == '+') number.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value)) {
+    return QuantityError{fmt::format("a number out of range ({})", expected), ""};
+  }
+  return value;
+}
+
+std::string name_of(const Dimensions& dimensions) {
+  for (int k = 1; k <= static_cast<int>(Quantity::angle); ++k) {
+    const QuantityKind& kind = kind_of(static_cast<Quantity>(k));
+    if (kind.dimensions == dimensions) return kind.name;
+  }
+  return "";
+}
+
+QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions, const QuantityKind& expected) {
+  const std::string actual = name_of(dimensions);
+  const std::string wanted =
+      *expected.units ? fmt::format("{}: {}", expected.name, expected.units) : "a number without a unit";
+  if (actual.empty()) return {fmt::format("'{}' is not a unit of {} ({})", unit, expected.name, wanted), ""};
+  return {fmt::format("'{}' is {} ({})", unit, actual, wanted), ""};
+}
+
+}  // namespace
+
+std::variant<double, QuantityError> parse_quantity(std::string_view written, Quantity expected) {
+  const QuantityKind& kind = kind_of(expected);
+  std::string_view text = trimmed(written);
+  const auto numerator = take_number(text, kind);
+  if (const auto* error = std::get_if<QuantityError>(&numerator)) return *error;
+  double over = 1;
+  text = trimmed(text);
+  if (!text.empty() && text.front() == '/') {  // 1/70 mm
+    text = trimmed(text.substr(1));
+    const auto denominator = take_number(text, kind);
+    if (std::holds_alternative<QuantityError>(denominator)) {
+      return QuantityError{fmt::format("a number is missing after '/' ({})", kind.name), ""};
+    }
+    over = std::get<double>(denominator);
+    if (over == 0) return QuantityError{fmt::format("division by zero ({})", kind.name), ""};
+    text = trimmed(text);
+  }
+  Unit unit;
+  if (!text.empty()) {
+    if (text.front() == '_' || text.front() == ',') {
+      return QuantityError{"digits take no separator, and the decimal sign is a point", ""};
+    }
+    auto parsed = parse_unit(text, expected);
+    if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;
+    unit = std::get<Unit>(parsed);
+    if (unit.dimensions != kind.dimensions) return wrong_dimension(text, unit.dimensions, kind);
+  }
+  // One multiplication or one division in all common cases: as exact as the decimal text allows.
+  const double value = std::get<double>(numerator) * unit.multiplier / (over * unit.divisor);
+  if (!std::isfinite(value)) return QuantityError{fmt::format("a number out of range ({})", kind.name), ""};
+  return value;
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  const auto value = parse_quantity(text, Quantity::number);
+  if (std::holds_alternative<QuantityError>(value)) return std::nullopt;
+  return std::get<double>(value);
+}
+
+std::string quantity_text(double value, Quantity quantity) {
+  const char* unit = kind_of(quantity).si;
+  return *unit ? fmt::format("{} {}", value, unit) : fmt::format("{}", value);
+}
+
+}  // namespace mpmfast

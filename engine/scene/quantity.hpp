@@ -1,0 +1,49 @@
+#pragma once
+
+/// @file Numbers with units: "5 mm", "2.78 g/cm^3", "1/70 mm", or a bare number in SI.
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+namespace mpmfast {
+
+enum class Quantity { number, length, time, mass, velocity, acceleration, density, pressure, angle };
+
+/// Exponents of metre, kilogram, second and radian.
+using Dimensions = std::array<int, 4>;
+
+struct QuantityKind {
+  const char* name;   ///< "a length"
+  const char* units;  ///< what a user may write, e.g. "m, cm, mm, um"
+  const char* si;     ///< the unit of a bare number, empty for a pure number
+  Dimensions dimensions;
+};
+const QuantityKind& kind_of(Quantity quantity);
+
+/// A unit as a ratio of whole numbers times SI, so that "5 mm" is 5/1000: rounded once, hence exactly 0.005.
+struct Unit {
+  double multiplier = 1, divisor = 1;
+  Dimensions dimensions{};
+};
+
+struct QuantityError {
+  std::string message;  ///< without the value, which the caller shows
+  std::string hint;
+};
+
+/// "g/cm^3" → its factor and dimensions.
+std::variant<Unit, QuantityError> parse_unit(std::string_view text, Quantity expected);
+
+/// "5 mm" → 0.005.
+std::variant<double, QuantityError> parse_quantity(std::string_view text, Quantity expected);
+
+/// A decimal number that is the whole of `text`; nothing when it is none, is not finite or has leading zeros.
+std::optional<double> parse_number(std::string_view text);
+
+/// "0.005 m": the shortest text that reads back as the same number, with the SI unit.
+std::string quantity_text(double value, Quantity quantity);
+
+}  // namespace mpmfast

@@ -1,0 +1,247 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// What the later checks need to say of a body where it stands.
+struct BodyPlace {
+  Value entry;
+  Value name;
+};
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const ShapeKind& kind : shape_kinds()) names.emplace_back(kind.name);
+    return names;
+  }();
+  return kNames;
+}
+
+/// The same shape's name in the other dimension.
+std::string counterpart(const std::string& name) {
+  static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},    {"sphere", "disk"},
+                                                         {"ellipse", "ellipsoid"}, {"ellipsoid", "ellipse"},
+                                                         {"ring", "tube"},      {"tube", "ring"}};
+  const auto found = kPairs.find(name);
+  return found == kPairs.end() ? "" : fmt::format("Did you mean '{}'?", found->second);
+}
+
+/// The one shape key of a body.
+struct ChosenShape {
+  const ShapeKind* kind;
+  Value value;
+};
+std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
+  std::vector<ChosenShape> chosen;
+  for (const ShapeKind& kind : shape_kinds()) {
+    if (const auto value = map.find(kind.name)) chosen.push_back({&kind, *value});
+  }
+  if (chosen.empty()) {
+    map.value().report(fmt::format("a body needs a shape (one of {})", fmt::join(shape_names(), ", ")));
+    return std::nullopt;
+  }
+  if (chosen.size() > 1) {
+    chosen[1].value.report(fmt::format("a body has one shape, and it is already a {}", chosen[0].kind->name));
+    return std::nullopt;
+  }
+  const ShapeKind& kind = *chosen[0].kind;
+  if (kind.dimension != 0 && kind.dimension != dimension) {
+    chosen[0].value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension), counterpart(kind.name));
+    return std::nullopt;
+  }
+  return chosen[0];
+}
+
+std::optional<int> material_index(const Value& value, const Scene& scene) {
+  std::vector<std::string> known;
+  for (const MaterialSpec& material : scene.materials) known.push_back(material.name);
+  const int index = value.word_index(known);
+  return index < 0 ? std::nullopt : std::optional<int>(index);
+}
+
+void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
+  constexpr int kMost = 8;
+  if (dimension == 2) body.particles_per_cell[2] = 1;
+  const auto value = map.find("particles_per_cell");
+  if (!value) return;
+  const bool list = value->is(Node::Kind::list);
+  if (list && value->size() != static_cast<std::size_t>(dimension)) {
+    return value->complain(fmt::format("not a whole number or a list of {} (particles along a cell's side)", dimension));
+  }
+  const auto one = list ? std::nullopt : value->integer(1, kMost);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+    const auto count = list ? value->item(k).integer(1, kMost) : one;
+    if (count) body.particles_per_cell[k] = *count;
+  }
+}
+
+void read_velocity(MapReader& map, int dimension, BodySpec& body) {
+  const auto value = map.find("velocity");
+  if (!value) return;
+  if (!value->is(Node::Kind::list) || value->size() != static_cast<std::size_t>(dimension)) {
+    return value->complain(fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension));
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+    const Value component = value->item(k);
+    if (component.is(Node::Kind::scalar)) {
+      body.velocity[k] = component.quantity(Quantity::velocity).value_or(0);
+    } else if (const auto table = component.table(Quantity::velocity)) {
+      body.velocity[k] = table->value.front();
+      body.rigid_velocity[k] = *table;
+    }
+  }
+}
+
+/// A table of velocities makes sense only where the body obeys it.
+void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {
+  for (const auto& table : body.rigid_velocity) {
+    if (!table || is_rigid(scene, body)) continue;
+    const int index = index_of(entry.node(), "velocity");
+    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), "velocity"), entry.problems())
+        .report("a table of velocities is for rigid bodies only");
+    return;
+  }
+}
+
+/// One entry of the list: one body, or one for each grey level of a bitmap.
+class BodyReader {
+ public:
+  BodyReader(Scene& scene, std::vector<BodyPlace>& places) : scene_(scene), places_(places) {}
+
+  void read(const Value& entry, std::size_t number) {
+    MapReader map(entry, "a map {box | disk | …, material, …}");
+    if (!map.valid()) return;
+    const int dimension = scene_.dimension();
+    BodySpec body;
+    const auto name = map.find("name");
+    body.name = (name ? name->name() : std::nullopt).value_or(fmt::format("body{}", number + 1));
+    const auto field = map.find("field");
+    body.field = (field ? field->name() : std::nullopt).value_or("");
+    read_particles_per_cell(map, dimension, body);
+    read_velocity(map, dimension, body);
+    const auto chosen = choose_shape(map, dimension);
+    const BodyPlace place{entry, name.value_or(entry)};
+    if (chosen && !chosen->kind->read) {
+      read_parts(map, chosen->value, body, place);
+    } else {
+      const auto material = map.need("material", "the name of a material");
+      const auto index = material ? material_index(*material, scene_) : std::nullopt;
+      const auto shape = chosen ? chosen->kind->read(chosen->value, dimension) : std::nullopt;
+      if (index && shape) {
+        body.material = *index;
+        body.shape = *shape;
+        add(body, place);
+      }
+    }
+    map.finish();
+  }
+
+ private:
+  void read_parts(MapReader& map, const Value& bitmap, const BodySpec& common, const BodyPlace& place) {
+    const std::vector<BitmapPart> parts = read_bitmap(map, bitmap, scene_);
+    const auto shared = map.find("material");
+    const auto shared_index = shared ? material_index(*shared, scene_) : std::nullopt;
+    if (!shared && parts.empty()) return;
+    for (const BitmapPart& part : parts) {
+      BodySpec body = common;
+      body.name = fmt::format("{}_{}", common.name, part.shape.grey);
+      body.shape = part.shape;
+      if (!part.material && !shared) {
+        place.entry.report(fmt::format("no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})",
+                                       part.shape.grey));
+        continue;
+      }
+      const auto index = part.material ? material_index(*part.material, scene_) : shared_index;
+      if (!index) continue;
+      body.material = *index;
+      add(body, place);
+    }
+  }
+
+  void add(BodySpec body, const BodyPlace& place) {
+    if (body.field.empty()) body.field = body.name;
+    check_tables(place.entry, scene_, body);
+    scene_.bodies.push_back(std::move(body));
+    places_.push_back(place);
+  }
+
+  Scene& scene_;
+  std::vector<BodyPlace>& places_;
+};
+
+/// Particles may only lie in the grid.
+void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  const Bounds box = bounds(body.shape);
+  const double slack = 1e-6 * scene.grid.cell;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
+    const double below = scene.grid.origin[k] - box.lower[k];
+    const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
+    if (below > slack) {
+      place.entry.report(fmt::format("body '{}' lies {:.6g} m outside the grid, below in {}", body.name, below, "xyz"[k]));
+    }
+    if (above > slack) {
+      place.entry.report(fmt::format("body '{}' lies {:.6g} m outside the grid, above in {}", body.name, above, "xyz"[k]));
+    }
+  }
+}
+
+/// A rigid body's velocity is given, so nothing may move in one velocity field with it.
+void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
+  std::map<std::string, int> sharers;
+  for (const BodySpec& body : scene.bodies) ++sharers[body.field];
+  std::size_t rigid = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySpec& body = scene.bodies[b];
+    if (!is_rigid(scene, body)) continue;
+    ++rigid;
+    const bool shared = scene.contact.active ? sharers[body.field] > 1 : scene.bodies.size() > 1;
+    if (!shared) continue;
+    places[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}", body.name,
+                                       scene.contact.active ? "" : ", because of contact: none"));
+  }
+  if (rigid == scene.bodies.size() && rigid > 0) places[0].entry.report("every body is rigid: there is nothing to compute");
+}
+
+void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known) {
+  std::set<std::string> names, fields;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySpec& body = scene.bodies[b];
+    if (!names.insert(body.name).second) places[b].name.report(fmt::format("another body is called '{}'", body.name));
+    fields.insert(body.field);
+    if (grid_known) check_inside(scene, body, places[b]);
+  }
+  check_rigid(scene, places);
+  constexpr std::size_t kMostFields = 65535;  // particles carry their field in 16 bits
+  if (fields.size() > kMostFields) {
+    places[0].entry.report(fmt::format("{} velocity fields (at most {})", fields.size(), kMostFields));
+  }
+}
+
+}  // namespace
+
+bool is_rigid(const Scene& scene, const BodySpec& body) {
+  return std::holds_alternative<RigidSpec>(scene.materials[static_cast<std::size_t>(body.material)].model);
+}
+
+void read_bodies(MapReader& top, bool grid_known, Scene& scene) {
+  const auto section = top.need("bodies", "a list of maps {box | disk | …, material, …}");
+  if (!section) return;
+  if (!section->is(Node::Kind::list)) return section->complain("not a list of maps {box | disk | …, material, …}");
+  if (section->size() == 0) return section->report("no bodies");
+  std::vector<BodyPlace> places;
+  BodyReader reader(scene, places);
+  for (std::size_t k = 0; k < section->size(); ++k) reader.read(section->item(k), k);
+  check_bodies(scene, places, grid_known);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,162 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/scene/sections.hpp"
+#include "engine/scene/suggest.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+const FaceName* face_named(const std::string& name) {
+  for (const FaceName& face : kFaces) {
+    if (name == face.name) return &face;
+  }
+  return nullptr;
+}
+
+/// Reads `boundaries`, one entry at a time.
+class BoundaryReader {
+ public:
+  BoundaryReader(bool grid_known, Scene& scene) : grid_known_(grid_known), scene_(scene) {}
+
+  void read(const std::string& name, const Value& value) {
+    const FaceName* face = face_named(name);
+    if (face && face->axis >= scene_.dimension()) return value.report("exists in 3-D only");
+    if (face) return read_face(*face, value);
+    if (!value.is(Node::Kind::map)) {
+      std::vector<std::string> faces;
+      for (const FaceName& known : kFaces) faces.emplace_back(known.name);
+      return value.complain("not a face of the grid, and not a map {box, direction, speed}", did_you_mean(name, faces));
+    }
+    if (!is_name(name)) value.report("not a name (letters, digits, '_' and '-')");
+    read_box(name, value);
+  }
+
+ private:
+  WallSpec wall_at(const FaceName& face) const {
+    WallSpec wall;
+    const auto axis = static_cast<std::size_t>(face.axis);
+    wall.axis = face.axis;
+    wall.upper = face.upper;
+    wall.position = scene_.grid.origin[axis] + (face.upper ? scene_.grid.size[axis] : 0);
+    wall.speed = TimeTable{{0}, {0}};
+    return wall;
+  }
+
+  void add(const std::string& name, const Value& value, std::variant<WallSpec, VelocityBoxSpec> condition) {
+    for (const BodySpec& body : scene_.bodies) {
+      if (body.name == name && is_rigid(scene_, body)) {
+        value.report(fmt::format("a rigid body is also called '{}': their forces would share a column", name));
+      }
+    }
+    scene_.boundaries.push_back({name, std::move(condition)});
+  }
+
+  void read_face(const FaceName& face, const Value& value) {
+    WallSpec wall = wall_at(face);
+    if (value.is(Node::Kind::map)) return read_wall_map(face, value, wall);
+    static const std::vector<std::string> kWords{"wall", "symmetry", "fixed", "free"};
+    if (!value.is(Node::Kind::scalar)) {
+      return value.complain("not a wall (wall, symmetry, fixed, free, or a map {piston, direction, …})");
+    }
+    const int word = value.word_index(kWords);
+    if (word < 0 || kWords[static_cast<std::size_t>(word)] == "free") return;
+    wall.held = value.is_word("fixed");
+    add(face.name, value, wall);
+  }
+
+  /// {piston: speed, direction, held, position} or {wall: held | sliding, position}.
+  void read_wall_map(const FaceName& face, const Value& value, WallSpec wall) {
+    MapReader map(value);
+    const auto piston = map.find("piston");
+    const auto kind = map.find("wall");
+    if (!piston == !kind) {
+      map.finish();
+      return value.report("needs either piston (a speed) or wall (held or sliding)");
+    }
+    if (kind) {
+      static const std::vector<std::string> kWords{"sliding", "held"};
+      wall.held = kind->word_index(kWords) == 1;
+    } else {
+      if (const auto speed = piston->table(Quantity::velocity)) wall.speed = *speed;
+      const double sign = read_sense(face, map);
+      for (double& speed : wall.speed.value) speed = sign * speed + 0.0;  // no −0
+      map.boolean("held", wall.held);
+    }
+    if (const auto position = map.find("position")) {
+      wall.position = position->quantity(Quantity::length).value_or(wall.position);
+      check_position(face, *position, wall.position);
+    }
+    map.finish();
+    add(face.name, value, wall);
+  }
+
+  /// +1 or −1 along the face's axis; inwards when the scene does not say.
+  double read_sense(const FaceName& face, MapReader& map) const {
+    const double inwards = face.upper ? -1 : 1;
+    const auto value = map.find("direction");
+    if (!value) return inwards;
+    const auto direction = read_direction(*value, scene_.dimension(), false);
+    if (!direction) return inwards;
+    const double along = (*direction)[static_cast<std::size_t>(face.axis)];
+    if (along == 0) value->complain(fmt::format("the {} face moves along {} only", face.name, "xyz"[face.axis]));
+    return along == 0 ? inwards : along;
+  }
+
+  void check_position(const FaceName& face, const Value& value, double position) const {
+    if (!grid_known_) return;
+    const auto axis = static_cast<std::size_t>(face.axis);
+    const double lower = scene_.grid.origin[axis], upper = lower + scene_.grid.size[axis];
+    const double slack = 1e-6 * scene_.grid.cell;
+    if (position < lower - slack || position > upper + slack) {
+      value.complain(fmt::format("outside the grid (from {} m to {} m in {})", lower, upper, "xyz"[axis]));
+    }
+  }
+
+  void read_box(const std::string& name, const Value& value) {
+    MapReader map(value);
+    VelocityBoxSpec spec;
+    spec.speed = TimeTable{{0}, {0}};
+    if (const auto box = map.need("box", "a map {from, to}")) read_corners(*box, spec);
+    if (const auto direction = map.need("direction", "x, y, z, left, up, … or a vector")) {
+      spec.direction = read_direction(*direction, scene_.dimension(), true).value_or(Vec3{});
+    }
+    if (const auto speed = map.need("speed", "a velocity: m/s, mm/s, km/s; or a table")) {
+      if (const auto table = speed->table(Quantity::velocity)) spec.speed = *table;
+    }
+    map.finish();
+    add(name, value, spec);
+  }
+
+  void read_corners(const Value& box, VelocityBoxSpec& spec) const {
+    const int dimension = scene_.dimension();
+    MapReader map(box, "a map {from, to}");
+    const auto from = map.need("from", "a corner"), to = map.need("to", "a corner");
+    if (from) spec.lower = from->vector(Quantity::length, dimension).value_or(Vec3{});
+    if (to) spec.upper = to->vector(Quantity::length, dimension).value_or(spec.lower);
+    map.finish();
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (spec.lower[k] > spec.upper[k]) {  // equal is a row of nodes
+        box.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
+      }
+    }
+  }
+
+  bool grid_known_;
+  Scene& scene_;
+};
+
+}  // namespace
+
+void read_boundaries(MapReader& top, bool grid_known, Scene& scene) {
+  const auto section = top.find("boundaries");
+  if (!section) return;
+  MapReader map(*section, "a map {left: wall, …}");
+  if (!map.valid()) return;
+  BoundaryReader reader(grid_known, scene);
+  for (const Key& key : section->node().keys) reader.read(key.text, *map.find(key.text));
+}
+
+}  // namespace mpmfast

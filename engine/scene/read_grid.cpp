@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr double kMostCells = 1e6;  // along an edge
+
+/// A size must be a whole number of cells, or the far face would lie inside one.
+bool check_cells(const Value& size, int dimension, const GridSpec& grid) {
+  bool good = true;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
+    const double cells = grid.size[k] / grid.cell;
+    const double whole = std::max(std::round(cells), 1.0);
+    const Value edge = size.item(k);
+    if (cells > kMostCells) {
+      edge.complain(fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
+      good = false;
+    } else if (std::abs(cells - whole) > 1e-6 * whole) {
+      edge.complain(fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell, whole * grid.cell));
+      good = false;
+    }
+  }
+  return good;
+}
+
+}  // namespace
+
+bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
+  const auto section = top.need("grid", "{origin, size, cell}");
+  if (!section) return false;
+  MapReader map(*section, "a map {origin, size, cell}");
+  if (!map.valid()) return false;
+  bool good = true;
+  if (const auto value = map.find("origin")) {
+    const auto origin = value->vector(Quantity::length, dimension);
+    good = origin.has_value();
+    grid.origin = origin.value_or(Vec3{});
+  }
+  const auto size_value = map.need("size", fmt::format("a list of {} lengths", dimension));
+  const auto size = size_value ? size_value->vector(Quantity::length, dimension, kPositive) : std::nullopt;
+  map.need_quantity("cell", Quantity::length, kPositive, grid.cell);
+  map.finish();
+  if (!good || !size || grid.cell <= 0) return false;
+  grid.size = *size;
+  return check_cells(*size_value, dimension, grid);
+}
+
+void read_time(MapReader& top, TimeSpec& time) {
+  const auto section = top.need("time", "{end, cfl, max_step}");
+  if (!section) return;
+  MapReader map(*section, "a map {end, cfl, max_step}");
+  constexpr Limit kCourant{"in (0, 1]", 0, 1, true};
+  map.need_quantity("end", Quantity::time, kPositive, time.end);
+  map.quantity("cfl", Quantity::number, kCourant, time.cfl);
+  const auto longest = map.find("max_step");
+  if (longest && !longest->is_word("none")) {
+    time.max_step = longest->quantity(Quantity::time, kPositive).value_or(time.max_step);
+  }
+  map.finish();
+}
+
+void read_gravity(MapReader& top, int dimension, GravitySpec& gravity) {
+  const auto section = top.find("gravity");
+  if (!section) return;
+  if (section->is(Node::Kind::list)) {
+    gravity.acceleration = section->vector(Quantity::acceleration, dimension).value_or(Vec3{});
+    return;
+  }
+  MapReader map(*section, "a vector or a map {acceleration, ramp}");
+  if (const auto value = map.need("acceleration", "a list of accelerations")) {
+    gravity.acceleration = value->vector(Quantity::acceleration, dimension).value_or(Vec3{});
+  }
+  map.quantity("ramp", Quantity::time, kNotNegative, gravity.ramp);
+  map.finish();
+}
+
+void read_output(MapReader& top, int dimension, OutputSpec& output) {
+  const auto section = top.find("output");
+  if (!section) return;
+  MapReader map(*section, "a map {frames, history, picture}");
+  constexpr int kMostFrames = 999999;  // frames are numbered with six digits
+  constexpr int kMostRows = 100000000;
+  map.integer("frames", 0, kMostFrames, output.frames);
+  map.integer("history", 1, kMostRows, output.history);
+  if (const auto picture = map.find("picture")) {
+    std::vector<std::string> known;
+    for (const char* name : kPictures) {
+      const std::string field = name;
+      const bool needs_depth = field == "stress_yz" || field == "stress_xz";
+      if (dimension == 3 || !needs_depth) known.push_back(field);
+    }
+    const int index = picture->word_index(known);
+    if (index >= 0) output.picture = known[static_cast<std::size_t>(index)];
+  }
+  map.finish();
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,71 @@
+#pragma once
+
+/// @file The parts of a scene, each read by one file read_*.cpp.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/fields.hpp"
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/scene.hpp"
+
+namespace mpmfast {
+
+/// False when the scene has no grid to check positions against (already reported).
+bool read_grid(MapReader& top, int dimension, GridSpec& grid);
+void read_time(MapReader& top, TimeSpec& time);
+void read_gravity(MapReader& top, int dimension, GravitySpec& gravity);
+void read_output(MapReader& top, int dimension, OutputSpec& output);
+void read_method(MapReader& top, MethodSpec& method);
+void read_contact(MapReader& top, int dimension, ContactSpec& contact);
+/// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
+void read_materials(MapReader& top, std::vector<MaterialSpec>& materials);
+/// Needs grid, materials and contact; checks bodies against them when `grid_known`.
+void read_bodies(MapReader& top, bool grid_known, Scene& scene);
+/// Needs the grid and the bodies.
+void read_boundaries(MapReader& top, bool grid_known, Scene& scene);
+
+/// A kind of body: the key that names it in a scene, and how its value is read.
+struct ShapeKind {
+  const char* name;
+  int dimension;  ///< 2, 3, or 0 for both
+  const char* keys;
+  const char* says;
+  std::optional<Shape> (*read)(const Value& value, int dimension);
+};
+const std::vector<ShapeKind>& shape_kinds();
+
+/// A bitmap entry: one shape for each grey level that is not skipped.
+struct BitmapPart {
+  BitmapShape shape;
+  std::optional<Value> material;  ///< from `materials: {GREY: NAME}`
+};
+std::vector<BitmapPart> read_bitmap(MapReader& body, const Value& bitmap, const Scene& scene);
+
+/// Decodes an 8-bit grey PNG. On failure returns nothing and says why.
+std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file, std::string& why_not);
+
+struct MaterialKind {
+  const char* name;
+  const char* keys;
+  const char* says;
+  decltype(MaterialSpec::model) (*read)(MapReader& map);
+};
+const std::vector<MaterialKind>& material_kinds();
+
+/// A direction: x, +x, -x, left, up, out … or (when `any`) a vector, made a unit vector.
+std::optional<Vec3> read_direction(const Value& value, int dimension, bool any);
+
+/// The vector with length 1; one that has it to round-off is kept as it is, so that reading what was written
+/// changes nothing. Nothing for a zero vector.
+std::optional<Vec3> unit_vector(const Vec3& vector);
+
+/// Is the material of this body rigid?
+bool is_rigid(const Scene& scene, const BodySpec& body);
+
+/// The scene with every default, in the format that parse_scene reads.
+std::string write_scene(const Scene& scene);
+
+}  // namespace mpmfast

@@ -1,0 +1,231 @@
+#include "engine/scene/tree.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/mark.h>
+#include <yaml-cpp/parser.h>
+
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "engine/scene/text_check.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr std::size_t kDeepest = 32;      // levels; a scene has about six
+constexpr std::size_t kMostNodes = 200000;  // after aliases are expanded
+
+/// Thrown inside the parser to leave it; the problem is already noted.
+struct StopParsing {};
+
+std::size_t count_nodes(const Node& node) {
+  std::size_t count = 1;
+  for (const Node& item : node.items) count += count_nodes(item);
+  return count;
+}
+
+/// Builds the tree from the parser's events. Aliases become copies of what they name.
+class TreeBuilder : public YAML::EventHandler {
+ public:
+  TreeBuilder(int source, Problems& problems) : source_(source), problems_(problems) {}
+
+  void OnDocumentStart(const YAML::Mark& mark) override {
+    if (documents_++ == 0) return;
+    problems_.add(at(mark), "", "a second document begins here (a scene is one YAML document)");
+    throw StopParsing();
+  }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    finish(make(Node::Kind::null, mark), anchor);
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                const std::string& value) override {
+    refuse_tag(mark, tag);
+    Node node = make(Node::Kind::scalar, mark);
+    node.scalar = value;
+    quoted_ = tag == "!";
+    finish(std::move(node), anchor);
+  }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+    const auto known = anchors_.find(anchor);
+    if (known == anchors_.end()) {
+      problems_.add(at(mark), path(), "an alias may not stand inside its own anchor");
+      throw StopParsing();
+    }
+    count(count_nodes(known->second), mark);
+    finish(known->second, YAML::NullAnchor);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                       YAML::EmitterStyle::value) override {
+    open(Node::Kind::list, mark, tag, anchor);
+  }
+  void OnMapStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
+                  YAML::EmitterStyle::value) override {
+    open(Node::Kind::map, mark, tag, anchor);
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapEnd() override { close(); }
+
+  const Node& root() const { return root_; }
+
+ private:
+  /// A list or map whose end has not come yet.
+  struct Frame {
+    Node node;
+    YAML::anchor_t anchor = YAML::NullAnchor;
+    std::optional<Key> key;  ///< read, its value not yet
+    bool drop = false;       ///< that value belongs to a refused key
+  };
+
+  Place at(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1, source_}; }
+
+  Node make(Node::Kind kind, const YAML::Mark& mark) {
+    count(1, mark);
+    quoted_ = false;
+    Node node;
+    node.kind = kind;
+    node.place = at(mark);
+    return node;
+  }
+
+  void count(std::size_t more, const YAML::Mark& mark) {
+    nodes_ += more;
+    if (nodes_ <= kMostNodes) return;
+    problems_.add(at(mark), "", fmt::format("too many values (at most {}, aliases expanded)", kMostNodes));
+    throw StopParsing();
+  }
+
+  void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
+    if (tag.empty() || tag == "?" || tag == "!") return;
+    problems_.add(at(mark), path(), fmt::format("tags are not supported, got '{}'", tag));
+  }
+
+  void open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
+    refuse_tag(mark, tag);
+    if (frames_.size() >= kDeepest) {
+      problems_.add(at(mark), "", fmt::format("nested too deeply (at most {} levels)", kDeepest));
+      throw StopParsing();
+    }
+    Frame frame;
+    frame.node = make(kind, mark);
+    frame.anchor = anchor;
+    frames_.push_back(std::move(frame));
+  }
+
+  void close() {
+    Frame frame = std::move(frames_.back());
+    frames_.pop_back();
+    quoted_ = false;
+    finish(std::move(frame.node), frame.anchor);
+  }
+
+  /// Hands a complete node to what encloses it.
+  void finish(Node node, YAML::anchor_t anchor) {
+    if (anchor != YAML::NullAnchor) anchors_[anchor] = node;
+    if (frames_.empty()) {
+      root_ = std::move(node);
+      return;
+    }
+    Frame& frame = frames_.back();
+    if (frame.node.kind == Node::Kind::list) {
+      frame.node.items.push_back(std::move(node));
+    } else if (!frame.key) {
+      take_key(frame, node);
+    } else {
+      if (!frame.drop) {
+        frame.node.keys.push_back(std::move(*frame.key));
+        frame.node.items.push_back(std::move(node));
+      }
+      frame.key.reset();
+    }
+  }
+
+  void take_key(Frame& frame, const Node& node) {
+    const std::string parent = path();
+    frame.key = Key{node.scalar, node.place};
+    frame.drop = true;
+    if (node.kind != Node::Kind::scalar) {
+      problems_.add(node.place, parent, "a key must be a word, got " + describe(node));
+    } else if (node.scalar == "<<" && !quoted_) {
+      problems_.add(node.place, join(parent, "<<"), "merge keys are not supported",
+                    "Put the anchor on a whole value, or use --set");
+    } else if (const int first = index_of(frame.node, node.scalar); first >= 0) {
+      const int line = frame.node.keys[static_cast<std::size_t>(first)].place.line;
+      problems_.add(node.place, join(parent, node.scalar), fmt::format("already given on line {}", line));
+    } else {
+      frame.drop = false;
+    }
+  }
+
+  /// Dotted path of the place that the parser has reached.
+  std::string path() const {
+    std::string out;
+    for (const Frame& frame : frames_) {
+      if (frame.node.kind == Node::Kind::list) out = join(out, std::to_string(frame.node.items.size()));
+      if (frame.key) out = join(out, frame.key->text);
+    }
+    return out;
+  }
+
+  int source_;
+  Problems& problems_;
+  Node root_;
+  std::vector<Frame> frames_;
+  std::map<YAML::anchor_t, Node> anchors_;
+  std::size_t nodes_ = 0;
+  int documents_ = 0;
+  bool quoted_ = false;  ///< the scalar just read stood in quotes
+};
+
+}  // namespace
+
+int index_of(const Node& node, const std::string& key) {
+  for (std::size_t i = 0; i < node.keys.size(); ++i) {
+    if (node.keys[i].text == key) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::string describe(const Node& node) {
+  constexpr std::size_t kShown = 60;
+  switch (node.kind) {
+    case Node::Kind::null: return "nothing";
+    case Node::Kind::list: return fmt::format("a list of {}", node.items.size());
+    case Node::Kind::map: return "a map";
+    case Node::Kind::scalar: break;
+  }
+  std::string text = node.scalar.substr(0, kShown);
+  for (char& c : text) {
+    if (c == '\n' || c == '\t') c = ' ';
+  }
+  return node.scalar.size() > kShown ? "'" + text + "…'" : "'" + text + "'";
+}
+
+std::string join(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+
+std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems) {
+  if (!check_text(text, source, problems)) return std::nullopt;
+  TreeBuilder builder(source, problems);
+  try {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) {
+      problems.add({0, 0, source}, "", source == 0 ? "empty (a scene was expected)" : "no value after '='");
+      return std::nullopt;
+    }
+    Node root = builder.root();
+    parser.HandleNextDocument(builder);  // a second one is refused by the builder
+    return root;
+  } catch (const StopParsing&) {
+    return std::nullopt;
+  } catch (const YAML::Exception& error) {
+    problems.add({error.mark.line + 1, error.mark.column + 1, source}, "", "not valid YAML: " + error.msg);
+    return std::nullopt;
+  }
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,111 @@
+#pragma once
+
+/// @file The nodal material velocity fields: a structure of arrays over slots (engine/state/tiling.hpp).
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "engine/state/columns.hpp"
+#include "kernels/dimension.hpp"
+#include "kernels/transfer/window.hpp"
+
+namespace mpmfast {
+
+/// Every nodal quantity there is. A plan lists the ones that a scene needs; the others are not allocated.
+enum class Nodal {
+  mass,
+  momentum,
+  force,             ///< after the second contact correction: a Δt
+  velocity,          ///< for the strain: with conditions; after the update: v⁺
+  star,              ///< v*_k of the XPIC recursion, then Δv*_k (k = 1: Δv of the first contact correction)
+  next,              ///< what an XPIC pass accumulates
+  series,            ///< m (v − v*) of XPIC
+  volume_gradient,   ///< Σ G_pi V_p
+  mass_position,     ///< Σ S_pi M_p X_p
+};
+inline constexpr int kNodalQuantities = 9;
+
+struct NodalInfo {
+  Nodal quantity;
+  std::string_view name;
+  bool vector, paired;  ///< paired: room for a second vector (v* and Δv*)
+  std::string_view reason;
+};
+
+inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
+    {Nodal::mass, "mass", false, false, "every scene"},
+    {Nodal::momentum, "momentum", true, false, "every scene"},
+    {Nodal::force, "force", true, false, "every scene"},
+    {Nodal::velocity, "velocity", true, false, "every scene"},
+    {Nodal::star, "star", true, true, "XPIC"},
+    {Nodal::next, "next", true, true, "XPIC"},
+    {Nodal::series, "series", true, false, "XPIC"},
+    {Nodal::volume_gradient, "volume_gradient", true, false, "gradient normals"},
+    {Nodal::mass_position, "mass_position", true, false, "separation by position"},
+}};
+
+/// Columns over all slots of all velocity fields.
+template <int Dim>
+class Nodes {
+ public:
+  static constexpr int components(Nodal q) {
+    const auto& info = kNodalTable[static_cast<std::size_t>(q)];
+    return !info.vector ? 1 : info.paired ? 2 * Dim : Dim;
+  }
+
+  /// Chooses the columns. @param paired whether v* and Δv* are both carried
+  void plan(const std::vector<Nodal>& quantities, bool paired) {
+    quantities_ = quantities;
+    for (Nodal q : quantities) {
+      const bool wide = kNodalTable[static_cast<std::size_t>(q)].paired;
+      columns_[index(q)].resize(static_cast<std::size_t>(wide && !paired ? Dim : components(q)));
+    }
+  }
+
+  /// Room for n slots; keeps memory that is already there.
+  void resize(std::size_t n) {
+    if (n > room_) room_ = n + n / 4;  // so that a sort seldom allocates
+    size_ = n;
+    for (Nodal q : quantities_)
+      for (auto& c : columns_[index(q)]) c.resize_discard(room_);
+  }
+
+  std::size_t size() const { return size_; }
+  bool has(Nodal q) const { return !columns_[index(q)].empty(); }
+  const std::vector<Nodal>& quantities() const { return quantities_; }
+  double* column(Nodal q, int k = 0) { return columns_[index(q)][static_cast<std::size_t>(k)].data(); }
+  const double* column(Nodal q, int k = 0) const { return columns_[index(q)][static_cast<std::size_t>(k)].data(); }
+
+  Vec<Dim> vector(Nodal q, int slot) const {
+    Vec<Dim> v;
+    for (int d = 0; d < Dim; ++d) v[d] = column(q, d)[slot];
+    return v;
+  }
+  void set(Nodal q, int slot, const Vec<Dim>& v) {
+    for (int d = 0; d < Dim; ++d) column(q, d)[slot] = v[d];
+  }
+
+  /// N columns of q for a kernel.
+  template <int N = Dim>
+  NodeColumns<N> columns(Nodal q) {
+    NodeColumns<N> view;
+    for (int k = 0; k < N; ++k) view.column[k] = column(q, k);
+    return view;
+  }
+
+  std::size_t bytes() const {
+    std::size_t sum = 0;
+    for (Nodal q : quantities_)
+      for (const auto& c : columns_[index(q)]) sum += c.bytes();
+    return sum;
+  }
+
+ private:
+  static std::size_t index(Nodal q) { return static_cast<std::size_t>(q); }
+  std::vector<Nodal> quantities_;
+  std::array<std::vector<Column<double>>, kNodalQuantities> columns_;
+  std::size_t size_ = 0, room_ = 0;
+};
+
+}  // namespace mpmfast

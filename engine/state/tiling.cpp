@@ -1,0 +1,237 @@
+#include "engine/state/tiling.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+
+namespace mpmfast {
+
+namespace {
+
+constexpr int kMargin = 2;  ///< tiles beyond the domain on each side: supports and lost particles stay within
+constexpr int kDigit = 11;  ///< bits a radix pass
+
+/// Stable radix sort of keys with their order. Passes over digits that no key uses are not made.
+void radix_sort(std::vector<std::uint64_t>& key, std::vector<std::uint32_t>& order, std::vector<std::uint64_t>& key_spare,
+                std::vector<std::uint32_t>& order_spare, std::uint64_t largest) {
+  const std::size_t n = key.size();
+  key_spare.resize(n);
+  order_spare.resize(n);
+  for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
+    std::array<std::uint32_t, (1u << kDigit) + 1> begin{};
+    constexpr std::uint64_t mask = (1u << kDigit) - 1;
+    for (std::size_t i = 0; i < n; ++i) ++begin[(key[i] >> shift & mask) + 1];
+    for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::uint32_t at = begin[key[i] >> shift & mask]++;
+      key_spare[at] = key[i];
+      order_spare[at] = order[i];
+    }
+    key.swap(key_spare);
+    order.swap(order_spare);
+  }
+}
+
+template <class T>
+void permute(T* column, const std::vector<std::uint32_t>& order, std::vector<double>& spare) {
+  static_assert(sizeof(T) <= sizeof(double));
+  T* copy = reinterpret_cast<T*>(spare.data());
+  const auto n = static_cast<std::int64_t>(order.size());
+  std::memcpy(copy, column, order.size() * sizeof(T));
+#pragma omp parallel for schedule(static) if (n > 4096)
+  for (std::int64_t i = 0; i < n; ++i) column[i] = copy[order[static_cast<std::size_t>(i)]];
+}
+
+}  // namespace
+
+template <int Dim>
+void Tiling<Dim>::set_domain(const std::array<int, 3>& nodes) {
+  for (int d = 0; d < Dim; ++d)
+    span_[static_cast<std::size_t>(d)] = nodes[static_cast<std::size_t>(d)] / kTileSide + 1 + 2 * kMargin;
+}
+
+template <int Dim>
+std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile) const {
+  std::int64_t index = 0;
+  for (int d = Dim - 1; d >= 0; --d) {
+    const int at = tile[d] + kMargin, span = span_[static_cast<std::size_t>(d)];
+    assert(at >= 0 && at < span);
+    index = index * span + std::clamp(at, 0, span - 1);
+  }
+  return index;
+}
+
+template <int Dim>
+NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
+  NodeIndex<Dim> tile;
+  for (int d = 0; d < Dim; ++d) {
+    const int span = span_[static_cast<std::size_t>(d)];
+    tile[d] = static_cast<int>(place % span) - kMargin;
+    place /= span;
+  }
+  return tile;
+}
+
+template <int Dim>
+void Tiling<Dim>::build(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
+                        const std::vector<int>& body_field) {
+  bodies_ = static_cast<int>(body_field.size());
+  sort(particles, first_node, body_field);
+  cut_runs(particles, body_field);
+  number_slots();
+  stack_up();
+}
+
+/// Key, from the highest digit: field, place of the particle tile, body, cell within the tile.
+template <int Dim>
+void Tiling<Dim>::sort(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
+                       const std::vector<int>& body_field) {
+  const std::size_t n = particles.size();
+  key_.resize(n);
+  order_.resize(n);
+  std::uint64_t places = 1, largest = 0;
+  for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+  for (std::size_t p = 0; p < n; ++p) {
+    NodeIndex<Dim> tile;
+    int cell = 0;
+    for (int d = Dim - 1; d >= 0; --d) {
+      const int b = first_node[static_cast<std::size_t>(d)][p] - 1;
+      tile[d] = floor_div(b, kTileSide);
+      cell = cell * kTileSide + (b - tile[d] * kTileSide);
+    }
+    const int body = particles.body()[p];
+    std::uint64_t key = static_cast<std::uint64_t>(body_field[static_cast<std::size_t>(body)]);
+    key = key * places + static_cast<std::uint64_t>(place(tile));
+    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(body);
+    key_[p] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
+    order_[p] = static_cast<std::uint32_t>(p);
+    largest = std::max(largest, key_[p]);
+  }
+  radix_sort(key_, order_, key_spare_, order_spare_, largest);
+  spare_.resize(n);
+  for (Quantity q : particles.quantities())
+    for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.column(q, k), order_, spare_);
+  permute(particles.id().data(), order_, spare_);
+  permute(particles.body().data(), order_, spare_);
+}
+
+template <int Dim>
+void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field) {
+  tiles.clear();
+  runs.clear();
+  const auto n = static_cast<std::uint32_t>(particles.size());
+  const auto cells = static_cast<std::uint64_t>(kTileNodes<Dim>);
+  std::uint64_t last_tile = ~std::uint64_t{0};
+  for (std::uint32_t p = 0; p < n;) {
+    const std::uint64_t run_key = key_[p] / cells, tile_key = run_key / static_cast<std::uint64_t>(bodies_);
+    ParticleRun<Dim> run;
+    run.begin = p;
+    run.body = particles.body()[p];
+    for (std::uint64_t cell = 0; cell < cells; ++cell) {
+      run.cell_begin[cell] = p;
+      while (p < n && key_[p] == run_key * cells + cell) ++p;
+    }
+    run.cell_begin[cells] = run.end = p;
+    if (tile_key != last_tile) {
+      ParticleTile<Dim> tile{};
+      tile.field = body_field[static_cast<std::size_t>(run.body)];
+      std::uint64_t places = 1;
+      for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key % places));
+      for (int d = 0; d < Dim; ++d) tile.window[d] = at[d] * kTileSide;
+      tile.run_begin = tile.run_end = static_cast<int>(runs.size());
+      tiles.push_back(tile);
+      last_tile = tile_key;
+    }
+    runs.push_back(run);
+    tiles.back().run_end = static_cast<int>(runs.size());
+  }
+  for (auto& colour : colours) colour.clear();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    unsigned colour = 0;
+    for (int d = 0; d < Dim; ++d) colour |= static_cast<unsigned>((tiles[t].window[d] / kTileSide) & 1) << d;
+    colours[colour].push_back(static_cast<int>(t));
+  }
+}
+
+template <int Dim>
+int Tiling<Dim>::find(std::int64_t place, int field) const {
+  const auto before = [](const NodeTile<Dim>& t, const std::pair<std::int64_t, int>& key) {
+    return t.place != key.first ? t.place < key.first : t.field < key.second;
+  };
+  const auto it = std::lower_bound(node_tiles.begin(), node_tiles.end(), std::pair{place, field}, before);
+  return it != node_tiles.end() && it->place == place && it->field == field ? static_cast<int>(it - node_tiles.begin())
+                                                                            : -1;
+}
+
+template <int Dim>
+void Tiling<Dim>::number_slots() {
+  const auto corner_place = [&](const ParticleTile<Dim>& tile, int corner) {
+    NodeIndex<Dim> at;
+    for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide + (corner >> d & 1);
+    return place(at);
+  };
+  node_tiles.clear();
+  for (const auto& tile : tiles)
+    for (int c = 0; c < kCorners<Dim>; ++c) {
+      NodeTile<Dim> node_tile{corner_place(tile, c), tile.field, {}};
+      for (int& p : node_tile.particle_tile) p = -1;
+      node_tiles.push_back(node_tile);
+    }
+  std::sort(node_tiles.begin(), node_tiles.end(), [](const auto& a, const auto& b) {
+    return a.place != b.place ? a.place < b.place : a.field < b.field;
+  });
+  const auto same = [](const auto& a, const auto& b) { return a.place == b.place && a.field == b.field; };
+  node_tiles.erase(std::unique(node_tiles.begin(), node_tiles.end(), same), node_tiles.end());
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    for (int c = 0; c < kCorners<Dim>; ++c) {
+      const int found = find(corner_place(tiles[t], c), tiles[t].field);
+      tiles[t].slot[c] = found * kTileNodes<Dim>;
+      node_tiles[static_cast<std::size_t>(found)].particle_tile[c] = static_cast<int>(t);
+    }
+}
+
+template <int Dim>
+void Tiling<Dim>::stack_up() {
+  stacks.clear();
+  for (int t = 0; t < static_cast<int>(node_tiles.size());) {
+    Stack<Dim> stack{};
+    stack.begin = t;
+    const std::int64_t at = node_tiles[static_cast<std::size_t>(t)].place;
+    while (t < static_cast<int>(node_tiles.size()) && node_tiles[static_cast<std::size_t>(t)].place == at) ++t;
+    stack.end = t;
+    stack.first_node = coordinates(at) * kTileSide;
+    stacks.push_back(stack);
+  }
+  const auto place_of = [&](const Stack<Dim>& s) { return node_tiles[static_cast<std::size_t>(s.begin)].place; };
+  for (auto& stack : stacks)
+    for (int k = 0; k < power(3, Dim); ++k) {
+      NodeIndex<Dim> at = coordinates(place_of(stack));
+      int digits = k;
+      bool within = true;
+      for (int d = 0; d < Dim; ++d) {
+        at[d] += digits % 3 - 1;
+        digits /= 3;
+        within &= at[d] >= -kMargin && at[d] < span_[static_cast<std::size_t>(d)] - kMargin;
+      }
+      stack.neighbour[k] = -1;
+      if (!within) continue;
+      const std::int64_t wanted = place(at);
+      const auto it = std::lower_bound(stacks.begin(), stacks.end(), wanted,
+                                       [&](const Stack<Dim>& s, std::int64_t p) { return place_of(s) < p; });
+      if (it != stacks.end() && place_of(*it) == wanted) stack.neighbour[k] = static_cast<int>(it - stacks.begin());
+    }
+}
+
+template <int Dim>
+std::size_t Tiling<Dim>::bytes() const {
+  return tiles.capacity() * sizeof(ParticleTile<Dim>) + runs.capacity() * sizeof(ParticleRun<Dim>) +
+         node_tiles.capacity() * sizeof(NodeTile<Dim>) + stacks.capacity() * sizeof(Stack<Dim>) +
+         (key_.capacity() + key_spare_.capacity() + spare_.capacity()) * sizeof(double) +
+         (order_.capacity() + order_spare_.capacity()) * sizeof(std::uint32_t);
+}
+
+template class Tiling<2>;
+template class Tiling<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,196 @@
+#pragma once
+
+/// @file The passes of the step for one basis: loops over tiles around the kernels. A new basis is a type in
+/// kernels/basis, a file like passes_ugimp.cpp, and a line in make_passes.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "engine/step/fit_contact.hpp"
+#include "engine/step/passes.hpp"
+#include "kernels/transfer/project.hpp"
+#include "kernels/transfer/update.hpp"
+#include "kernels/transfer/xpic.hpp"
+
+namespace mpmfast {
+
+template <int Dim, class Basis>
+class BasisPasses final : public Passes<Dim> {
+ public:
+  BasisPasses() {
+    rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    for (auto& room : rooms_) room = std::make_unique<Room>();
+  }
+
+  void shape_domains(State<Dim>& state) override {
+    if constexpr (Basis::kConvected) {
+      const ParticleView<Dim> view = state.view();
+      for (std::size_t p = 0; p < state.particles.size(); ++p) {
+        double f[Dim * Dim], edge[Dim * Dim];
+        for (int e = 0; e < Dim * Dim; ++e) f[e] = view.deformation[e][p];
+        Basis::convect(f, state.bodies[state.particles.body()[p]].half_size, state.grid.inverse_cell, edge);
+        for (int e = 0; e < Dim * Dim; ++e) view.edges[e][p] = edge[e];
+      }
+    }
+  }
+
+  void sort(State<Dim>& state) override {
+    ParticleView<Dim> view = state.view();
+    const auto n = static_cast<std::int64_t>(state.particles.size());
+    for (auto& column : first_node_) column.resize(static_cast<std::size_t>(n));
+#pragma omp parallel for schedule(static) if (n > 4096)
+    for (std::int64_t p = 0; p < n; ++p) {
+      ParticleTile<Dim> nowhere{};
+      ParticleRun<Dim> one{};
+      one.body = state.particles.body()[static_cast<std::size_t>(p)];
+      const TileContext<Dim> c{&view, &nowhere, &one, state.bodies.data(), &state.grid};
+      const NodeIndex<Dim> first =
+          Basis::first_node(chunk_geometry(c, one, static_cast<std::uint32_t>(p), 1), 0);
+      for (int d = 0; d < Dim; ++d) first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] = first[d];
+    }
+    state.tiling.build(state.particles, first_node_, state.body_field);
+    state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
+  }
+
+  bool project(State<Dim>& state) override {
+    NodeColumns<1 + Dim> out;
+    out.column[0] = state.nodes.column(Nodal::mass);
+    for (int d = 0; d < Dim; ++d) out.column[1 + d] = state.nodes.column(Nodal::momentum, d);
+    outside_.assign(rooms_.size(), 0);
+    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+      if (!project_tile<Dim, Basis>(c, room.project, out)) outside_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
+    });
+    return *std::max_element(outside_.begin(), outside_.end()) == 0;
+  }
+
+  void project_geometry(State<Dim>& state) override {
+    const auto gradient = state.nodes.columns(Nodal::volume_gradient);
+    const auto position = state.nodes.columns(Nodal::mass_position);
+    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+      project_geometry_tile<Dim, Basis>(c, room.project, gradient, position);
+    });
+  }
+
+  double strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
+    const auto velocity = state.nodes.columns(Nodal::velocity), force = state.nodes.columns(Nodal::force);
+    smallest_.assign(rooms_.size(), std::numeric_limits<double>::infinity());
+    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+      if (rigid) return;
+      const double j = strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
+      double& smallest = smallest_[static_cast<std::size_t>(omp_get_thread_num())];
+      smallest = std::min(smallest, j);
+    });
+    return *std::min_element(smallest_.begin(), smallest_.end());
+  }
+
+  void xpic(State<Dim>& state, bool paired) override {
+    if (paired)
+      xpic_columns<2 * Dim>(state);
+    else
+      xpic_columns<Dim>(state);
+  }
+
+  TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) override {
+    return rule.velocity == ParticleUpdate::xpic ? update_columns<3>(state, rule, lower, upper)
+                                                 : update_columns<2>(state, rule, lower, upper);
+  }
+
+  void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) override {
+    fit_.run(state, spec, contact);
+  }
+
+ private:
+  struct Room {
+    ProjectRoom<Dim, Basis> project;
+    XpicRoom<Dim, Basis, 2 * Dim> xpic;
+    UpdateRoom<Dim, Basis> update;
+  };
+
+  static auto visitor(const State<Dim>& state) {
+    return [&state](int material, const auto& f) { std::visit(f, state.materials[static_cast<std::size_t>(material)]); };
+  }
+
+  TileContext<Dim> context(const State<Dim>& state, const ParticleView<Dim>& view, int tile) const {
+    return {&view, &state.tiling.tiles[static_cast<std::size_t>(tile)], state.tiling.runs.data(), state.bodies.data(),
+            &state.grid};
+  }
+
+  /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap, and each
+  /// slot adds up its tiles in the order of the colours, whatever the threads.
+  template <class F>
+  void scatter(State<Dim>& state, F f) {
+    const ParticleView<Dim> view = state.view();
+#pragma omp parallel
+    {
+      Room& room = *rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+      for (const auto& colour : state.tiling.colours) {
+        const auto n = static_cast<std::int64_t>(colour.size());
+#pragma omp for schedule(dynamic, 4)
+        for (std::int64_t k = 0; k < n; ++k) {
+          const int tile = colour[static_cast<std::size_t>(k)];
+          const int field = state.tiling.tiles[static_cast<std::size_t>(tile)].field;
+          f(context(state, view, tile), room, state.field_rigid[static_cast<std::size_t>(field)]);
+        }
+      }
+    }
+  }
+
+  template <int NC>
+  void xpic_columns(State<Dim>& state) {
+    const auto in = state.nodes.template columns<NC>(Nodal::star), out = state.nodes.template columns<NC>(Nodal::next);
+    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+      if (rigid) return;
+      auto& xpic_room = reinterpret_cast<XpicRoom<Dim, Basis, NC>&>(room.xpic);
+      xpic_tile<Dim, Basis, NC>(c, xpic_room, in, out);
+    });
+  }
+
+  template <int NV>
+  TileReport update_columns(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+    NodeColumns<NV * Dim> in;
+    for (int d = 0; d < Dim; ++d) {
+      in.column[d] = state.nodes.column(Nodal::velocity, d);
+      in.column[Dim + d] = state.nodes.column(Nodal::force, d);
+      if constexpr (NV == 3) in.column[2 * Dim + d] = state.nodes.column(Nodal::series, d);
+    }
+    double low[Dim], high[Dim];
+    for (int d = 0; d < Dim; ++d) low[d] = lower[d], high[d] = upper[d];
+    reports_.assign(rooms_.size(), {});
+    const ParticleView<Dim> view = state.view();
+    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
+#pragma omp parallel for schedule(dynamic, 4)
+    for (std::int64_t t = 0; t < n; ++t) {
+      const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)]) continue;
+      const TileReport r = update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), rooms_[thread]->update,
+                                                       in, rule, low, high, visitor(state));
+      merge(r, reports_[thread].report);
+    }
+    TileReport all;
+    for (const auto& r : reports_) merge(r.report, all);
+    return all;
+  }
+
+  static void merge(const TileReport& r, TileReport& sum) {
+    sum.fastest = std::max(sum.fastest, r.fastest);
+    sum.speed = std::max(sum.speed, r.speed);
+    sum.smallest_j = std::min(sum.smallest_j, r.smallest_j);
+    sum.lost |= r.lost;
+  }
+
+  struct alignas(64) ThreadReport {
+    TileReport report;
+  };
+  std::vector<std::unique_ptr<Room>> rooms_;
+  std::vector<ThreadReport> reports_;
+  std::vector<double> smallest_;
+  std::vector<int> outside_;
+  std::array<std::vector<int>, Dim> first_node_;
+  ContactFit<Dim, Basis> fit_;
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,34 @@
+#pragma once
+
+/// @file Wall seconds by pass.
+
+#include <array>
+#include <chrono>
+#include <string_view>
+
+namespace mpmfast {
+
+enum class Pass { sort, project, contact_nodes, contact_geometry, contact_resolve, strain_force, nodes, conditions, xpic, update };
+inline constexpr std::array<std::string_view, 10> kPassNames{
+    "sort", "project", "contact_nodes", "contact_geometry", "contact_resolve",
+    "strain_force", "nodes", "conditions", "xpic", "update"};
+
+class PassClock {
+ public:
+  /// Runs f and books its time on a pass.
+  template <class F>
+  decltype(auto) time(Pass pass, F f) {
+    struct Booking {
+      double& seconds;
+      std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+      ~Booking() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+    } booking{seconds_[static_cast<std::size_t>(pass)]};
+    return f();
+  }
+  const std::array<double, kPassNames.size()>& seconds() const { return seconds_; }
+
+ private:
+  std::array<double, kPassNames.size()> seconds_{};
+};
+
+}  // namespace mpmfast

@@ -1,0 +1,82 @@
+#pragma once
+
+/// @file Velocity conditions on nodes: walls, pistons, symmetry planes, prescribed velocities (NN §2.3.2, §2.5).
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
+
+namespace mpmfast {
+
+/// Each condition prescribes v·n = u on its nodes: a wall on the nodes at and beyond its plane, a box on those inside.
+/// Where several act on a node, they are turned to orthonormal directions one after the other: a parallel one adds its
+/// velocity, an oblique one keeps what is new of it, so that every prescribed component is met to round-off.
+///
+/// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would otherwise be
+/// thrown by the full force of the particles at the wall; held at the wall's velocity, they cannot.
+template <int Dim>
+class Conditions {
+ public:
+  explicit Conditions(const Scene& scene);
+
+  /// The speeds of the step from t to t + dt, and the nodes that they act on.
+  void prepare(const State<Dim>& state, double t, double dt);
+  /// After a sort: slots have new numbers.
+  void forget_nodes() { stale_ = true; }
+
+  /// Puts the prescribed components into the nodal velocities that the strain is taken from.
+  void impose_velocity(State<Dim>& state) const;
+  /// f ← f − (f·e)e + ((m u − p·e)/Δt) e before the momentum update (NN Eq. 2.7 to 2.11).
+  void react(State<Dim>& state, double dt);
+  /// After the second contact correction: momentum and force together.
+  void enforce(State<Dim>& state, double dt);
+
+  /// Force of each boundary on the material in this step, N.
+  const std::vector<Vec<Dim>>& force() const { return force_; }
+  /// Work that the boundaries did on the material in this step, J.
+  double work() const { return work_; }
+  /// Largest prescribed speed ever, m/s.
+  double fastest() const { return fastest_; }
+  bool empty() const { return scene_->boundaries.empty(); }
+
+ private:
+  /// Conditions that meet on a node, by orthonormal direction.
+  struct Combination {
+    std::vector<int> members;      ///< indices into directions_
+    int count = 0;                 ///< orthonormal directions
+    Vec<Dim> direction[Dim];
+    double speed[Dim];
+    int boundary[Dim];             ///< which boundary a direction's reaction is booked on
+  };
+  /// One prescribed component: v·n = u on the nodes of a boundary.
+  struct Component {
+    int boundary;
+    Vec<Dim> direction;
+    bool moving;                   ///< u is the boundary's speed; else zero
+  };
+  struct Constrained {
+    int slot, combination;
+  };
+
+  bool covers(std::size_t boundary, const NodeIndex<Dim>& node) const;
+  void list_nodes(const State<Dim>& state);
+  void orthonormalise(Combination& c) const;
+  template <class Change>
+  void apply(State<Dim>& state, double dt, Change change);
+
+  const Scene* scene_;
+  std::vector<Component> components_;
+  std::vector<Combination> combinations_;
+  std::vector<Constrained> nodes_;
+  std::vector<double> speed_;      ///< by boundary, this step
+  std::vector<int> row_;           ///< by wall: first (upper) or last (lower) row of nodes beyond it
+  std::vector<Vec<Dim>> force_;
+  double work_ = 0, fastest_ = 0;
+  bool stale_ = true;
+};
+
+extern template class Conditions<2>;
+extern template class Conditions<3>;
+
+}  // namespace mpmfast

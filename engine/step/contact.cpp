@@ -1,0 +1,257 @@
+#include "engine/step/contact.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "kernels/contact/laws.hpp"
+#include "kernels/contact/separation.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Momentum and mass of one entry: field a against the rest.
+template <int Dim>
+struct Side {
+  double mass = 0;
+  Vec<Dim> momentum = Vec<Dim>::Zero();
+};
+
+}  // namespace
+
+template <int Dim>
+void Contact<Dim>::find_nodes(const State<Dim>& state) {
+  if (spec_.hysteresis > 0) remember_touching();
+  list_.nodes.clear();
+  list_.fields.clear();
+  list_.entries.clear();
+  list_.node_at.assign(state.tiling.places(), -1);
+  for (int s = 0; s < static_cast<int>(state.tiling.stacks.size()); ++s) {
+    const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
+    if (stack.end - stack.begin > 1) list_stack(state, s);
+  }
+  list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, list_.nodes.size());
+  if (spec_.hysteresis > 0) recall_touching(state);
+}
+
+template <int Dim>
+void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
+  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
+  const double* mass = state.nodes.column(Nodal::mass);
+  for (int local = 0; local < kTileNodes<Dim>; ++local) {
+    ContactNode<Dim> node;
+    node.field_begin = static_cast<int>(list_.fields.size());
+    node.rigid = -1;
+    for (int t = stack.begin; t < stack.end; ++t) {
+      const int slot = t * kTileNodes<Dim> + local;
+      if (!(mass[slot] > 0)) continue;
+      const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
+      if (state.field_rigid[static_cast<std::size_t>(field)] && node.rigid < 0)
+        node.rigid = static_cast<int>(list_.fields.size()) - node.field_begin;
+      list_.fields.push_back({field, slot});
+    }
+    node.field_end = static_cast<int>(list_.fields.size());
+    node.stack = s;
+    node.local = local;
+    node.node = state.tiling.node(stack, local);
+    node.entry_begin = static_cast<int>(list_.entries.size());
+    if (node.field_end - node.field_begin > 1) add_entries(node, mass);
+    node.entry_end = static_cast<int>(list_.entries.size());
+    if (node.entry_begin == node.entry_end) {
+      list_.fields.resize(static_cast<std::size_t>(node.field_begin));
+      continue;
+    }
+    list_.node_at[static_cast<std::size_t>(s) * kTileNodes<Dim> + static_cast<std::size_t>(local)] =
+        static_cast<int>(list_.nodes.size());
+    list_.nodes.push_back(node);
+  }
+}
+
+/// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the rest.
+template <int Dim>
+void Contact<Dim>::add_entries(ContactNode<Dim>& node, const double* mass) {
+  const int fields = node.field_end - node.field_begin;
+  // Tied fields must move as one to the last node (the perfect interface is exact).
+  const double screen = spec_.law == LawKind::perfect ? 0 : spec_.mass_screen;
+  const auto mass_of = [&](int k) { return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot]; };
+  double total = 0;
+  for (int k = 0; k < fields; ++k) total += mass_of(k);
+  ContactEntry<Dim> entry;
+  entry.normal = entry.impulse = Vec<Dim>::Zero();
+  for (int k = 0; k < fields; ++k) {
+    if (k == node.rigid) continue;
+    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total))
+      continue;
+    entry.a = k;
+    entry.b = fields == 2 ? 1 - k : -1;
+    list_.entries.push_back(entry);
+    if (fields == 2) return;
+  }
+}
+
+template <int Dim>
+std::uint64_t Contact<Dim>::entry_key(const State<Dim>& state, const ContactNode<Dim>& node,
+                                      const ContactEntry<Dim>& entry) const {
+  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
+  const auto place = static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
+  const int field = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
+  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) * static_cast<std::uint64_t>(state.fields()) +
+         static_cast<std::uint64_t>(field);
+}
+
+template <int Dim>
+void Contact<Dim>::remember_touching() {
+  touching_.clear();
+  for (std::size_t k = 0; k < list_.entries.size(); ++k)
+    if (list_.entries[k].touching) touching_.push_back(keys_[k]);
+}
+
+template <int Dim>
+void Contact<Dim>::recall_touching(const State<Dim>& state) {
+  keys_.clear();
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      keys_.push_back(entry_key(state, node, entry));
+      entry.touched = std::binary_search(touching_.begin(), touching_.end(), keys_.back());
+    }
+}
+
+template <int Dim>
+void Contact<Dim>::find_geometry(State<Dim>& state, Passes<Dim>& passes) {
+  if (list_.nodes.empty() || spec_.law == LawKind::perfect || spec_.law == LawKind::ignore) return;
+  if (spec_.normal == NormalKind::specified || spec_.normal == NormalKind::average_gradient) grid_normals(state);
+  if (spec_.separation == SeparationKind::none)
+    for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
+  passes.fit_contact(state, spec_, list_);
+  if (state.nodes.has(Nodal::mass_position)) grid_separations(state);
+}
+
+template <int Dim>
+void Contact<Dim>::grid_normals(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      const int own = node.field_begin + entry.a, other = own == node.field_begin ? own + 1 : node.field_begin;
+      const auto field = [&](int f) { return list_.fields[static_cast<std::size_t>(f)].field; };
+      if (spec_.normal == NormalKind::specified) {
+        for (int d = 0; d < Dim; ++d)
+          entry.normal[d] = (field(own) < field(other) ? 1.0 : -1.0) * spec_.specified_normal[static_cast<std::size_t>(d)];
+        continue;
+      }
+      // A volume gradient points into its own material: from a to the rest is g_b − g_a (N20 Eq. 13).
+      Vec<Dim> sum = Vec<Dim>::Zero();
+      for (int f = node.field_begin; f < node.field_end; ++f)
+        sum += (f == own ? -1.0 : 1.0) *
+               state.nodes.vector(Nodal::volume_gradient, list_.fields[static_cast<std::size_t>(f)].slot);
+      const double length = sum.norm();
+      if (length > 0) entry.normal = sum / length;
+    }
+}
+
+template <int Dim>
+void Contact<Dim>::grid_separations(const State<Dim>& state) {
+  const double* mass = state.nodes.column(Nodal::mass);
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      Side<Dim> own, rest;  // first moments in place of momenta
+      for (int f = node.field_begin; f < node.field_end; ++f) {
+        const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
+        Side<Dim>& side = f - node.field_begin == entry.a ? own : rest;
+        side.mass += mass[slot];
+        side.momentum += state.nodes.vector(Nodal::mass_position, slot);
+      }
+      const auto ahead = [&](const Side<Dim>& side) {  // e = (x − x_i)·n in cells
+        return (side.momentum / (side.mass * state.grid.cell) - node.node.template cast<double>()).dot(entry.normal);
+      };
+      entry.separation =
+          state.grid.cell * (spec_.separation == SeparationKind::position_offset
+                                 ? position_offset(ahead(own), ahead(rest), spec_.position_offset)
+                                 : position_power(ahead(own), ahead(rest)));
+    }
+}
+
+template <int Dim>
+void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
+  switch (spec_.law) {
+    case LawKind::coulomb: return resolve_law(state, Coulomb{spec_.friction}, correction, dt);
+    case LawKind::frictionless: return resolve_law(state, Frictionless{}, correction, dt);
+    case LawKind::stick: return resolve_law(state, Stick{}, correction, dt);
+    case LawKind::perfect: return resolve_law(state, Perfect{}, correction, dt);
+    case LawKind::ignore: return resolve_law(state, Ignore{}, correction, dt);
+  }
+}
+
+template <int Dim>
+template <class Law>
+void Contact<Dim>::resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt) {
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+#pragma omp parallel for schedule(static) if (n > 64)
+  for (std::int64_t k = 0; k < n; ++k) resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
+  friction_work_ = 0;
+  rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());
+  if (correction == Correction::initial) return;
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      // In a lump, each touching pair is seen from both sides.
+      friction_work_ += (entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5) * entry.friction_work;
+      if (node.rigid < 0) continue;
+      const int field = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)].field;
+      rigid_impulse_[static_cast<std::size_t>(field)] -= entry.impulse;
+    }
+}
+
+/// All entries of a node, from the momenta before any of them changes.
+template <int Dim>
+template <class Law>
+void Contact<Dim>::resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt,
+                                const ContactNode<Dim>& node) {
+  auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot; };
+  Side<Dim> all;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    all.mass += mass[slot_of(k)];
+    all.momentum += nodes.vector(Nodal::momentum, slot_of(k));
+  }
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const double m_a = mass[slot_of(entry.a)];
+    const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(entry.a));
+    double reduced = m_a * (all.mass - m_a) / all.mass;
+    Vec<Dim> stick = (m_a / all.mass) * all.momentum - p_a;
+    if (node.rigid >= 0) {  // m_b → ∞: b keeps its velocity
+      const int r = slot_of(node.rigid);
+      stick = (m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a;
+      reduced = m_a;
+    }
+    double separation = entry.separation;
+    if (entry.touched) separation -= spec_.hysteresis * state.grid.cell;
+    if (correction == Correction::final && spec_.advance_separation)
+      separation += stick.dot(entry.normal) * dt / reduced;  // NN Eq. 3.56
+    entry.impulse = resolve_pair<Dim>(stick, entry.normal, separation, law);
+    entry.touching = !entry.impulse.isZero(0);
+    const Vec<Dim> tangential = entry.impulse - entry.impulse.dot(entry.normal) * entry.normal;
+    entry.friction_work = Law::scope == LawScope::contact ? tangential.dot(stick - entry.impulse) / reduced : 0.0;
+  }
+  const auto apply = [&](int slot, const Vec<Dim>& impulse) {
+    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
+    if (correction == Correction::final)
+      nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
+    else if (keep_velocity_change_)
+      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] = impulse[d] / mass[slot];
+  };
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (!entry.touching) continue;
+    apply(slot_of(entry.a), entry.impulse);
+    if (entry.b >= 0 && entry.b != node.rigid) apply(slot_of(entry.b), -entry.impulse);
+  }
+}
+
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

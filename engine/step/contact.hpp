@@ -1,0 +1,62 @@
+#pragma once
+
+/// @file Contact between velocity fields: which nodes, and the two corrections of a step (theory §4).
+
+#include <vector>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
+#include "engine/step/contact_list.hpp"
+#include "engine/step/passes.hpp"
+
+namespace mpmfast {
+
+/// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force).
+enum class Correction { initial, final };
+
+template <int Dim>
+class Contact {
+ public:
+  Contact(const ContactSpec& spec, bool keep_velocity_change)
+      : spec_(spec), keep_velocity_change_(keep_velocity_change) {}
+
+  /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
+  void find_nodes(const State<Dim>& state);
+
+  /// Normals and separations of all entries: they hold for both corrections.
+  void find_geometry(State<Dim>& state, Passes<Dim>& passes);
+
+  /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
+  /// final: forces change too, friction work and the impulses on rigid bodies are summed.
+  void resolve(State<Dim>& state, Correction correction, double dt);
+
+  const ContactList<Dim>& list() const { return list_; }
+  double friction_work() const { return friction_work_; }                     ///< J, of the last step
+  const std::vector<Vec<Dim>>& rigid_impulse() const { return rigid_impulse_; }  ///< N s, by field, of the last step
+
+ private:
+  void list_stack(const State<Dim>& state, int stack);
+  void add_entries(ContactNode<Dim>& node, const double* mass);
+  void remember_touching();
+  void recall_touching(const State<Dim>& state);
+  void grid_normals(const State<Dim>& state);
+  void grid_separations(const State<Dim>& state);
+  template <class Law>
+  void resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt);
+  template <class Law>
+  void resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt, const ContactNode<Dim>& node);
+  std::uint64_t entry_key(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+
+  ContactSpec spec_;
+  bool keep_velocity_change_;
+  ContactList<Dim> list_;
+  std::vector<std::uint64_t> keys_;      ///< of the entries, kept for the hysteresis
+  std::vector<std::uint64_t> touching_;  ///< keys of the entries in contact at the end of the last step, ascending
+  double friction_work_ = 0;
+  std::vector<Vec<Dim>> rigid_impulse_;
+};
+
+extern template class Contact<2>;
+extern template class Contact<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,52 @@
+#pragma once
+
+/// @file The nodes where velocity fields meet, and what is known of the contact there.
+
+#include <cstdint>
+#include <vector>
+
+#include "kernels/dimension.hpp"
+
+namespace mpmfast {
+
+/// A velocity field with mass at a contact node.
+struct ContactField {
+  int field, slot;
+};
+
+/// One field against the rest of a node.
+template <int Dim>
+struct ContactEntry {
+  int a;                    ///< which of the node's fields
+  int b;                    ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
+  Vec<Dim> normal;          ///< unit, from a to the rest; zero: unknown, no contact
+  double separation = 0;    ///< m, negative: overlap
+  bool touched = false;     ///< in contact at the end of the last step (for the hysteresis)
+  bool touching = false;    ///< in contact at the last correction
+  double friction_work = 0; ///< J, of the last correction
+  Vec<Dim> impulse;         ///< Δp_a of the last correction
+};
+
+template <int Dim>
+struct ContactNode {
+  int stack, local;
+  NodeIndex<Dim> node;             ///< coordinates
+  int field_begin, field_end;      ///< into ContactList::fields
+  int entry_begin, entry_end;      ///< into ContactList::entries
+  int rigid;                       ///< which of its fields is the rigid one; −1: none
+};
+
+struct ContactCounters {
+  std::uint64_t nodes_peak = 0, regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
+};
+
+template <int Dim>
+struct ContactList {
+  std::vector<ContactNode<Dim>> nodes;
+  std::vector<ContactField> fields;
+  std::vector<ContactEntry<Dim>> entries;
+  std::vector<int> node_at;        ///< [stack · kTileNodes + local] → contact node or −1
+  ContactCounters counters;
+};
+
+}  // namespace mpmfast

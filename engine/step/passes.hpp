@@ -1,0 +1,43 @@
+#pragma once
+
+/// @file The passes that depend on the basis, as the step calls them: one virtual call a pass, none per particle.
+
+#include <memory>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
+#include "engine/step/contact_list.hpp"
+#include "kernels/transfer/update.hpp"
+
+namespace mpmfast {
+
+template <int Dim>
+class Passes {
+ public:
+  virtual ~Passes() = default;
+
+  /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
+  virtual void shape_domains(State<Dim>& state) = 0;
+  /// First support node of every particle, and the sort that follows from it.
+  virtual void sort(State<Dim>& state) = 0;
+  /// Mass and momentum of every slot (N20 Eq. 5); the columns must be zero.
+  /// @return false if a particle's support left its window: sort and start again
+  virtual bool project(State<Dim>& state) = 0;
+  /// Volume gradients and mean positions of the slots.
+  virtual void project_geometry(State<Dim>& state) = 0;
+  /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
+  /// @return smallest J that was met
+  virtual double strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;
+  /// One order of XPIC: next += Σ_p S_pi M_p S_p star. @param paired carries Δv* beside v*
+  virtual void xpic(State<Dim>& state, bool paired) = 0;
+  /// New particle velocities, positions, (strain last) strains, domains.
+  virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) = 0;
+  /// Normals by regression and separations by ellipsoids of the listed contact entries.
+  virtual void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) = 0;
+};
+
+/// The passes of a basis.
+template <int Dim>
+std::unique_ptr<Passes<Dim>> make_passes(BasisKind basis);
+
+}  // namespace mpmfast

@@ -1,0 +1,351 @@
+#include "engine/step/step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "engine/errors.hpp"
+#include "engine/plan/seed.hpp"
+#include "engine/scene/time_table.hpp"
+
+namespace mpmfast {
+
+template <int Dim>
+Step<Dim>::Step(const Scene& scene)
+    : scene_(&scene),
+      plan_(make_plan(scene)),
+      passes_(make_passes<Dim>(scene.method.basis)),
+      conditions_(scene),
+      contact_(scene.contact, plan_.paired) {
+  seed(scene, plan_, state_);
+  passes_->shape_domains(state_);
+  state_.nodes.plan(plan_.nodal_columns, plan_.paired);
+  sums_.boundary_impulse.assign(scene.boundaries.size(), Vec<Dim>::Zero());
+  sums_.rigid_impulse.assign(plan_.fields.size(), Vec<Dim>::Zero());
+  for (int d = 0; d < Dim; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    lower_[d] = scene.grid.origin[k] - scene.grid.cell;
+    upper_[d] = scene.grid.origin[k] + scene.grid.size[k] + scene.grid.cell;
+  }
+  for (std::size_t p = 0; p < state_.particles.size(); ++p)
+    fastest_ = std::max(fastest_, state_.particles.column(Quantity::wave_speed)[p] +
+                                      state_.particles.vector(Quantity::velocity, p).norm());
+}
+
+template <int Dim>
+double Step<Dim>::stable_dt() const {
+  double fastest = std::max(fastest_, conditions_.fastest());
+  for (const auto& body : scene_->bodies) {
+    double squared = 0;
+    for (std::size_t d = 0; d < Dim; ++d) {
+      const double v = body.rigid_velocity[d] ? largest(*body.rigid_velocity[d]) : body.velocity[d];
+      squared += v * v;
+    }
+    fastest = std::max(fastest, std::sqrt(squared));
+  }
+  return std::min(scene_->time.max_step, scene_->time.cfl * scene_->grid.cell / fastest);
+}
+
+template <int Dim>
+void Step<Dim>::advance(double dt) {
+  move_rigid_start(dt);
+  sort_if_due();
+  project();  // N20 Eq. 5
+  clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
+  find_contact();
+  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::initial, dt); });  // Eq. 26
+  start_velocities();
+  const double smallest_j = clock_.time(Pass::strain_force, [&] {  // Eq. 28, 29
+    return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
+  });
+  if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
+  add_body_force(dt);
+  clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt); });
+  update_momenta(dt);  // Eq. 30
+  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::final, dt); });  // Eq. 31, 33
+  clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
+  end_velocities(dt);
+  filter_velocities();   // Eq. 42 to 44
+  update_particles(dt);  // Eq. 32, 35, 38, 41
+  move_rigid_end(dt);
+  book(dt);
+  state_.time += dt;
+  ++state_.step;
+}
+
+/// Calls f(first slot, last slot) over all slots, in parallel.
+template <int Dim>
+template <class F>
+void Step<Dim>::for_each_slot(F f) {
+  constexpr std::int64_t block = 512;
+  const auto n = static_cast<std::int64_t>(state_.tiling.slots());
+  const std::int64_t blocks = (n + block - 1) / block;
+#pragma omp parallel for schedule(static) if (blocks > 4)
+  for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
+}
+
+/// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of date; half a
+/// cell is kept for the growth of CPDI domains.
+template <int Dim>
+void Step<Dim>::sort_if_due() {
+  if (!sort_due_ && travelled_ < 0.5 * state_.grid.cell) return;
+  clock_.time(Pass::sort, [&] { passes_->sort(state_); });
+  conditions_.forget_nodes();
+  nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
+  sort_due_ = false;
+  travelled_ = 0;
+}
+
+template <int Dim>
+void Step<Dim>::project() {
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const bool inside = clock_.time(Pass::project, [&] {
+      auto& nodes = state_.nodes;
+      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+        const auto bytes = static_cast<std::size_t>(end - begin) * sizeof(double);
+        const auto clear = [&](Nodal q, int components) {
+          if (!nodes.has(q)) return;
+          for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
+        };
+        clear(Nodal::mass, 1);
+        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position}) clear(q, Dim);
+        if (plan_.paired)
+          for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
+      });
+      const bool all_inside = passes_->project(state_);
+      if (all_inside && plan_.geometry) passes_->project_geometry(state_);
+      return all_inside;
+    });
+    if (inside) return;
+    sort_due_ = true;
+    sort_if_due();
+  }
+  fail("it moved further than the grid can follow in one step");
+}
+
+template <int Dim>
+void Step<Dim>::find_contact() {
+  if (!plan_.contact) return;
+  clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
+  clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
+}
+
+/// v = p/m after the first contact correction: for XPIC as it is, for the strain with conditions imposed on the copy.
+template <int Dim>
+void Step<Dim>::start_velocities() {
+  clock_.time(Pass::nodes, [&] {
+    auto& nodes = state_.nodes;
+    const double* mass = nodes.column(Nodal::mass);
+    const bool xpic = plan_.order > 1;
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        const double* p = nodes.column(Nodal::momentum, d);
+        double* v = nodes.column(Nodal::velocity, d);
+        for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
+        if (xpic) std::copy(v + begin, v + end, nodes.column(Nodal::star, d) + begin);
+      }
+    });
+  });
+  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
+}
+
+/// f += m g(t), g ramped from zero. Its work is booked with v⁺ in end_velocities.
+template <int Dim>
+void Step<Dim>::add_body_force(double dt) {
+  if (!plan_.gravity) return;
+  const auto& gravity = scene_->gravity;
+  const double middle = state_.time + 0.5 * dt;
+  const double share = gravity.ramp > 0 ? std::min(1.0, middle / gravity.ramp) : 1.0;
+  const double* mass = state_.nodes.column(Nodal::mass);
+  for (int d = 0; d < Dim; ++d) {
+    const double g = share * gravity.acceleration[static_cast<std::size_t>(d)];
+    gravity_[d] = g;
+    double* f = state_.nodes.column(Nodal::force, d);
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t i = begin; i < end; ++i) f[i] += mass[i] * g;
+    });
+  }
+}
+
+template <int Dim>
+void Step<Dim>::update_momenta(double dt) {
+  clock_.time(Pass::nodes, [&] {
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        const double* f = state_.nodes.column(Nodal::force, d);
+        double* p = state_.nodes.column(Nodal::momentum, d);
+        for (std::int64_t i = begin; i < end; ++i) p[i] += f[i] * dt;
+      }
+    });
+  });
+}
+
+/// v⁺ = p⁺/m, and a Δt = f Δt/m in place of the force.
+template <int Dim>
+void Step<Dim>::end_velocities(double dt) {
+  clock_.time(Pass::nodes, [&] {
+    const double* mass = state_.nodes.column(Nodal::mass);
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        const double* p = state_.nodes.column(Nodal::momentum, d);
+        double* v = state_.nodes.column(Nodal::velocity, d);
+        double* f = state_.nodes.column(Nodal::force, d);
+        for (std::int64_t i = begin; i < end; ++i) {
+          v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
+          f[i] = mass[i] > 0 ? f[i] * dt / mass[i] : 0;
+        }
+      }
+    });
+  });
+}
+
+/// series = m (v − v*), v* = Σ_{k=2..m} (−1)^k (v*_k + (m−1)/m Δv*_{k−1}), with v*_k = (m+1−k)/k S⁺S v*_{k−1} and
+/// Δv*_k = (m−k)/k S⁺S Δv*_{k−1} (N20 Eq. 42 to 44); S⁺ is the extrapolation within a field, divided by its mass.
+template <int Dim>
+void Step<Dim>::filter_velocities() {
+  if (plan_.order < 2) return;
+  auto& nodes = state_.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const int m = plan_.order;
+  // Without a contact node, Δv is zero everywhere.
+  const bool paired = plan_.paired && !contact_.list().nodes.empty();
+  clock_.time(Pass::nodes, [&] {
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d)
+        for (std::int64_t i = begin; i < end; ++i)
+          nodes.column(Nodal::series, d)[i] = m * nodes.column(Nodal::star, d)[i];
+    });
+  });
+  for (int k = 2; k <= m; ++k) {
+    clock_.time(Pass::xpic, [&] {
+      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+        for (int d = 0; d < (paired ? 2 : 1) * Dim; ++d)
+          std::fill(nodes.column(Nodal::next, d) + begin, nodes.column(Nodal::next, d) + end, 0.0);
+      });
+      passes_->xpic(state_, paired);
+    });
+    const double sign = k % 2 == 0 ? m : -m;  // with the factor m of Eq. 41
+    const double share = static_cast<double>(m - 1) / m;
+    const double star_factor = static_cast<double>(m + 1 - k) / k, change_factor = static_cast<double>(m - k) / k;
+    clock_.time(Pass::nodes, [&] {
+      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+        for (int d = 0; d < Dim; ++d) {
+          double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
+          const double* next = nodes.column(Nodal::next, d);
+          for (std::int64_t i = begin; i < end; ++i) {
+            star[i] = mass[i] > 0 ? star_factor * next[i] / mass[i] : 0;
+            series[i] -= sign * star[i];
+          }
+          if (!paired) continue;
+          double* change = nodes.column(Nodal::star, Dim + d);
+          const double* change_next = nodes.column(Nodal::next, Dim + d);
+          for (std::int64_t i = begin; i < end; ++i) {
+            series[i] -= sign * share * change[i];
+            change[i] = mass[i] > 0 ? change_factor * change_next[i] / mass[i] : 0;
+          }
+        }
+      });
+    });
+  }
+}
+
+template <int Dim>
+void Step<Dim>::update_particles(double dt) {
+  const UpdateRule rule{plan_.update, plan_.position, dt, (1 - plan_.strain_first) * dt, plan_.deformation_terms};
+  const TileReport report = clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
+  fastest_ = report.fastest;
+  travelled_ += report.speed * dt;
+  if (!(report.smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
+  if (report.lost) fail("it left the grid or is not a number");
+}
+
+/// Rigid particles carry the mean speed of the step, so that the grid sees it too.
+template <int Dim>
+void Step<Dim>::move_rigid_start(double dt) {
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+    if (!state_.bodies[b].rigid) continue;
+    for (int d = 0; d < Dim; ++d) {
+      const auto& table = scene_->bodies[b].rigid_velocity[static_cast<std::size_t>(d)];
+      if (!table) continue;
+      const double v = mean_over(*table, state_.time, dt);
+      for (std::size_t p = 0; p < state_.particles.size(); ++p)
+        if (state_.particles.body()[p] == b) state_.particles.column(Quantity::velocity, d)[p] = v;
+    }
+  }
+}
+
+template <int Dim>
+void Step<Dim>::move_rigid_end(double dt) {
+  if (std::none_of(plan_.field_rigid.begin(), plan_.field_rigid.end(), [](bool r) { return r; })) return;
+  double fastest = 0;
+  for (std::size_t p = 0; p < state_.particles.size(); ++p) {
+    if (!state_.bodies[state_.particles.body()[p]].rigid) continue;
+    const Vec<Dim> v = state_.particles.vector(Quantity::velocity, p);
+    fastest = std::max(fastest, v.norm());
+    for (int d = 0; d < Dim; ++d) {
+      double& x = state_.particles.column(Quantity::position, d)[p];
+      x += dt * v[d];
+      if (!(x > lower_[d] && x < upper_[d])) fail("it left the grid or is not a number");
+    }
+  }
+  travelled_ += fastest * dt;
+}
+
+template <int Dim>
+void Step<Dim>::book(double dt) {
+  sums_.boundary_work += conditions_.work();
+  for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
+    sums_.boundary_impulse[b] += dt * conditions_.force()[b];
+  if (plan_.contact) {
+    sums_.friction_work += contact_.friction_work();
+    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) sums_.rigid_impulse[f] += contact_.rigid_impulse()[f];
+  }
+  if (plan_.gravity) {
+    double power = 0;
+    const double* mass = state_.nodes.column(Nodal::mass);
+    for (int d = 0; d < Dim; ++d) {
+      const double *v = state_.nodes.column(Nodal::velocity, d), *jump = state_.nodes.column(Nodal::force, d);
+      double sum = 0;
+      for (int i = 0; i < state_.tiling.slots(); ++i) sum += mass[i] * (v[i] - 0.5 * jump[i]);
+      power += gravity_[d] * sum;
+    }
+    sums_.body_force_work += power * dt;
+  }
+}
+
+template <int Dim>
+double Step<Dim>::stored_energy() const {
+  return mpmfast::stored_energy(state_);
+}
+
+/// Names the particle with the smallest id that is not finite, outside the grid or without volume.
+template <int Dim>
+void Step<Dim>::fail(const char* what) const {
+  const auto& particles = state_.particles;
+  std::size_t worst = particles.size();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec<Dim> x = particles.vector(Quantity::position, p), v = particles.vector(Quantity::velocity, p);
+    const bool inside = x.allFinite() && v.allFinite() && (x.array() > lower_.array()).all() &&
+                        (x.array() < upper_.array()).all();
+    const bool sound = particles.deformation_gradient(p).determinant() > 0;
+    if (inside && sound) continue;
+    if (worst == particles.size() || particles.id()[p] < particles.id()[worst]) worst = p;
+  }
+  const std::string when = fmt::format("step {}, time {:.9g} s", state_.step, state_.time);
+  if (worst == particles.size()) throw RunFailure(fmt::format("{}: a particle was lost: {}", when, what));
+  const Vec<Dim> x = particles.vector(Quantity::position, worst);
+  std::string place = fmt::format("{:.6g}, {:.6g}", x[0], x[1]);
+  if constexpr (Dim == 3) place += fmt::format(", {:.6g}", x[2]);
+  const auto body = static_cast<std::size_t>(particles.body()[worst]);
+  throw RunFailure(fmt::format("{}: particle {} of body '{}' (velocity field '{}') at ({}) m: {}", when,
+                               particles.id()[worst], scene_->bodies[body].name,
+                               plan_.fields[static_cast<std::size_t>(plan_.body_field[body])], place, what));
+}
+
+template class Step<2>;
+template class Step<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,85 @@
+#pragma once
+
+/// @file One time step (theory §2), for either dimension and any basis.
+
+#include <memory>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
+#include "engine/step/clock.hpp"
+#include "engine/step/conditions.hpp"
+#include "engine/step/contact.hpp"
+#include "engine/step/passes.hpp"
+
+namespace mpmfast {
+
+/// What a run adds up over its steps.
+template <int Dim>
+struct Sums {
+  double friction_work = 0, boundary_work = 0, body_force_work = 0;  ///< J
+  std::vector<Vec<Dim>> boundary_impulse;                            ///< N s, as Scene::boundaries
+  std::vector<Vec<Dim>> rigid_impulse;                               ///< N s, by velocity field
+};
+
+template <int Dim>
+class Step {
+ public:
+  /// Seeds the scene. Throws SceneError.
+  explicit Step(const Scene& scene);
+
+  /// The stable time step now: C Δx / max(c + |v|), s.
+  double stable_dt() const;
+
+  /// Advances the state by dt. Throws RunFailure.
+  void advance(double dt);
+
+  State<Dim>& state() { return state_; }
+  const State<Dim>& state() const { return state_; }
+  const Plan& plan() const { return plan_; }
+  const Sums<Dim>& sums() const { return sums_; }
+  Sums<Dim>& sums() { return sums_; }
+  const PassClock& clock() const { return clock_; }
+  const ContactCounters& contact_counters() const { return contact_.list().counters; }
+  std::uint64_t nodes_peak() const { return nodes_peak_; }
+  double stored_energy() const;
+
+ private:
+  void sort_if_due();
+  void move_rigid_start(double dt);
+  void project();
+  void find_contact();
+  void start_velocities();
+  void add_body_force(double dt);
+  void update_momenta(double dt);
+  void end_velocities(double dt);
+  void filter_velocities();
+  void update_particles(double dt);
+  void move_rigid_end(double dt);
+  void book(double dt);
+  [[noreturn]] void fail(const char* what) const;
+
+  template <class F>
+  void for_each_slot(F f);
+
+  const Scene* scene_;
+  Plan plan_;
+  State<Dim> state_;
+  std::unique_ptr<Passes<Dim>> passes_;
+  Conditions<Dim> conditions_;
+  Contact<Dim> contact_;
+  Sums<Dim> sums_;
+  PassClock clock_;
+  Vec<Dim> lower_, upper_;         ///< box that particles must stay in, m
+  double fastest_ = 0;             ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;           ///< bound on any particle's path since the last sort, m
+  Vec<Dim> gravity_ = Vec<Dim>::Zero();  ///< of this step, m/s²
+  bool sort_due_ = true;
+  std::uint64_t nodes_peak_ = 0;
+};
+
+extern template class Step<2>;
+extern template class Step<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,22 @@
+#pragma once
+
+/// @file The particles around a contact node, as the contact kernels see them.
+
+#include "kernels/simd/lanes.hpp"
+
+namespace mpmfast {
+
+/// Point cloud of one contact node: every particle with S_pi ≠ 0 there. Coordinates relative to the node in
+/// cells; class −1 for field a, +1 for the rest. The arrays are readable up to the next multiple of kLanes,
+/// and the caller fills the rest with coordinates and side 0: side 0 marks an entry that does not count.
+template <int Dim>
+struct CloudView {
+  const double* xi[Dim];
+  const double* side;
+  int count;
+};
+
+/// Entries that the arrays of a cloud of this many particles must have.
+constexpr int padded_count(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
+}  // namespace mpmfast

@@ -1,0 +1,120 @@
+/// Contact laws on one node with two fields.
+
+#include <doctest/doctest.h>
+
+#include "kernels/contact/laws.hpp"
+#include "tests/unit/contact_cloud.hpp"
+
+using namespace mpmfast;
+using namespace mpmfast::test;
+
+namespace {
+
+using TwoD = std::integral_constant<int, 2>;
+using ThreeD = std::integral_constant<int, 3>;
+
+/// Two fields on a node.
+template <int Dim>
+struct Pair {
+  double mass_a, mass_b;
+  Vec<Dim> momentum_a, momentum_b;
+
+  explicit Pair(Draw& draw) : mass_a(uniform(draw, 0.01, 2)), mass_b(uniform(draw, 0.01, 2)) {
+    momentum_a = mass_a * uniform(draw, 0, 5) * random_direction<Dim>(draw);
+    momentum_b = mass_b * uniform(draw, 0, 5) * random_direction<Dim>(draw);
+  }
+  /// Δp_a(0): what gives both one velocity.
+  Vec<Dim> stick() const { return mass_a / (mass_a + mass_b) * (momentum_a + momentum_b) - momentum_a; }
+  double kinetic(const Vec<Dim>& change) const {
+    return 0.5 * (momentum_a + change).squaredNorm() / mass_a + 0.5 * (momentum_b - change).squaredNorm() / mass_b;
+  }
+  Vec<Dim> velocity_jump(const Vec<Dim>& change) const {
+    return (momentum_b - change) / mass_b - (momentum_a + change) / mass_a;
+  }
+};
+
+template <int Dim, class Law>
+void check_dissipation_and_detection(const Law& law) {
+  Draw draw(1);
+  for (int k = 0; k < 500; ++k) {
+    const Pair<Dim> pair(draw);
+    const Vec<Dim> n = random_direction<Dim>(draw), stick = pair.stick();
+    const Vec<Dim> change = resolve_pair<Dim>(stick, n, -0.1, law);
+    CHECK(pair.kinetic(change) <= pair.kinetic(Vec<Dim>::Zero()) * (1 + 1e-13));
+    if (Law::scope != LawScope::contact) continue;
+    CHECK(resolve_pair<Dim>(stick, n, 0.0, law) == Vec<Dim>::Zero());
+    CHECK(resolve_pair<Dim>(stick, n, 0.1, law) == Vec<Dim>::Zero());
+    if (stick.dot(n) >= 0) CHECK(change == Vec<Dim>::Zero());
+    // In contact the surfaces no longer approach: the normal velocities are equal.
+    if (stick.dot(n) < 0) CHECK(std::abs(pair.velocity_jump(change).dot(n)) < 1e-10 * (1 + stick.norm() / pair.mass_a));
+    // b sees the same pair from its side: opposite stick momentum and opposite normal.
+    CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law) + change).norm() <= 1e-15 * stick.norm());
+  }
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("laws never add kinetic energy and act only on touching, approaching surfaces", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  for (const double friction : {0.0, 0.2, 1.0, 50.0}) check_dissipation_and_detection<Dim>(Coulomb{friction});
+  check_dissipation_and_detection<Dim>(Frictionless{});
+  check_dissipation_and_detection<Dim>(Stick{});
+  check_dissipation_and_detection<Dim>(Perfect{});
+  check_dissipation_and_detection<Dim>(Ignore{});
+}
+
+TEST_CASE_TEMPLATE("Coulomb: on the cone when sliding, along the sliding, whole inside it", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(2);
+  int slid = 0, stuck = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Vec<Dim> n = random_direction<Dim>(draw), stick = uniform(draw, 0.1, 3) * random_direction<Dim>(draw);
+    const double along = stick.dot(n), friction = uniform(draw, 0, 1.5);
+    if (along >= 0) continue;
+    const Vec<Dim> shear = stick - along * n, change = resolve_pair<Dim>(stick, n, -0.1, Coulomb{friction});
+    const Vec<Dim> change_shear = change - change.dot(n) * n;
+    CHECK(change.dot(n) == doctest::Approx(along).epsilon(1e-12));
+    CHECK(change_shear.norm() <= friction * -along * (1 + 1e-12));
+    if (shear.norm() > friction * -along) {
+      ++slid;
+      CHECK(change_shear.norm() == doctest::Approx(friction * -along).epsilon(1e-11));
+      CHECK((change_shear.norm() * shear - shear.norm() * change_shear).norm() < 1e-12);
+    } else {
+      ++stuck;
+      CHECK(change == stick);
+    }
+  }
+  CHECK(slid > 50);
+  CHECK(stuck > 50);
+}
+
+TEST_CASE_TEMPLATE("limits: no friction, endless friction, tied and ignored surfaces", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(3);
+  for (int k = 0; k < 200; ++k) {
+    const Vec<Dim> n = random_direction<Dim>(draw), stick = random_direction<Dim>(draw);
+    for (const double separation : {-0.1, 0.1}) {
+      CHECK((resolve_pair<Dim>(stick, n, separation, Coulomb{0}) -
+             resolve_pair<Dim>(stick, n, separation, Frictionless{}))
+                .norm() < 1e-15);
+      if (std::abs(stick.dot(n)) > 1e-6)
+        CHECK(resolve_pair<Dim>(stick, n, separation, Coulomb{1e12}) == resolve_pair<Dim>(stick, n, separation, Stick{}));
+      CHECK(resolve_pair<Dim>(stick, n, separation, Perfect{}) == stick);
+      CHECK(resolve_pair<Dim>(stick, n, separation, Ignore{}) == Vec<Dim>::Zero());
+    }
+  }
+  // Head on: nothing to slide, no division by the vanishing shear.
+  const Vec<Dim> n = Vec<Dim>::Unit(0);
+  CHECK(resolve_pair<Dim>(-2.0 * n, n, -0.1, Coulomb{0}) == -2.0 * n);
+  CHECK(resolve_pair<Dim>(-2.0 * n, n, -0.1, Frictionless{}) == -2.0 * n);
+}
+
+TEST_CASE("every law has a name of its own and says what it is") {
+  CHECK(Coulomb::keys[0].name == "friction");
+  const std::string_view names[] = {Coulomb::name, Frictionless::name, Stick::name, Perfect::name, Ignore::name};
+  for (std::size_t i = 0; i < 5; ++i)
+    for (std::size_t j = 0; j < i; ++j) CHECK(names[i] != names[j]);
+  for (const auto text : {Coulomb::description, Frictionless::description, Stick::description, Perfect::description,
+                          Ignore::description})
+    CHECK(!text.empty());
+}

@@ -1,0 +1,144 @@
+#include <doctest/doctest.h>
+
+#define STB_IMAGE_STATIC
+#define STB_IMAGE_IMPLEMENTATION
+#include <stb_image.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "engine/output/scales.hpp"
+#include "tests/unit/output_fixture.hpp"
+
+using namespace output_test;
+
+namespace {
+
+struct Png {
+  explicit Png(const std::filesystem::path& path)
+      : pixel(stbi_load(path.c_str(), &width, &height, &channels, 3), stbi_image_free) {
+    REQUIRE(pixel);
+  }
+  std::array<int, 3> at(int x, int y) const {
+    const unsigned char* p = pixel.get() + 3 * (y * width + x);
+    return {p[0], p[1], p[2]};
+  }
+  std::size_t count(Colour colour) const {
+    std::size_t found = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        found += at(x, y) == std::array<int, 3>{colour.red, colour.green, colour.blue} ? 1u : 0u;
+    return found;
+  }
+  int width = 0, height = 0, channels = 0;
+  std::unique_ptr<unsigned char, void (*)(void*)> pixel;
+};
+
+/// A square lattice that fills [0, 1]² with two bodies side by side.
+Particles<2> lattice(int side) {
+  Particles<2> particles;
+  particles.allocate(static_cast<std::size_t>(side * side), {Quantity::position, Quantity::velocity,
+                                                             Quantity::deformation_gradient, Quantity::initial_volume,
+                                                             Quantity::kirchhoff_stress});
+  for (int i = 0; i < side * side; ++i) {
+    const auto p = static_cast<std::size_t>(i);
+    particles.id()[p] = static_cast<std::uint32_t>(i);
+    particles.column(Quantity::position, 0)[p] = (i % side + 0.5) / side;
+    particles.column(Quantity::position, 1)[p] = (i / side + 0.5) / side;
+    particles.body()[p] = particles.column(Quantity::position, 0)[p] < 0.5 ? 0 : 1;
+    particles.column(Quantity::initial_volume)[p] = 1.0 / (side * side);
+    particles.column(Quantity::deformation_gradient, 0)[p] = 1;
+    particles.column(Quantity::deformation_gradient, 3)[p] = 1;
+    particles.column(Quantity::kirchhoff_stress, 0)[p] = particles.column(Quantity::position, 0)[p];
+  }
+  return particles;
+}
+
+}  // namespace
+
+TEST_CASE("a picture is a PNG of the right size whose particles leave no gaps") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "picture_body.png";
+  draw_particles(path, lattice(20), small_scene(Space::plane_strain), "body", 1e-3);
+  const Png png(path);
+  CHECK(std::max(png.width, png.height) == 1000);
+  CHECK(std::min(png.width, png.height) > 800);
+  const std::size_t first = png.count(body_colour(0)), second = png.count(body_colour(1));
+  CHECK(first == doctest::Approx(static_cast<double>(second)).epsilon(0.01));
+  // The plot box is the unit square and 2 % around it, in a picture with some 90 pixels of margins.
+  CHECK(first + second > 0.9 * std::pow((png.width - 120) / 1.04, 2));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "picture_body.png.tmp"));
+}
+
+TEST_CASE("pictures of no particles, of NaN and of missing columns do not fail") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.png";
+  const Scene flat = small_scene(Space::plane_strain), solid = small_scene(Space::three_dimensional);
+  draw_particles(path, Particles<2>(), flat, "body", 0);
+  CHECK(Png(path).width > 200);
+  draw_particles(path, Particles<3>(), solid, "pressure", 0);
+  CHECK(Png(path).width > 200);
+
+  Particles<2> particles = lattice(4);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  particles.column(Quantity::position, 0)[0] = kNan;
+  particles.column(Quantity::position, 1)[1] = std::numeric_limits<double>::infinity();
+  particles.column(Quantity::kirchhoff_stress, 0)[2] = kNan;
+  particles.column(Quantity::deformation_gradient, 0)[3] = kNan;
+  for (const char* field : {"body", "pressure", "von_mises", "speed", "stress_xx", "stress_xz"}) {
+    draw_particles(path, particles, flat, field, kNan);
+    CHECK(Png(path).width > 200);
+  }
+  Particles<2> bare;
+  bare.allocate(3, {Quantity::position});
+  draw_particles(path, bare, flat, "pressure", 0);
+  CHECK(Png(path).width > 200);
+  CHECK_THROWS_AS(draw_particles(path, particles, flat, "colour", 0), std::invalid_argument);
+}
+
+TEST_CASE("a picture in 3-D shows the near bodies") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.png";
+  draw_particles(path, particles_in_order<3>(ascending(2000)), small_scene(Space::three_dimensional), "body", 1e-3);
+  const Png png(path);
+  CHECK(std::max(png.width, png.height) == 1000);
+  CHECK(png.count(body_colour(0)) > 1000);
+}
+
+TEST_CASE("a few outliers do not stretch the colour range, and a constant field has one") {
+  std::vector<double> values(1001);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<double>(i);
+  values[0] = -1e30;
+  values[1000] = std::numeric_limits<double>::quiet_NaN();
+  const Range range = robust_range(values);
+  CHECK(range.lower == doctest::Approx(5));
+  CHECK(range.upper == doctest::Approx(994));
+  const Range constant = robust_range(std::vector<double>(10, 3.0));
+  CHECK(constant.lower < 3);
+  CHECK(constant.upper > 3);
+  CHECK(robust_range({}).width() > 0);
+}
+
+TEST_CASE("a field of both signs has a range symmetric about zero; a trace of the other sign does not count") {
+  CHECK(ColourScale({-2, 5}).range().lower == -5);
+  CHECK(ColourScale({-7, 5}).range().upper == 7);
+  CHECK(ColourScale({-0.1, 5}).range().lower == -0.1);
+  CHECK(ColourScale({1, 5}).range().lower == 1);
+}
+
+TEST_CASE("ticks are round and units of a sensible size") {
+  const auto ticks = round_ticks({-0.03, 1.02}, 5);
+  REQUIRE(ticks.size() == 6);
+  CHECK(ticks.front() == 0);
+  CHECK(ticks.back() == doctest::Approx(1));
+  CHECK(tick_label(0.6000000000000001, 0.2) == "0.6");
+  CHECK(tick_label(-1e-17, 0.2) == "0");
+  CHECK(tick_label(100, 20) == "100");
+  CHECK(display_unit(1.05e11, "Pa").name == "GPa");
+  CHECK(display_unit(2e-3, "m").name == "mm");
+  CHECK(display_unit(1.5e-5, "s").name == "us");
+  CHECK(display_unit(3000, "s").name == "s");
+  CHECK(display_unit(0, "Pa").name == "Pa");
+}

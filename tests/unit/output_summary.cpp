@@ -1,0 +1,91 @@
+#include <doctest/doctest.h>
+
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "engine/errors.hpp"
+#include "tests/unit/output_fixture.hpp"
+
+using namespace output_test;
+
+TEST_CASE_TEMPLATE("the checksum does not depend on the order of the particles, but on every bit of them", D,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
+  constexpr int Dim = D::value;
+  Particles<Dim> particles = particles_in_order<Dim>(ascending(500));
+  const std::string before = checksum(particles);
+  CHECK(before.size() == 32);
+  CHECK(before.find_first_not_of("0123456789abcdef") == std::string::npos);
+  CHECK(checksum(particles_in_order<Dim>(shuffled(500))) == before);
+  for (const Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient,
+                           Quantity::kirchhoff_stress}) {
+    double& value = particles.column(q, Particles<Dim>::components(q) - 1)[123];
+    const double kept = value;
+    value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
+    CHECK(checksum(particles) != before);
+    value = kept;
+  }
+  particles.body()[7] = 9;
+  CHECK(checksum(particles) != before);
+}
+
+TEST_CASE("run.json has the keys of the output contract") {
+  const TemporaryFolder folder;
+  RunSummary summary;
+  summary.scene_name = "gap";
+  summary.status = "failed";
+  summary.reason = "J = 0.03 \xff";  // not UTF-8: a message may quote a file name
+  summary.steps = 12;
+  summary.dt_max = std::numeric_limits<double>::infinity();
+  summary.seconds = {{"project", 1.5}, {"contact", 2.5}};
+  summary.contact.regressions = 99;
+  summary.overrides = {"time.cfl=0.3"};
+  summary.resolved_yaml = "a";
+  write_run_json(folder.path(), summary);
+  const auto json = nlohmann::json::parse(read_text(folder.path() / "run.json"));
+  for (const char* key : {"version", "git", "compiler", "flags", "cpu", "threads", "scene", "status", "reason",
+                          "dimension", "particles", "fields", "nodes_active_peak", "steps", "time_s", "dt_min_s",
+                          "dt_max_s", "wall_s", "particle_steps_per_s", "peak_memory_bytes", "seconds", "contact",
+                          "energy_error", "checksum", "command", "overrides"})
+    CHECK_MESSAGE(json.contains(key), key);
+  for (const char* key : {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged"})
+    CHECK_MESSAGE(json["contact"].contains(key), key);
+  CHECK(json["status"] == "failed");
+  CHECK(json["steps"] == 12);
+  CHECK(json["seconds"]["contact"] == 2.5);
+  CHECK(json["contact"]["regressions"] == 99);
+  CHECK(json["overrides"][0] == "time.cfl=0.3");
+  CHECK(json["scene_hash"] == "d24ec4f1a98c6e5b");  // XXH64 of "a", seed 0
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "run.json.tmp"));
+}
+
+TEST_CASE("the peak of memory is that of a living process") {
+  CHECK(peak_memory_bytes() > std::uint64_t{1} << 20);
+  CHECK(peak_memory_bytes() < std::uint64_t{1} << 42);
+}
+
+TEST_CASE("an existing output folder is refused without force, and with it loses an earlier run and nothing else") {
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path() / "runs/new";
+  const Scene scene = small_scene(Space::plane_strain);
+  prepare_folder(folder, scene, false);
+  CHECK(read_text(folder / "scene.yaml") == scene.resolved_yaml);
+  CHECK_THROWS_AS(prepare_folder(folder, scene, false), FileError);
+
+  std::filesystem::create_directory(folder / "particles");
+  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png", "notes.txt", "mine.png",
+                           "particles/000012.vtu", "particles/000013.vtu.tmp", "particles/mine.vtu"})
+    std::ofstream(folder / name) << "x";
+  prepare_folder(folder, scene, true);
+  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png", "particles/000012.vtu",
+                           "particles/000013.vtu.tmp"})
+    CHECK_MESSAGE(!std::filesystem::exists(folder / name), name);
+  for (const char* name : {"notes.txt", "mine.png", "particles/mine.vtu", "scene.yaml"})
+    CHECK_MESSAGE(std::filesystem::exists(folder / name), name);
+
+  const auto file = temporary.path() / "file";
+  std::ofstream(file) << "x";
+  CHECK_THROWS_AS(prepare_folder(file, scene, true), FileError);
+  CHECK_THROWS_AS(prepare_folder(file / "below", scene, true), FileError);
+}

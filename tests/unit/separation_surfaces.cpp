@@ -1,0 +1,177 @@
+/// Distances between surfaces: from ellipsoids (N20 Eq. 24, 25) and from the grid.
+
+#include <doctest/doctest.h>
+
+#include "kernels/contact/separation.hpp"
+#include "tests/unit/contact_cloud.hpp"
+
+using namespace mpmfast;
+using namespace mpmfast::test;
+
+namespace {
+
+using TwoD = std::integral_constant<int, 2>;
+using ThreeD = std::integral_constant<int, 3>;
+
+template <int Dim>
+Mat<Dim> random_deformation(Draw& draw) {
+  Mat<Dim> f;
+  do {
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) f(i, j) = (i == j) + uniform(draw, -0.6, 0.6);
+  } while (f.determinant() < 0.2);
+  return f;
+}
+
+template <int Dim>
+void row_major(const Mat<Dim>& m, double (&out)[Dim * Dim]) {
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) out[Dim * i + j] = m(i, j);
+}
+
+template <int Dim>
+double radius(const Mat<Dim>& f, const double (&half_size)[Dim], const Vec<Dim>& n) {
+  double rows[Dim * Dim], inverse[Dim * Dim];
+  row_major<Dim>(f, rows);
+  inverse_deformation<Dim>(rows, inverse);
+  return ellipsoid_radius<Dim>(inverse, half_size, n);
+}
+
+}  // namespace
+
+TEST_CASE_TEMPLATE("the inverse of a deformation gradient is its inverse", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(1);
+  for (int k = 0; k < 100; ++k) {
+    const Mat<Dim> f = random_deformation<Dim>(draw);
+    double rows[Dim * Dim], inverse[Dim * Dim], expected[Dim * Dim];
+    row_major<Dim>(f, rows);
+    inverse_deformation<Dim>(rows, inverse);
+    row_major<Dim>(f.inverse(), expected);
+    for (int e = 0; e < Dim * Dim; ++e) CHECK(inverse[e] == doctest::Approx(expected[e]).epsilon(1e-12));
+  }
+}
+
+TEST_CASE_TEMPLATE("the point R n lies on the deformed ellipsoid", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(2);
+  for (int k = 0; k < 200; ++k) {
+    const Mat<Dim> f = random_deformation<Dim>(draw);
+    double half_size[Dim];
+    for (double& h : half_size) h = uniform(draw, 0.1, 0.4);
+    // The ray through a known point of the surface must find that point's distance.
+    Vec<Dim> material = random_direction<Dim>(draw);
+    for (int d = 0; d < Dim; ++d) material[d] *= half_size[d];
+    const Vec<Dim> point = f * material;
+    CHECK(radius<Dim>(f, half_size, point.normalized()) == doctest::Approx(point.norm()).epsilon(1e-12));
+  }
+}
+
+TEST_CASE_TEMPLATE("undeformed: a sphere has its radius, a box its half-size along each axis", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(3);
+  double sphere[Dim], box[Dim];
+  for (int d = 0; d < Dim; ++d) {
+    sphere[d] = 0.25;
+    box[d] = 0.1 + 0.07 * d;
+  }
+  for (int k = 0; k < 50; ++k)
+    CHECK(radius<Dim>(Mat<Dim>::Identity(), sphere, random_direction<Dim>(draw)) ==
+          doctest::Approx(0.25).epsilon(1e-14));
+  for (int d = 0; d < Dim; ++d)
+    CHECK(radius<Dim>(Mat<Dim>::Identity(), box, Vec<Dim>::Unit(d)) == doctest::Approx(box[d]).epsilon(1e-14));
+}
+
+TEST_CASE("a stretched circle has the ellipse's radius in every direction, turned or not") {
+  const double half_size[2] = {0.25, 0.25};
+  for (int k = 0; k < 36; ++k) {
+    const double angle = 0.1745 * k, turn = 0.7;
+    const double a = 0.25 * 1.8, b = 0.25 * 0.6;  // semi-axes
+    const Mat<2> stretch = Vec<2>(1.8, 0.6).asDiagonal(), rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
+    const double expected = a * b / std::hypot(b * std::cos(angle - turn), a * std::sin(angle - turn));
+    const double found = radius<2>(rotation * stretch, half_size, {std::cos(angle), std::sin(angle)});
+    CHECK(found == doctest::Approx(expected).epsilon(1e-13));
+  }
+}
+
+TEST_CASE_TEMPLATE("lanes of radii equal the radii one by one", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(4);
+  const Vec<Dim> n = random_direction<Dim>(draw);
+  Lanes f[Dim * Dim], half_size[Dim], inverse[Dim * Dim];
+  double expected[kLanes];
+  for (int i = 0; i < kLanes; ++i) {
+    double rows[Dim * Dim], h[Dim];
+    const Mat<Dim> m = random_deformation<Dim>(draw);
+    row_major<Dim>(m, rows);
+    for (int e = 0; e < Dim * Dim; ++e) f[e][i] = rows[e];
+    for (int d = 0; d < Dim; ++d) half_size[d][i] = h[d] = uniform(draw, 0.1, 0.4);
+    expected[i] = radius<Dim>(m, h, n);
+  }
+  inverse_deformation<Dim>(f, inverse);
+  const Lanes found = ellipsoid_radius<Dim>(inverse, half_size, n);
+  for (int i = 0; i < kLanes; ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-13));
+}
+
+TEST_CASE_TEMPLATE("two spheres are as far apart as their centres less their radii", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(5);
+  for (int k = 0; k < 50; ++k) {
+    const Vec<Dim> n = random_direction<Dim>(draw), a = 0.4 * random_direction<Dim>(draw);
+    const double distance = uniform(draw, 0.2, 1.0), r_a = uniform(draw, 0.1, 0.3), r_b = uniform(draw, 0.1, 0.3);
+    Cloud<Dim> cloud;
+    cloud.add(a, -1.0);
+    cloud.add(a + distance * n, 1.0);
+    std::vector<double> radii(static_cast<std::size_t>(padded_count(2)), 99.0);
+    radii[0] = r_a;
+    radii[1] = r_b;
+    CHECK(std::abs(cloud_separation<Dim>(cloud.view(), radii.data(), n) - (distance - r_a - r_b)) < 1e-10);
+  }
+}
+
+TEST_CASE_TEMPLATE("a cloud's separation is that of its foremost surfaces", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(6);
+  for (int k = 0; k < 50; ++k) {
+    const Mat<Dim> r = rotation_to<Dim>(random_direction<Dim>(draw), draw);
+    const auto cloud = touching_blocks<Dim>(r, 0.1, 0.2, 1.25, draw);
+    std::vector<double> radii(cloud.side.size(), 99.0);
+    double front = -1e300, back = 1e300;
+    for (std::size_t p = 0; p < static_cast<std::size_t>(cloud.count); ++p) {
+      radii[p] = uniform(draw, 0.1, 0.3);
+      double along = 0;
+      for (std::size_t d = 0; d < Dim; ++d) along += cloud.xi[d][p] * r(static_cast<int>(d), 0);
+      if (cloud.side[p] < 0) front = std::max(front, along + radii[p]);
+      else back = std::min(back, along - radii[p]);
+    }
+    CHECK(std::abs(cloud_separation<Dim>(cloud.view(), radii.data(), r.col(0)) - (back - front)) < 1e-12);
+  }
+  CHECK(std::isinf(cloud_separation<Dim>(Cloud<Dim>{}.view(), nullptr, Vec<Dim>::Unit(0))));
+}
+
+TEST_CASE("touching lattices of spheres have no separation, and lattices a gap apart have that gap") {
+  Draw draw(7);
+  for (const double gap : {0.0, 0.3, -0.05}) {
+    const Mat<2> r = rotation_to<2>(random_direction<2>(draw), draw);
+    Cloud<2> cloud;
+    for (int i = -3; i < 3; ++i)
+      for (int j = -3; j < 3; ++j)
+        cloud.add(r * Vec<2>(0.5 * i + 0.25 + (i < 0 ? 0.0 : gap), 0.5 * j), i < 0 ? -1.0 : 1.0);
+    const std::vector<double> radii(cloud.side.size(), 0.25);
+    CHECK(std::abs(cloud_separation<2>(cloud.view(), radii.data(), r.col(0)) - gap) < 1e-10);
+  }
+}
+
+TEST_CASE("separations by the grid: zero at the calibrated distance, growing, mirrored, finite past the node") {
+  CHECK(position_offset(-0.4, 0.4, 0.8) == doctest::Approx(0.0));
+  CHECK(position_offset(-0.5, 0.6, 0.8) == doctest::Approx(0.3));
+  // Each surface reaches the node where 2 (e/1.25)^0.58 = 1.
+  const double touching = 1.25 * std::pow(0.5, 1.0 / 0.58);
+  CHECK(std::abs(position_power(-touching, touching)) < 1e-14);
+  CHECK(position_power(-1.25, 1.25) == doctest::Approx(2.0));
+  for (double e = -0.5; e < 1.2; e += 0.05) {
+    CHECK(position_power(-0.3, e + 0.05) > position_power(-0.3, e));
+    CHECK(position_power(-e, 0.4) == doctest::Approx(position_power(-0.4, e)));
+    CHECK(std::isfinite(position_power(e, e)));
+  }
+}
