@@ -50,7 +50,7 @@ std::vector<std::string> column_names(const Scene& scene) {
   }
   for (const auto& boundary : scene.boundaries) add(boundary.name, "force_", "_N");
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
-    if (is_rigid(scene, b)) add(scene.bodies[b].name, "force_", "_N");
+    if (is_rigid(scene, scene.bodies[b])) add(scene.bodies[b].name, "force_", "_N");
   names.push_back("body_force_work_J");
   add_stress_names(names, scene, "all");
   return names;
@@ -98,7 +98,7 @@ void HistoryFile::append(const HistoryRow& row) {
   for (std::size_t i = 0; i < scene_->boundaries.size(); ++i)
     line.add(i < row.boundary_force.size() ? row.boundary_force[i] : Vec3{}, dim);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    if (is_rigid(*scene_, b)) line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
+    if (is_rigid(*scene_, scene_->bodies[b])) line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
   line.add(row.body_force_work);
   line.add(row.mean_stress, tensor);
   errno = 0;

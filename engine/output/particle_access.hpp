@@ -32,11 +32,6 @@ struct CauchyStress {
 template <int Dim>
 CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p);
 
-inline bool is_rigid(const Scene& scene, std::size_t body) {
-  const auto material = static_cast<std::size_t>(scene.bodies[body].material);
-  return std::holds_alternative<RigidSpec>(scene.materials[material].model);
-}
-
 /// One scalar of every particle, in the particles' own order; NaN where the columns for it are missing.
 struct FieldValues {
   std::vector<double> value;

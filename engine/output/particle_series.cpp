@@ -82,7 +82,7 @@ std::string pvd_text(const std::vector<std::pair<double, std::string>>& frames) 
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const auto& [time, file] : frames)
-    text += fmt::format("    <DataSet timestep=\"{:.17g}\" part=\"0\" file=\"{}\"/>\n", time, file);
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file);
   return text + "  </Collection>\n</VTKFile>\n";
 }
 

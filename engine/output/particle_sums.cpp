@@ -50,7 +50,7 @@ template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row) {
   std::vector<BodySums> sums(scene.bodies.size());
   std::vector<bool> rigid(scene.bodies.size());
-  for (std::size_t b = 0; b < rigid.size(); ++b) rigid[b] = is_rigid(scene, b);
+  for (std::size_t b = 0; b < rigid.size(); ++b) rigid[b] = is_rigid(scene, scene.bodies[b]);
   // By id, so that the rounding does not depend on how the particles happen to be sorted.
   for (const std::uint32_t p : order_by_id(particles)) {
     const std::size_t body = particles.body()[p];

@@ -78,7 +78,7 @@ void VtuFile::write(const std::filesystem::path& path, double time) const {
                  order);
   fmt::format_to(out,
                  "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-                 "format=\"ascii\">{:.17g}</DataArray>\n    </FieldData>\n",
+                 "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
                  time);
   fmt::format_to(out, "    <Piece NumberOfPoints=\"{0}\" NumberOfCells=\"{0}\">\n", points_);
   fmt::format_to(out, "      <PointData>\n{}      </PointData>\n", point_data_);

@@ -74,10 +74,6 @@ void list_passes(const Scene& scene, Plan& plan) {
 
 }  // namespace
 
-bool is_rigid(const Scene& scene, const BodySpec& body) {
-  return std::holds_alternative<RigidSpec>(scene.materials[static_cast<std::size_t>(body.material)].model);
-}
-
 Plan make_plan(const Scene& scene) {
   Plan plan;
   plan.dimension = scene.dimension();

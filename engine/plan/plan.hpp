@@ -34,7 +34,4 @@ struct Plan {
 
 Plan make_plan(const Scene& scene);
 
-/// Is the body made of a rigid material?
-bool is_rigid(const Scene& scene, const BodySpec& body);
-
 }  // namespace mpmfast

@@ -36,8 +36,10 @@ std::string header_fault(const std::vector<unsigned char>& bytes) {
   }
   const int depth = bytes[24], colour = bytes[25];
   if (depth != 8 || colour != 0) {
-    static const char* const kColours[] = {"grey", "?", "RGB", "palette", "grey with alpha", "?", "RGB with alpha"};
-    return fmt::format("a {}-bit {} PNG (8-bit grey was expected)", depth, colour <= 6 ? kColours[colour] : "?");
+    static const char* const kColours[] = {"grey",          "?", "RGB", "palette", "grey with alpha", "?",
+                                           "RGB with alpha"};
+    return fmt::format("a {}-bit {} PNG (8-bit grey was expected)", depth,
+                       colour <= 6 ? kColours[colour] : "?");
   }
   const std::uint32_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
   if (width == 0 || height == 0 || width > kLongestEdge || height > kLongestEdge) {
@@ -59,12 +61,14 @@ std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file
   if (std::filesystem::file_size(file, error) > kLargestFile || error) return refuse("too large a file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return refuse("cannot be opened");
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream),
+                                         std::istreambuf_iterator<char>()};
   if (std::string fault = header_fault(bytes); !fault.empty()) return refuse(std::move(fault));
   auto image = std::make_shared<GreyImage>();
   int channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image->width, &image->height, &channels, 1),
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &image->width, &image->height,
+                            &channels, 1),
       stbi_image_free);
   if (!pixels) return refuse(std::string("damaged: ") + stbi_failure_reason());
   const auto count = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "engine/scene/sections.hpp"
@@ -12,8 +13,9 @@ struct NamedDirection {
   double sign;
 };
 constexpr NamedDirection kDirections[] = {
-    {"x", 0, 1},    {"y", 1, 1},     {"z", 2, 1},  {"+x", 0, 1},   {"+y", 1, 1},  {"+z", 2, 1}, {"-x", 0, -1}, {"-y", 1, -1},
-    {"-z", 2, -1},  {"left", 0, -1}, {"right", 0, 1}, {"down", 1, -1}, {"up", 1, 1}, {"in", 2, -1}, {"out", 2, 1},
+    {"x", 0, 1},     {"y", 1, 1},     {"z", 2, 1},   {"+x", 0, 1},  {"+y", 1, 1},
+    {"+z", 2, 1},    {"-x", 0, -1},   {"-y", 1, -1}, {"-z", 2, -1}, {"left", 0, -1},
+    {"right", 0, 1}, {"down", 1, -1}, {"up", 1, 1},  {"in", 2, -1}, {"out", 2, 1},
 };
 
 }  // namespace
@@ -35,7 +37,7 @@ std::optional<Vec3> unit_vector(const Vec3& vector) {
 
 std::optional<Vec3> read_direction(const Value& value, int dimension, bool any) {
   if (any && value.is(Node::Kind::list)) {
-    const auto vector = value.vector(Quantity::number, dimension);
+    const auto vector = value.vector(Measure::number, dimension);
     if (!vector) return std::nullopt;
     const auto unit = unit_vector(*vector);
     if (!unit) value.report("the zero vector has no direction");

@@ -14,7 +14,7 @@ namespace mpmfast {
 
 namespace {
 
-std::string expected_of(Quantity kind) {
+std::string expected_of(Measure kind) {
   const QuantityKind& known = kind_of(kind);
   return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
 }
@@ -43,7 +43,7 @@ Value Value::item(std::size_t index) const {
   return Value(node_->items[index], join(path_, std::to_string(index)), *problems_);
 }
 
-std::optional<double> Value::quantity(Quantity kind, const Limit& limit) const {
+std::optional<double> Value::quantity(Measure kind, const Limit& limit) const {
   if (!is(Node::Kind::scalar)) {
     complain(fmt::format("not a number ({})", expected_of(kind)));
     return std::nullopt;
@@ -95,7 +95,7 @@ std::optional<std::string> Value::name() const {
   return std::nullopt;
 }
 
-std::optional<Vec3> Value::vector(Quantity kind, int count, const Limit& limit) const {
+std::optional<Vec3> Value::vector(Measure kind, int count, const Limit& limit) const {
   if (!is(Node::Kind::list) || size() != static_cast<std::size_t>(count)) {
     complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)));
     return std::nullopt;
@@ -131,11 +131,11 @@ bool Value::increasing(const std::vector<double>& times) const {
   return true;
 }
 
-std::optional<TimeTable> Value::table_of_columns(Quantity kind) const {
+std::optional<TimeTable> Value::table_of_columns(Measure kind) const {
   MapReader map(*this);
   TimeTable table;
   bool good = true;
-  const auto read_column = [&](const char* key, Quantity column_kind, std::vector<double>& out) {
+  const auto read_column = [&](const char* key, Measure column_kind, std::vector<double>& out) {
     const auto column = map.need(key, "a list");
     if (!column || !column->is(Node::Kind::list) || column->size() == 0) {
       if (column) column->complain("not a list of one or more");
@@ -148,7 +148,7 @@ std::optional<TimeTable> Value::table_of_columns(Quantity kind) const {
       out.push_back(entry.value_or(0));
     }
   };
-  read_column("times", Quantity::time, table.time);
+  read_column("times", Measure::time, table.time);
   read_column("values", kind, table.value);
   map.finish();
   if (!good) return std::nullopt;
@@ -160,7 +160,7 @@ std::optional<TimeTable> Value::table_of_columns(Quantity kind) const {
   return table;
 }
 
-std::optional<TimeTable> Value::table_of_pairs(Quantity kind) const {
+std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
   TimeTable table;
   bool good = size() > 0;
   if (!good) complain("not a table (one or more pairs [time, value])");
@@ -171,7 +171,7 @@ std::optional<TimeTable> Value::table_of_pairs(Quantity kind) const {
       good = false;
       continue;
     }
-    const auto time = pair.item(0).quantity(Quantity::time);
+    const auto time = pair.item(0).quantity(Measure::time);
     const auto value = pair.item(1).quantity(kind);
     good = good && time && value;
     table.time.push_back(time.value_or(0));
@@ -181,7 +181,7 @@ std::optional<TimeTable> Value::table_of_pairs(Quantity kind) const {
   return table;
 }
 
-std::optional<TimeTable> Value::table(Quantity kind) const {
+std::optional<TimeTable> Value::table(Measure kind) const {
   if (is(Node::Kind::map)) return table_of_columns(kind);
   if (is(Node::Kind::list)) return table_of_pairs(kind);
   const auto constant = quantity(kind);
@@ -198,23 +198,25 @@ std::optional<Value> MapReader::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   const int index = index_of(value_.node(), key);
   if (index < 0) return std::nullopt;
-  return Value(value_.node().items[static_cast<std::size_t>(index)], join(value_.path(), key), value_.problems());
+  return Value(value_.node().items[static_cast<std::size_t>(index)], join(value_.path(), key),
+               value_.problems());
 }
 
 std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {
   auto found = find(key);
   if (!found && valid_) {
-    value_.problems().add(value_.node().place, join(value_.path(), key), fmt::format("missing ({})", expected));
+    value_.problems().add(value_.node().place, join(value_.path(), key),
+                          fmt::format("missing ({})", expected));
   }
   return found;
 }
 
-void MapReader::quantity(const std::string& key, Quantity kind, const Limit& limit, double& out) {
+void MapReader::quantity(const std::string& key, Measure kind, const Limit& limit, double& out) {
   const auto found = find(key);
   if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
 }
 
-void MapReader::need_quantity(const std::string& key, Quantity kind, const Limit& limit, double& out) {
+void MapReader::need_quantity(const std::string& key, Measure kind, const Limit& limit, double& out) {
   const auto found = need(key, expected_of(kind));
   if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
 }
@@ -234,10 +236,10 @@ void MapReader::finish() {
   for (const Key& key : value_.node().keys) {
     if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
     const std::string hint = did_you_mean(key.text, known_);
-    value_.problems().add(key.place, join(value_.path(), key.text),
-                          hint.empty() ? fmt::format("unknown key (known here: {})", fmt::join(known_, ", "))
-                                       : "unknown key",
-                          hint);
+    value_.problems().add(
+        key.place, join(value_.path(), key.text),
+        hint.empty() ? fmt::format("unknown key (known here: {})", fmt::join(known_, ", ")) : "unknown key",
+        hint);
   }
 }
 

@@ -40,7 +40,8 @@ bool is_name(const std::string& text);
 /// One value of the scene: where it is, what it is called, and who hears of its faults.
 class Value {
  public:
-  Value(const Node& node, std::string path, Problems& problems) : node_(&node), path_(std::move(path)), problems_(&problems) {}
+  Value(const Node& node, std::string path, Problems& problems)
+      : node_(&node), path_(std::move(path)), problems_(&problems) {}
 
   const Node& node() const { return *node_; }
   const std::string& path() const { return path_; }
@@ -56,16 +57,16 @@ class Value {
   Value item(std::size_t index) const;
   std::size_t size() const { return node_->items.size(); }
 
-  std::optional<double> quantity(Quantity kind, const Limit& limit = kAny) const;
+  std::optional<double> quantity(Measure kind, const Limit& limit = kAny) const;
   std::optional<int> integer(int lowest, int highest) const;
   std::optional<bool> boolean() const;
   std::optional<std::string> text() const;
   /// Text that is_name.
   std::optional<std::string> name() const;
   /// Exactly `count` quantities; the rest of the result is zero.
-  std::optional<Vec3> vector(Quantity kind, int count, const Limit& limit = kAny) const;
+  std::optional<Vec3> vector(Measure kind, int count, const Limit& limit = kAny) const;
   /// A quantity (constant in time), {times: […], values: […]}, or a list of [time, value].
-  std::optional<TimeTable> table(Quantity kind) const;
+  std::optional<TimeTable> table(Measure kind) const;
 
   /// One of a fixed set of words.
   template <class E, std::size_t N>
@@ -81,8 +82,8 @@ class Value {
 
  private:
   bool increasing(const std::vector<double>& times) const;
-  std::optional<TimeTable> table_of_columns(Quantity kind) const;
-  std::optional<TimeTable> table_of_pairs(Quantity kind) const;
+  std::optional<TimeTable> table_of_columns(Measure kind) const;
+  std::optional<TimeTable> table_of_pairs(Measure kind) const;
 
   const Node* node_;
   std::string path_;
@@ -103,8 +104,8 @@ class MapReader {
   std::optional<Value> need(const std::string& key, const std::string& expected);
 
   /// Replaces `out` when the key is there and good.
-  void quantity(const std::string& key, Quantity kind, const Limit& limit, double& out);
-  void need_quantity(const std::string& key, Quantity kind, const Limit& limit, double& out);
+  void quantity(const std::string& key, Measure kind, const Limit& limit, double& out);
+  void need_quantity(const std::string& key, Measure kind, const Limit& limit, double& out);
   void integer(const std::string& key, int lowest, int highest, int& out);
   void boolean(const std::string& key, bool& out);
   template <class E, std::size_t N>

@@ -32,7 +32,8 @@ inline constexpr std::array<Word<BasisKind>, 4> kBases{{
 inline constexpr std::array<Word<UpdateKind>, 3> kUpdates{{
     {UpdateKind::flip, "flip", "particles take the grid's acceleration; no dissipation (default)"},
     {UpdateKind::pic, "pic", "particles take the grid's velocity; strong damping"},
-    {UpdateKind::xpic, "xpic(m)", "order m = 2..20: removes noise that the grid cannot see, little dissipation"},
+    {UpdateKind::xpic, "xpic(m)",
+     "order m = 2..20: removes noise that the grid cannot see, little dissipation"},
 }};
 
 inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
@@ -48,7 +49,8 @@ inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
 }};
 
 inline constexpr std::array<Word<NormalKind>, 4> kNormals{{
-    {NormalKind::logistic_regression, "logistic_regression", "the plane that best parts the particles (default)"},
+    {NormalKind::logistic_regression, "logistic_regression",
+     "the plane that best parts the particles (default)"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
      "the same with penalty 1 and an advanced separation: normals vary slowly"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},
@@ -57,8 +59,10 @@ inline constexpr std::array<Word<NormalKind>, 4> kNormals{{
 
 inline constexpr std::array<Word<SeparationKind>, 4> kSeparations{{
     {SeparationKind::ellipsoid, "ellipsoid", "gap between the particles' domains along the normal"},
-    {SeparationKind::position_offset, "position_offset", "gap of extrapolated positions less position_offset cells"},
-    {SeparationKind::position_power, "position_power", "the same with a power law fitted to an edge's position"},
+    {SeparationKind::position_offset, "position_offset",
+     "gap of extrapolated positions less position_offset cells"},
+    {SeparationKind::position_power, "position_power",
+     "the same with a power law fitted to an edge's position"},
     {SeparationKind::none, "none", "fields that approach are in contact"},
 }};
 
@@ -71,8 +75,9 @@ inline constexpr std::array<Word<LawKind>, 5> kLaws{{
 }};
 
 /// Fields that output.picture can show.
-inline constexpr std::array<const char*, 10> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy", "stress_zz",
-                                                       "stress_xy", "stress_yz", "stress_xz", "speed",     "body"};
+inline constexpr std::array<const char*, 10> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy",
+                                                       "stress_zz", "stress_xy", "stress_yz", "stress_xz",
+                                                       "speed",     "body"};
 
 struct FaceName {
   const char* name;

@@ -20,8 +20,8 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
-/// The entry of a list or map that one part of the path names; a missing key of a map is added, and the reader says
-/// whether it may be there.
+/// The entry of a list or map that one part of the path names; a missing key of a map is added, and the
+/// reader says whether it may be there.
 Node* descend(Node& node, const std::string& part, const std::string& parent, const Place& place,
               Problems& problems) {
   if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;

@@ -25,14 +25,16 @@ bool within_bounds(const Point& a, const Point& b, const Point& c) {
 /// Do the closed segments ab and cd share a point?
 bool segments_meet(const Point& a, const Point& b, const Point& c, const Point& d) {
   const double abc = turn(a, b, c), abd = turn(a, b, d), cda = turn(c, d, a), cdb = turn(c, d, b);
-  if (((abc > 0 && abd < 0) || (abc < 0 && abd > 0)) && ((cda > 0 && cdb < 0) || (cda < 0 && cdb > 0))) return true;
+  if (((abc > 0 && abd < 0) || (abc < 0 && abd > 0)) && ((cda > 0 && cdb < 0) || (cda < 0 && cdb > 0)))
+    return true;
   return (abc == 0 && within_bounds(a, b, c)) || (abd == 0 && within_bounds(a, b, d)) ||
          (cda == 0 && within_bounds(c, d, a)) || (cdb == 0 && within_bounds(c, d, b));
 }
 
 /// Neighbouring edges share their corner; they overlap beyond it when one folds back onto the other.
 bool folds_back(const Point& before, const Point& corner, const Point& after) {
-  const double along = (before[0] - corner[0]) * (after[0] - corner[0]) + (before[1] - corner[1]) * (after[1] - corner[1]);
+  const double along =
+      (before[0] - corner[0]) * (after[0] - corner[0]) + (before[1] - corner[1]) * (after[1] - corner[1]);
   return turn(before, corner, after) == 0 && along > 0;
 }
 
@@ -43,15 +45,18 @@ std::string polygon_fault(const Points2& points) {
   const std::size_t n = points.size();
   if (n < 3) return "a polygon has three or more points";
   if (n > kMost) return fmt::format("{} points (at most {})", n, kMost);
-  if (points.front() == points.back()) return "a polygon closes by itself: leave out the last point, it repeats the first";
+  if (points.front() == points.back())
+    return "a polygon closes by itself: leave out the last point, it repeats the first";
   for (std::size_t i = 0; i < n; ++i) {
     const Point &a = points[i], &b = points[(i + 1) % n];
     if (a == b) return fmt::format("points {} and {} are the same", i, (i + 1) % n);
-    if (folds_back(a, b, points[(i + 2) % n])) return fmt::format("the outline folds back at point {}", (i + 1) % n);
+    if (folds_back(a, b, points[(i + 2) % n]))
+      return fmt::format("the outline folds back at point {}", (i + 1) % n);
     for (std::size_t j = i + 2; j < n; ++j) {
       if (i == 0 && j == n - 1) continue;  // neighbours
       if (segments_meet(a, b, points[j], points[(j + 1) % n])) {
-        return fmt::format("the outline crosses itself: the edges from point {} and from point {} meet", i, j);
+        return fmt::format("the outline crosses itself: the edges from point {} and from point {} meet", i,
+                           j);
       }
     }
   }

@@ -52,9 +52,10 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
   const std::string expected = *kind.units ? fmt::format("{}: {}", kind.name, kind.units) : kind.name;
   const std::size_t length = number_length(text);
   if (length == 0) {
-    const bool unit_alone = !text.empty() && std::holds_alternative<Unit>(parse_unit(text, Quantity::number));
+    const bool unit_alone = !text.empty() && std::holds_alternative<Unit>(parse_unit(text, Measure::number));
     if (unit_alone) {
-      return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected), ""};
+      return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected),
+                           ""};
     }
     return QuantityError{fmt::format("not a number ({})", expected), ""};
   }
@@ -73,14 +74,15 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
 }
 
 std::string name_of(const Dimensions& dimensions) {
-  for (int k = 1; k <= static_cast<int>(Quantity::angle); ++k) {
-    const QuantityKind& kind = kind_of(static_cast<Quantity>(k));
+  for (int k = 1; k <= static_cast<int>(Measure::angle); ++k) {
+    const QuantityKind& kind = kind_of(static_cast<Measure>(k));
     if (kind.dimensions == dimensions) return kind.name;
   }
   return "";
 }
 
-QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions, const QuantityKind& expected) {
+QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions,
+                              const QuantityKind& expected) {
   const std::string actual = name_of(dimensions);
   const std::string wanted =
       *expected.units ? fmt::format("{}: {}", expected.name, expected.units) : "a number without a unit";
@@ -90,7 +92,7 @@ QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimension
 
 }  // namespace
 
-std::variant<double, QuantityError> parse_quantity(std::string_view written, Quantity expected) {
+std::variant<double, QuantityError> parse_quantity(std::string_view written, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
   std::string_view text = trimmed(written);
   const auto numerator = take_number(text, kind);
@@ -124,12 +126,12 @@ std::variant<double, QuantityError> parse_quantity(std::string_view written, Qua
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  const auto value = parse_quantity(text, Quantity::number);
+  const auto value = parse_quantity(text, Measure::number);
   if (std::holds_alternative<QuantityError>(value)) return std::nullopt;
   return std::get<double>(value);
 }
 
-std::string quantity_text(double value, Quantity quantity) {
+std::string quantity_text(double value, Measure quantity) {
   const char* unit = kind_of(quantity).si;
   return *unit ? fmt::format("{} {}", value, unit) : fmt::format("{}", value);
 }

@@ -10,7 +10,7 @@
 
 namespace mpmfast {
 
-enum class Quantity { number, length, time, mass, velocity, acceleration, density, pressure, angle };
+enum class Measure { number, length, time, mass, velocity, acceleration, density, pressure, angle };
 
 /// Exponents of metre, kilogram, second and radian.
 using Dimensions = std::array<int, 4>;
@@ -21,7 +21,7 @@ struct QuantityKind {
   const char* si;     ///< the unit of a bare number, empty for a pure number
   Dimensions dimensions;
 };
-const QuantityKind& kind_of(Quantity quantity);
+const QuantityKind& kind_of(Measure quantity);
 
 /// A unit as a ratio of whole numbers times SI, so that "5 mm" is 5/1000: rounded once, hence exactly 0.005.
 struct Unit {
@@ -35,15 +35,15 @@ struct QuantityError {
 };
 
 /// "g/cm^3" → its factor and dimensions.
-std::variant<Unit, QuantityError> parse_unit(std::string_view text, Quantity expected);
+std::variant<Unit, QuantityError> parse_unit(std::string_view text, Measure expected);
 
 /// "5 mm" → 0.005.
-std::variant<double, QuantityError> parse_quantity(std::string_view text, Quantity expected);
+std::variant<double, QuantityError> parse_quantity(std::string_view text, Measure expected);
 
 /// A decimal number that is the whole of `text`; nothing when it is none, is not finite or has leading zeros.
 std::optional<double> parse_number(std::string_view text);
 
 /// "0.005 m": the shortest text that reads back as the same number, with the SI unit.
-std::string quantity_text(double value, Quantity quantity);
+std::string quantity_text(double value, Measure quantity);
 
 }  // namespace mpmfast

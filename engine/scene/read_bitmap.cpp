@@ -41,7 +41,8 @@ void remove_skipped(MapReader& body, std::array<bool, kLevels>& present) {
   if (!skip) return;
   if (!skip->is(Node::Kind::list)) return skip->complain("not a list of grey levels");
   for (std::size_t k = 0; k < skip->size(); ++k) {
-    if (const auto level = skip->item(k).integer(0, kLevels - 1)) present[static_cast<std::size_t>(*level)] = false;
+    if (const auto level = skip->item(k).integer(0, kLevels - 1))
+      present[static_cast<std::size_t>(*level)] = false;
   }
 }
 
@@ -72,9 +73,9 @@ std::map<int, Value> materials_by_level(MapReader& body, const std::array<bool, 
 std::vector<BitmapPart> read_bitmap(MapReader& body, const Value& bitmap, const Scene& scene) {
   BitmapShape shape;
   const auto extent_value = body.need("extent", "a list of 2 lengths");
-  const auto extent = extent_value ? extent_value->vector(Quantity::length, 2, kPositive) : std::nullopt;
+  const auto extent = extent_value ? extent_value->vector(Measure::length, 2, kPositive) : std::nullopt;
   const auto origin_value = body.find("origin");
-  const auto origin = origin_value ? origin_value->vector(Quantity::length, 2) : scene.grid.origin;
+  const auto origin = origin_value ? origin_value->vector(Measure::length, 2) : scene.grid.origin;
   const auto path = image_path(bitmap, scene);
   if (path) {
     std::string why_not;
@@ -96,7 +97,8 @@ std::vector<BitmapPart> read_bitmap(MapReader& body, const Value& bitmap, const 
     if (!present[static_cast<std::size_t>(level)]) continue;
     shape.grey = level;
     const auto material = materials.find(level);
-    parts.push_back({shape, material == materials.end() ? std::nullopt : std::optional<Value>(material->second)});
+    parts.push_back(
+        {shape, material == materials.end() ? std::nullopt : std::optional<Value>(material->second)});
   }
   if (parts.empty()) bitmap.report("every grey level of the image is skipped");
   return parts;

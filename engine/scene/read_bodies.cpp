@@ -29,9 +29,9 @@ const std::vector<std::string>& shape_names() {
 
 /// The same shape's name in the other dimension.
 std::string counterpart(const std::string& name) {
-  static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},    {"sphere", "disk"},
+  static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},       {"sphere", "disk"},
                                                          {"ellipse", "ellipsoid"}, {"ellipsoid", "ellipse"},
-                                                         {"ring", "tube"},      {"tube", "ring"}};
+                                                         {"ring", "tube"},         {"tube", "ring"}};
   const auto found = kPairs.find(name);
   return found == kPairs.end() ? "" : fmt::format("Did you mean '{}'?", found->second);
 }
@@ -56,7 +56,8 @@ std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
   }
   const ShapeKind& kind = *chosen[0].kind;
   if (kind.dimension != 0 && kind.dimension != dimension) {
-    chosen[0].value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension), counterpart(kind.name));
+    chosen[0].value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension),
+                           counterpart(kind.name));
     return std::nullopt;
   }
   return chosen[0];
@@ -76,7 +77,8 @@ void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
   if (!value) return;
   const bool list = value->is(Node::Kind::list);
   if (list && value->size() != static_cast<std::size_t>(dimension)) {
-    return value->complain(fmt::format("not a whole number or a list of {} (particles along a cell's side)", dimension));
+    return value->complain(
+        fmt::format("not a whole number or a list of {} (particles along a cell's side)", dimension));
   }
   const auto one = list ? std::nullopt : value->integer(1, kMost);
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
@@ -94,10 +96,10 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     const Value component = value->item(k);
     if (component.is(Node::Kind::scalar)) {
-      body.velocity[k] = component.quantity(Quantity::velocity).value_or(0);
-    } else if (const auto table = component.table(Quantity::velocity)) {
+      body.velocity[k] = component.quantity(Measure::velocity).value_or(0);
+    } else if (const auto table = component.table(Measure::velocity)) {
       body.velocity[k] = table->value.front();
-      body.rigid_velocity[k] = *table;
+      if (table->time.size() > 1) body.rigid_velocity[k] = *table;  // one point is a constant
     }
   }
 }
@@ -107,7 +109,8 @@ void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) 
   for (const auto& table : body.rigid_velocity) {
     if (!table || is_rigid(scene, body)) continue;
     const int index = index_of(entry.node(), "velocity");
-    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), "velocity"), entry.problems())
+    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), "velocity"),
+          entry.problems())
         .report("a table of velocities is for rigid bodies only");
     return;
   }
@@ -129,6 +132,10 @@ class BodyReader {
     body.field = (field ? field->name() : std::nullopt).value_or("");
     read_particles_per_cell(map, dimension, body);
     read_velocity(map, dimension, body);
+    if (map.find("bitmap")) {
+      for (const char* key : {"extent", "origin", "skip", "materials"})
+        map.find(key);  // known, whatever else is wrong
+    }
     const auto chosen = choose_shape(map, dimension);
     const BodyPlace place{entry, name.value_or(entry)};
     if (chosen && !chosen->kind->read) {
@@ -157,8 +164,9 @@ class BodyReader {
       body.name = fmt::format("{}_{}", common.name, part.shape.grey);
       body.shape = part.shape;
       if (!part.material && !shared) {
-        place.entry.report(fmt::format("no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})",
-                                       part.shape.grey));
+        place.entry.report(
+            fmt::format("no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})",
+                        part.shape.grey));
         continue;
       }
       const auto index = part.material ? material_index(*part.material, scene_) : shared_index;
@@ -187,12 +195,26 @@ void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& pla
     const double below = scene.grid.origin[k] - box.lower[k];
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
     if (below > slack) {
-      place.entry.report(fmt::format("body '{}' lies {:.6g} m outside the grid, below in {}", body.name, below, "xyz"[k]));
+      place.entry.report(
+          fmt::format("body '{}' lies {:.6g} m outside the grid, below in {}", body.name, below, "xyz"[k]));
     }
     if (above > slack) {
-      place.entry.report(fmt::format("body '{}' lies {:.6g} m outside the grid, above in {}", body.name, above, "xyz"[k]));
+      place.entry.report(
+          fmt::format("body '{}' lies {:.6g} m outside the grid, above in {}", body.name, above, "xyz"[k]));
     }
   }
+}
+
+/// Particles have indices of 32 bits, and nobody means a billion of them.
+void check_count(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  constexpr double kMost = 1e9;
+  const Bounds box = bounds(body.shape);
+  double count = 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
+    count *= (box.upper[k] - box.lower[k]) / scene.grid.cell * body.particles_per_cell[k];
+  }
+  if (count > kMost)
+    place.entry.report(fmt::format("body '{}' would have about {:.2g} particles", body.name, count));
 }
 
 /// A rigid body's velocity is given, so nothing may move in one velocity field with it.
@@ -206,19 +228,24 @@ void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
     ++rigid;
     const bool shared = scene.contact.active ? sharers[body.field] > 1 : scene.bodies.size() > 1;
     if (!shared) continue;
-    places[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}", body.name,
-                                       scene.contact.active ? "" : ", because of contact: none"));
+    places[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}",
+                                       body.name, scene.contact.active ? "" : ", because of contact: none"));
   }
-  if (rigid == scene.bodies.size() && rigid > 0) places[0].entry.report("every body is rigid: there is nothing to compute");
+  const bool all_read = !places.empty() && places[0].entry.problems().empty();
+  if (all_read && rigid == scene.bodies.size())
+    places[0].entry.report("every body is rigid: there is nothing to compute");
 }
 
 void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known) {
   std::set<std::string> names, fields;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodySpec& body = scene.bodies[b];
-    if (!names.insert(body.name).second) places[b].name.report(fmt::format("another body is called '{}'", body.name));
+    if (!names.insert(body.name).second)
+      places[b].name.report(fmt::format("another body is called '{}'", body.name));
     fields.insert(body.field);
-    if (grid_known) check_inside(scene, body, places[b]);
+    if (!grid_known) continue;
+    check_inside(scene, body, places[b]);
+    check_count(scene, body, places[b]);
   }
   check_rigid(scene, places);
   constexpr std::size_t kMostFields = 65535;  // particles carry their field in 16 bits
@@ -229,14 +256,11 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
 
 }  // namespace
 
-bool is_rigid(const Scene& scene, const BodySpec& body) {
-  return std::holds_alternative<RigidSpec>(scene.materials[static_cast<std::size_t>(body.material)].model);
-}
-
 void read_bodies(MapReader& top, bool grid_known, Scene& scene) {
   const auto section = top.need("bodies", "a list of maps {box | disk | …, material, …}");
   if (!section) return;
-  if (!section->is(Node::Kind::list)) return section->complain("not a list of maps {box | disk | …, material, …}");
+  if (!section->is(Node::Kind::list))
+    return section->complain("not a list of maps {box | disk | …, material, …}");
   if (section->size() == 0) return section->report("no bodies");
   std::vector<BodyPlace> places;
   BodyReader reader(scene, places);

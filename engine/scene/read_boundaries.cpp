@@ -28,7 +28,8 @@ class BoundaryReader {
     if (!value.is(Node::Kind::map)) {
       std::vector<std::string> faces;
       for (const FaceName& known : kFaces) faces.emplace_back(known.name);
-      return value.complain("not a face of the grid, and not a map {box, direction, speed}", did_you_mean(name, faces));
+      return value.complain("not a face of the grid, and not a map {box, direction, speed}",
+                            did_you_mean(name, faces));
     }
     if (!is_name(name)) value.report("not a name (letters, digits, '_' and '-')");
     read_box(name, value);
@@ -48,7 +49,8 @@ class BoundaryReader {
   void add(const std::string& name, const Value& value, std::variant<WallSpec, VelocityBoxSpec> condition) {
     for (const BodySpec& body : scene_.bodies) {
       if (body.name == name && is_rigid(scene_, body)) {
-        value.report(fmt::format("a rigid body is also called '{}': their forces would share a column", name));
+        value.report(
+            fmt::format("a rigid body is also called '{}': their forces would share a column", name));
       }
     }
     scene_.boundaries.push_back({name, std::move(condition)});
@@ -80,13 +82,13 @@ class BoundaryReader {
       static const std::vector<std::string> kWords{"sliding", "held"};
       wall.held = kind->word_index(kWords) == 1;
     } else {
-      if (const auto speed = piston->table(Quantity::velocity)) wall.speed = *speed;
+      if (const auto speed = piston->table(Measure::velocity)) wall.speed = *speed;
       const double sign = read_sense(face, map);
       for (double& speed : wall.speed.value) speed = sign * speed + 0.0;  // no −0
       map.boolean("held", wall.held);
     }
     if (const auto position = map.find("position")) {
-      wall.position = position->quantity(Quantity::length).value_or(wall.position);
+      wall.position = position->quantity(Measure::length).value_or(wall.position);
       check_position(face, *position, wall.position);
     }
     map.finish();
@@ -101,7 +103,8 @@ class BoundaryReader {
     const auto direction = read_direction(*value, scene_.dimension(), false);
     if (!direction) return inwards;
     const double along = (*direction)[static_cast<std::size_t>(face.axis)];
-    if (along == 0) value->complain(fmt::format("the {} face moves along {} only", face.name, "xyz"[face.axis]));
+    if (along == 0)
+      value->complain(fmt::format("the {} face moves along {} only", face.name, "xyz"[face.axis]));
     return along == 0 ? inwards : along;
   }
 
@@ -124,7 +127,7 @@ class BoundaryReader {
       spec.direction = read_direction(*direction, scene_.dimension(), true).value_or(Vec3{});
     }
     if (const auto speed = map.need("speed", "a velocity: m/s, mm/s, km/s; or a table")) {
-      if (const auto table = speed->table(Quantity::velocity)) spec.speed = *table;
+      if (const auto table = speed->table(Measure::velocity)) spec.speed = *table;
     }
     map.finish();
     add(name, value, spec);
@@ -134,8 +137,8 @@ class BoundaryReader {
     const int dimension = scene_.dimension();
     MapReader map(box, "a map {from, to}");
     const auto from = map.need("from", "a corner"), to = map.need("to", "a corner");
-    if (from) spec.lower = from->vector(Quantity::length, dimension).value_or(Vec3{});
-    if (to) spec.upper = to->vector(Quantity::length, dimension).value_or(spec.lower);
+    if (from) spec.lower = from->vector(Measure::length, dimension).value_or(Vec3{});
+    if (to) spec.upper = to->vector(Measure::length, dimension).value_or(spec.lower);
     map.finish();
     for (std::size_t k = 0; k < 3; ++k) {
       if (spec.lower[k] > spec.upper[k]) {  // equal is a row of nodes

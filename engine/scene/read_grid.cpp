@@ -21,7 +21,8 @@ bool check_cells(const Value& size, int dimension, const GridSpec& grid) {
       edge.complain(fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
       good = false;
     } else if (std::abs(cells - whole) > 1e-6 * whole) {
-      edge.complain(fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell, whole * grid.cell));
+      edge.complain(fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell,
+                                whole * grid.cell));
       good = false;
     }
   }
@@ -37,13 +38,13 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
   if (!map.valid()) return false;
   bool good = true;
   if (const auto value = map.find("origin")) {
-    const auto origin = value->vector(Quantity::length, dimension);
+    const auto origin = value->vector(Measure::length, dimension);
     good = origin.has_value();
     grid.origin = origin.value_or(Vec3{});
   }
   const auto size_value = map.need("size", fmt::format("a list of {} lengths", dimension));
-  const auto size = size_value ? size_value->vector(Quantity::length, dimension, kPositive) : std::nullopt;
-  map.need_quantity("cell", Quantity::length, kPositive, grid.cell);
+  const auto size = size_value ? size_value->vector(Measure::length, dimension, kPositive) : std::nullopt;
+  map.need_quantity("cell", Measure::length, kPositive, grid.cell);
   map.finish();
   if (!good || !size || grid.cell <= 0) return false;
   grid.size = *size;
@@ -55,11 +56,11 @@ void read_time(MapReader& top, TimeSpec& time) {
   if (!section) return;
   MapReader map(*section, "a map {end, cfl, max_step}");
   constexpr Limit kCourant{"in (0, 1]", 0, 1, true};
-  map.need_quantity("end", Quantity::time, kPositive, time.end);
-  map.quantity("cfl", Quantity::number, kCourant, time.cfl);
+  map.need_quantity("end", Measure::time, kPositive, time.end);
+  map.quantity("cfl", Measure::number, kCourant, time.cfl);
   const auto longest = map.find("max_step");
   if (longest && !longest->is_word("none")) {
-    time.max_step = longest->quantity(Quantity::time, kPositive).value_or(time.max_step);
+    time.max_step = longest->quantity(Measure::time, kPositive).value_or(time.max_step);
   }
   map.finish();
 }
@@ -68,14 +69,14 @@ void read_gravity(MapReader& top, int dimension, GravitySpec& gravity) {
   const auto section = top.find("gravity");
   if (!section) return;
   if (section->is(Node::Kind::list)) {
-    gravity.acceleration = section->vector(Quantity::acceleration, dimension).value_or(Vec3{});
+    gravity.acceleration = section->vector(Measure::acceleration, dimension).value_or(Vec3{});
     return;
   }
   MapReader map(*section, "a vector or a map {acceleration, ramp}");
   if (const auto value = map.need("acceleration", "a list of accelerations")) {
-    gravity.acceleration = value->vector(Quantity::acceleration, dimension).value_or(Vec3{});
+    gravity.acceleration = value->vector(Measure::acceleration, dimension).value_or(Vec3{});
   }
-  map.quantity("ramp", Quantity::time, kNotNegative, gravity.ramp);
+  map.quantity("ramp", Measure::time, kNotNegative, gravity.ramp);
   map.finish();
 }
 

@@ -11,17 +11,17 @@ constexpr Limit kPoisson{"in (-1, 0.5)", -1, 0.5, true, true};
 /// Bulk and shear modulus, or Young's modulus and Poisson's ratio in their place.
 decltype(MaterialSpec::model) read_neo_hookean(MapReader& map) {
   NeoHookeanSpec spec;
-  map.need_quantity("density", Quantity::density, kPositive, spec.density);
+  map.need_quantity("density", Measure::density, kPositive, spec.density);
   const auto bulk = map.find("bulk"), shear = map.find("shear");
   const auto young = map.find("young"), poisson = map.find("poisson");
   const bool by_moduli = bulk && shear && !young && !poisson;
   const bool by_young = young && poisson && !bulk && !shear;
   if (by_moduli) {
-    spec.bulk = bulk->quantity(Quantity::pressure, kPositive).value_or(0);
-    spec.shear = shear->quantity(Quantity::pressure, kPositive).value_or(0);
+    spec.bulk = bulk->quantity(Measure::pressure, kPositive).value_or(0);
+    spec.shear = shear->quantity(Measure::pressure, kPositive).value_or(0);
   } else if (by_young) {
-    const double modulus = young->quantity(Quantity::pressure, kPositive).value_or(0);
-    const double ratio = poisson->quantity(Quantity::number, kPoisson).value_or(0);
+    const double modulus = young->quantity(Measure::pressure, kPositive).value_or(0);
+    const double ratio = poisson->quantity(Measure::number, kPoisson).value_or(0);
     spec.bulk = modulus / (3 * (1 - 2 * ratio));
     spec.shear = modulus / (2 * (1 + ratio));
   } else {
@@ -32,15 +32,15 @@ decltype(MaterialSpec::model) read_neo_hookean(MapReader& map) {
 
 decltype(MaterialSpec::model) read_linear_elastic(MapReader& map) {
   LinearElasticSpec spec;
-  map.need_quantity("density", Quantity::density, kPositive, spec.density);
-  map.need_quantity("young", Quantity::pressure, kPositive, spec.young);
-  map.need_quantity("poisson", Quantity::number, kPoisson, spec.poisson);
+  map.need_quantity("density", Measure::density, kPositive, spec.density);
+  map.need_quantity("young", Measure::pressure, kPositive, spec.young);
+  map.need_quantity("poisson", Measure::number, kPoisson, spec.poisson);
   return spec;
 }
 
 decltype(MaterialSpec::model) read_rigid(MapReader& map) {
   RigidSpec spec;
-  map.quantity("density", Quantity::density, kPositive, spec.density);
+  map.quantity("density", Measure::density, kPositive, spec.density);
   return spec;
 }
 
@@ -49,7 +49,8 @@ decltype(MaterialSpec::model) read_rigid(MapReader& map) {
 const std::vector<MaterialKind>& material_kinds() {
   static const std::vector<MaterialKind> kKinds{
       {"neo_hookean", "density, bulk, shear (or young, poisson)", "large elastic strains", read_neo_hookean},
-      {"linear_elastic", "density, young, poisson", "infinitesimal strains and turns only", read_linear_elastic},
+      {"linear_elastic", "density, young, poisson", "infinitesimal strains and turns only",
+       read_linear_elastic},
       {"rigid", "density = 1000 kg/m^3", "moves as its body's velocity says, never deforms", read_rigid},
   };
   return kKinds;

@@ -77,20 +77,20 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   if (contact.normal == NormalKind::average_gradient) contact.separation = SeparationKind::position_offset;
   const auto normal = contact.normal == NormalKind::specified ? map.need("specified_normal", "a vector")
                                                               : map.find("specified_normal");
-  if (const auto vector = normal ? normal->vector(Quantity::number, dimension) : std::nullopt) {
+  if (const auto vector = normal ? normal->vector(Measure::number, dimension) : std::nullopt) {
     const auto unit = unit_vector(*vector);
     if (!unit) normal->report("the zero vector has no direction");
     contact.specified_normal = unit.value_or(Vec3{});
   }
   constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
   map.word("separation", kSeparations, contact.separation);
-  map.quantity("position_offset", Quantity::number, kNotNegative, contact.position_offset);
+  map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
   map.word("law", kLaws, contact.law);
-  map.quantity("friction", Quantity::number, kNotNegative, contact.friction);
-  map.quantity("penalty", Quantity::number, kNotNegative, contact.penalty);
+  map.quantity("friction", Measure::number, kNotNegative, contact.friction);
+  map.quantity("penalty", Measure::number, kNotNegative, contact.penalty);
   map.boolean("advance_separation", contact.advance_separation);
-  map.quantity("hysteresis", Quantity::number, kNotNegative, contact.hysteresis);
-  map.quantity("mass_screen", Quantity::number, kShare, contact.mass_screen);
+  map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
+  map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
   map.finish();
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 std::optional<Vec3> need_vector(MapReader& map, const char* key, int dimension, const Limit& limit = kAny) {
   const auto value = map.need(key, fmt::format("a list of {} lengths", dimension));
-  return value ? value->vector(Quantity::length, dimension, limit) : std::nullopt;
+  return value ? value->vector(Measure::length, dimension, limit) : std::nullopt;
 }
 
 std::optional<Shape> read_box(const Value& value, int dimension) {
@@ -22,8 +22,8 @@ std::optional<Shape> read_box(const Value& value, int dimension) {
   if (!from || !to) return std::nullopt;
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     if ((*from)[k] < (*to)[k]) continue;
-    value.report(fmt::format("'to' must lie above 'from' in {}, but {} m is not above {} m", "xyz"[k], (*to)[k],
-                             (*from)[k]));
+    value.report(fmt::format("'to' must lie above 'from' in {}, but {} m is not above {} m", "xyz"[k],
+                             (*to)[k], (*from)[k]));
     return std::nullopt;
   }
   return BoxShape{*from, *to};
@@ -33,7 +33,7 @@ std::optional<Shape> read_round(const Value& value, int dimension) {
   MapReader map(value, "a map {centre, radius}");
   const auto centre = need_vector(map, "centre", dimension);
   double radius = 0;
-  map.need_quantity("radius", Quantity::length, kPositive, radius);
+  map.need_quantity("radius", Measure::length, kPositive, radius);
   map.finish();
   if (!centre || radius <= 0) return std::nullopt;
   return EllipsoidShape{*centre, {radius, radius, dimension == 3 ? radius : 0.0}, 0};
@@ -44,23 +44,25 @@ std::optional<Shape> read_ellipsoid(const Value& value, int dimension) {
   const auto centre = need_vector(map, "centre", dimension);
   const auto radii = need_vector(map, "radii", dimension, kPositive);
   double angle = 0;
-  map.quantity("angle", Quantity::angle, kAny, angle);
+  map.quantity("angle", Measure::angle, kAny, angle);
   map.finish();
   if (!centre || !radii) return std::nullopt;
   return EllipsoidShape{*centre, *radii, angle};
 }
 
 std::optional<Shape> read_ring(const Value& value, int dimension) {
-  MapReader map(value, dimension == 3 ? "a map {centre, inner, outer, length}" : "a map {centre, inner, outer}");
+  MapReader map(value,
+                dimension == 3 ? "a map {centre, inner, outer, length}" : "a map {centre, inner, outer}");
   const auto centre = need_vector(map, "centre", dimension);
   double inner = -1, outer = -1, length = dimension == 3 ? -1 : 0;
-  map.need_quantity("inner", Quantity::length, kNotNegative, inner);
-  map.need_quantity("outer", Quantity::length, kPositive, outer);
-  if (dimension == 3) map.need_quantity("length", Quantity::length, kPositive, length);
+  map.need_quantity("inner", Measure::length, kNotNegative, inner);
+  map.need_quantity("outer", Measure::length, kPositive, outer);
+  if (dimension == 3) map.need_quantity("length", Measure::length, kPositive, length);
   map.finish();
   if (!centre || inner < 0 || outer < 0 || length < 0) return std::nullopt;
   if (inner >= outer) {
-    value.report(fmt::format("the inner radius must be smaller than the outer, but {} m is not below {} m", inner, outer));
+    value.report(fmt::format("the inner radius must be smaller than the outer, but {} m is not below {} m",
+                             inner, outer));
     return std::nullopt;
   }
   return RingShape{*centre, inner, outer, length / 2};
@@ -74,7 +76,7 @@ std::optional<std::vector<std::array<double, 2>>> read_points(const Value& list)
   std::vector<std::array<double, 2>> points;
   bool good = true;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const auto point = list.item(k).vector(Quantity::length, 2);
+    const auto point = list.item(k).vector(Measure::length, 2);
     good = good && point;
     if (point) points.push_back({(*point)[0], (*point)[1]});
   }
@@ -94,13 +96,14 @@ std::optional<Shape> read_polygon(const Value& value, int dimension) {
     shape.points = *points;
     return shape;
   }
-  MapReader map(value, dimension == 3 ? "a map {points, z: [lower, upper]}" : "a list of points or a map {points}");
+  MapReader map(value,
+                dimension == 3 ? "a map {points, z: [lower, upper]}" : "a list of points or a map {points}");
   const auto list = map.need("points", "a list of points [x, y]");
   const auto points = list ? read_points(*list) : std::nullopt;
   bool good = points.has_value();
   if (dimension == 3) {
     const auto range = map.need("z", "a list [lower, upper]");
-    const auto ends = range ? range->vector(Quantity::length, 2) : std::nullopt;
+    const auto ends = range ? range->vector(Measure::length, 2) : std::nullopt;
     if (ends && (*ends)[0] >= (*ends)[1]) range->report("the upper end must lie above the lower");
     good = good && ends && (*ends)[0] < (*ends)[1];
     if (ends) {
@@ -125,8 +128,8 @@ const std::vector<ShapeKind>& shape_kinds() {
       {"ellipsoid", 3, "centre, radii, angle = 0", "3-D, turned by angle about z", read_ellipsoid},
       {"ring", 2, "centre, inner, outer", "2-D", read_ring},
       {"tube", 3, "centre, inner, outer, length", "3-D, along z; a cylinder when inner is 0", read_ring},
-      {"polygon", 0, "points (3-D also z: [lower, upper])", "simple, closed by itself; in 3-D extruded along z",
-       read_polygon},
+      {"polygon", 0, "points (3-D also z: [lower, upper])",
+       "simple, closed by itself; in 3-D extruded along z", read_polygon},
       {"bitmap", 2, "FILE (beside it: extent, origin, skip, materials)",
        "2-D, an 8-bit grey PNG: each grey level is a body NAME_LEVEL", nullptr},
   };

@@ -176,4 +176,9 @@ struct Scene {
   int dimension() const { return space == Space::three_dimensional ? 3 : 2; }
 };
 
+/// Is the body made of a rigid material?
+inline bool is_rigid(const Scene& scene, const BodySpec& body) {
+  return std::holds_alternative<RigidSpec>(scene.materials[static_cast<std::size_t>(body.material)].model);
+}
+
 }  // namespace mpmfast

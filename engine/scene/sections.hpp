@@ -62,9 +62,6 @@ std::optional<Vec3> read_direction(const Value& value, int dimension, bool any);
 /// changes nothing. Nothing for a zero vector.
 std::optional<Vec3> unit_vector(const Vec3& vector);
 
-/// Is the material of this body rigid?
-bool is_rigid(const Scene& scene, const BodySpec& body);
-
 /// The scene with every default, in the format that parse_scene reads.
 std::string write_scene(const Scene& scene);
 

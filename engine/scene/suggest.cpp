@@ -15,7 +15,8 @@ std::string lower_case(std::string_view text) {
   return out;
 }
 
-constexpr std::size_t kLongestWord = 64;  // a longer one is no misspelling, and the table grows with its square
+constexpr std::size_t kLongestWord =
+    64;  // a longer one is no misspelling, and the table grows with its square
 
 }  // namespace
 

@@ -11,8 +11,8 @@ namespace mpmfast {
 /// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other.
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The nearest known word when it is near enough to be what was meant, else empty. A word that differs in case alone
-/// wins over every other.
+/// The nearest known word when it is near enough to be what was meant, else empty. A word that differs in
+/// case alone wins over every other.
 std::string closest(std::string_view word, std::span<const std::string> known);
 
 /// "Did you mean 'x'?" or nothing.

@@ -16,7 +16,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kDeepest = 32;      // levels; a scene has about six
+constexpr std::size_t kDeepest = 32;        // levels; a scene has about six
 constexpr std::size_t kMostNodes = 200000;  // after aliases are expanded
 
 /// Thrown inside the parser to leave it; the problem is already noted.
@@ -193,10 +193,14 @@ int index_of(const Node& node, const std::string& key) {
 std::string describe(const Node& node) {
   constexpr std::size_t kShown = 60;
   switch (node.kind) {
-    case Node::Kind::null: return "nothing";
-    case Node::Kind::list: return fmt::format("a list of {}", node.items.size());
-    case Node::Kind::map: return "a map";
-    case Node::Kind::scalar: break;
+    case Node::Kind::null:
+      return "nothing";
+    case Node::Kind::list:
+      return fmt::format("a list of {}", node.items.size());
+    case Node::Kind::map:
+      return "a map";
+    case Node::Kind::scalar:
+      break;
   }
   std::string text = node.scalar.substr(0, kShown);
   for (char& c : text) {
@@ -205,7 +209,9 @@ std::string describe(const Node& node) {
   return node.scalar.size() > kShown ? "'" + text + "…'" : "'" + text + "'";
 }
 
-std::string join(const std::string& path, const std::string& key) { return path.empty() ? key : path + "." + key; }
+std::string join(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "." + key;
+}
 
 std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems) {
   if (!check_text(text, source, problems)) return std::nullopt;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file The strict layer over yaml-cpp: text → a tree that knows where each node was written.
-/// Closed here: duplicate keys, merge keys, tags, more than one document, empty files, text that is not UTF-8,
-/// control characters, deep nesting, aliases that multiply or contain themselves.
+/// Closed here: duplicate keys, merge keys, tags, more than one document, empty files, text that is not
+/// UTF-8, control characters, deep nesting, aliases that multiply or contain themselves.
 
 #include <optional>
 #include <string>

@@ -23,16 +23,20 @@ constexpr Dimensions kLength{1, 0, 0, 0}, kMass{0, 1, 0, 0}, kTime{0, 0, 1, 0}, 
 constexpr Dimensions kForce{1, 1, -2, 0}, kPressure{-1, 1, -2, 0}, kEnergy{2, 1, -2, 0};
 
 const NamedUnit kUnits[] = {
-    {"m", {1, 1, kLength}},        {"km", {1e3, 1, kLength}},     {"dm", {1, 10, kLength}},
-    {"cm", {1, 100, kLength}},     {"mm", {1, 1e3, kLength}},     {"um", {1, 1e6, kLength}},
-    {"nm", {1, 1e9, kLength}},     {"kg", {1, 1, kMass}},         {"g", {1, 1e3, kMass}},
-    {"mg", {1, 1e6, kMass}},       {"t", {1e3, 1, kMass}},        {"s", {1, 1, kTime}},
-    {"ms", {1, 1e3, kTime}},       {"us", {1, 1e6, kTime}},       {"ns", {1, 1e9, kTime}},
-    {"min", {60, 1, kTime}},       {"h", {3600, 1, kTime}},       {"N", {1, 1, kForce}},
-    {"kN", {1e3, 1, kForce}},      {"MN", {1e6, 1, kForce}},      {"J", {1, 1, kEnergy}},
-    {"Pa", {1, 1, kPressure}},     {"kPa", {1e3, 1, kPressure}},  {"MPa", {1e6, 1, kPressure}},
-    {"GPa", {1e9, 1, kPressure}},  {"bar", {1e5, 1, kPressure}},  {"rad", {1, 1, kAngle}},
-    {"deg", {3.14159265358979323846, 180, kAngle}},
+    {"m", {1, 1, kLength}},       {"km", {1e3, 1, kLength}},
+    {"dm", {1, 10, kLength}},     {"cm", {1, 100, kLength}},
+    {"mm", {1, 1e3, kLength}},    {"um", {1, 1e6, kLength}},
+    {"nm", {1, 1e9, kLength}},    {"kg", {1, 1, kMass}},
+    {"g", {1, 1e3, kMass}},       {"mg", {1, 1e6, kMass}},
+    {"t", {1e3, 1, kMass}},       {"s", {1, 1, kTime}},
+    {"ms", {1, 1e3, kTime}},      {"us", {1, 1e6, kTime}},
+    {"ns", {1, 1e9, kTime}},      {"min", {60, 1, kTime}},
+    {"h", {3600, 1, kTime}},      {"N", {1, 1, kForce}},
+    {"kN", {1e3, 1, kForce}},     {"MN", {1e6, 1, kForce}},
+    {"J", {1, 1, kEnergy}},       {"Pa", {1, 1, kPressure}},
+    {"kPa", {1e3, 1, kPressure}}, {"MPa", {1e6, 1, kPressure}},
+    {"GPa", {1e9, 1, kPressure}}, {"bar", {1e5, 1, kPressure}},
+    {"rad", {1, 1, kAngle}},      {"deg", {3.14159265358979323846, 180, kAngle}},
 };
 
 const QuantityKind kKinds[] = {
@@ -50,8 +54,8 @@ const QuantityKind kKinds[] = {
 /// The typographic forms that people paste: µ, °, ·, ², ³.
 std::string plain_spelling(std::string_view text) {
   static const std::pair<std::string_view, std::string_view> kForms[] = {
-      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"}, {"\xC2\xB0", "deg"}, {"\xC2\xB7", "*"}, {"\xC2\xB2", "^2"},
-      {"\xC2\xB3", "^3"}};
+      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"},  {"\xC2\xB0", "deg"},
+      {"\xC2\xB7", "*"}, {"\xC2\xB2", "^2"}, {"\xC2\xB3", "^3"}};
   std::string out(text);
   for (const auto& [from, to] : kForms) {
     for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size())) {
@@ -61,7 +65,7 @@ std::string plain_spelling(std::string_view text) {
   return out;
 }
 
-QuantityError unknown_unit(const std::string& symbol, Quantity expected) {
+QuantityError unknown_unit(const std::string& symbol, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
   std::vector<std::string> same_kind, all;
   for (const NamedUnit& named : kUnits) {
@@ -125,9 +129,9 @@ std::optional<Factor> next_factor(const std::string& text, std::size_t& at) {
 
 }  // namespace
 
-const QuantityKind& kind_of(Quantity quantity) { return kKinds[static_cast<std::size_t>(quantity)]; }
+const QuantityKind& kind_of(Measure quantity) { return kKinds[static_cast<std::size_t>(quantity)]; }
 
-std::variant<Unit, QuantityError> parse_unit(std::string_view written, Quantity expected) {
+std::variant<Unit, QuantityError> parse_unit(std::string_view written, Measure expected) {
   const std::string text = plain_spelling(written);
   const auto skip_blanks = [&](std::size_t& at) {
     while (at < text.size() && text[at] == ' ') ++at;

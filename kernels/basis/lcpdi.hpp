@@ -104,7 +104,7 @@ struct LcpdiBasis {
     for (int d = 0; d < Dim; ++d) {
       double extent = 0;
       for (int j = 0; j < Dim; ++j) extent += std::abs(g.edge[Dim * d + j][k]);
-      node[d] = static_cast<int>(std::floor((g.position[d][k] - g.origin[d] - extent) * g.inverse_cell));
+      node[d] = static_cast<int>(std::floor((g.position[d][k] - g.origin[d] - extent) * g.inverse_cell + kEdge));
     }
     return node;
   }
@@ -118,7 +118,7 @@ struct LcpdiBasis {
       for (int d = 0; d < Dim; ++d) {
         Lanes x = r[d] - static_cast<double>(node[d]);
         for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-        margin = smaller(margin, 1.0 - magnitude(x));
+        margin = smaller(margin, 1.0 - kEdge - magnitude(x));
       }
       best = larger(best, margin);
     }

@@ -124,7 +124,7 @@ struct SeparableBasis {
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
     NodeIndex<Dim> node;
     for (int d = 0; d < Dim; ++d)
-      node[d] = static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell));
+      node[d] = static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
     return node;
   }
 
@@ -134,7 +134,7 @@ struct SeparableBasis {
     Lanes margin = broadcast<Lanes>(1e300);
     for (int d = 0; d < Dim; ++d) {
       const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
-      const double reach = Function::reach(g.half_size[d] * g.inverse_cell);
+      const double reach = Function::reach(g.half_size[d] * g.inverse_cell) - kEdge;
       margin = smaller(margin, reach - magnitude(r - static_cast<double>(node[d])));
     }
     return margin;

@@ -55,7 +55,8 @@ inline void small_strain(const V (&f)[Dim * Dim], V (&e)[kSymmetric<Dim>]) {
 }
 
 /// A lower bound of the smallest eigenvalue of B over directions in the plane (2-D: exact) or in space.
-/// 3-D: J² = b1 b2 b3 ≤ b1 ((I1 − b1)/2)² gives b1 ≥ 4J²/(I1 − b1)²; from b1 = 0 this rises to the bound.
+/// 3-D: J² = b1 b2 b3 ≤ b1 ((I1 − b1)/2)² gives b1 ≥ 4J²/(I1 − b1)²; from b1 = 0 this rises to the bound. Near
+/// isotropy it converges slowly, and the other bound, mean − 2p with 6p² = dev B : dev B, is the better one.
 template <int Dim, class V>
 inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
   if constexpr (Dim == 2) {
@@ -65,7 +66,9 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
     const V i1 = b[0] + b[1] + b[2], j2 = 4.0 * j * j;
     V b1 = broadcast<V>(0.0);
     for (int k = 0; k < 4; ++k) b1 = j2 / ((i1 - b1) * (i1 - b1));
-    return b1;
+    const V mean = i1 * (1.0 / 3.0), d0 = b[0] - mean, d1 = b[1] - mean, d2 = b[2] - mean;
+    const V deviator = d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (b[3] * b[3] + b[4] * b[4] + b[5] * b[5]);
+    return larger(b1, mean - 2.0 * square_root(deviator * (1.0 / 6.0)));
   }
 }
 

@@ -2,7 +2,8 @@
 
 /// @file Clouds of contact nodes for tests: growable, padded as the kernels ask.
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,8 +76,9 @@ double angle_between(const Vec<Dim>& a, const Vec<Dim>& b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * (a.normalized() - b.normalized()).norm()));
 }
 
-/// Two blocks that touch at a plane with normal `r.col(0)`, `offset` cells from the node: lattices of two particles a
-/// cell side, aligned with the plane, each moved by up to `jitter` of their spacing; those inside the box |ξ| < reach.
+/// Two blocks that touch at a plane with normal `r.col(0)`, `offset` cells from the node: lattices of two
+/// particles a cell side, aligned with the plane, each moved by up to `jitter` of their spacing; those inside
+/// the box |ξ| < reach.
 template <int Dim>
 Cloud<Dim> touching_blocks(const Mat<Dim>& r, double offset, double jitter, double reach, Draw& draw) {
   constexpr double spacing = 0.5;

@@ -26,7 +26,8 @@ struct Pair {
   /// Δp_a(0): what gives both one velocity.
   Vec<Dim> stick() const { return mass_a / (mass_a + mass_b) * (momentum_a + momentum_b) - momentum_a; }
   double kinetic(const Vec<Dim>& change) const {
-    return 0.5 * (momentum_a + change).squaredNorm() / mass_a + 0.5 * (momentum_b - change).squaredNorm() / mass_b;
+    return 0.5 * (momentum_a + change).squaredNorm() / mass_a +
+           0.5 * (momentum_b - change).squaredNorm() / mass_b;
   }
   Vec<Dim> velocity_jump(const Vec<Dim>& change) const {
     return (momentum_b - change) / mass_b - (momentum_a + change) / mass_a;
@@ -46,7 +47,8 @@ void check_dissipation_and_detection(const Law& law) {
     CHECK(resolve_pair<Dim>(stick, n, 0.1, law) == Vec<Dim>::Zero());
     if (stick.dot(n) >= 0) CHECK(change == Vec<Dim>::Zero());
     // In contact the surfaces no longer approach: the normal velocities are equal.
-    if (stick.dot(n) < 0) CHECK(std::abs(pair.velocity_jump(change).dot(n)) < 1e-10 * (1 + stick.norm() / pair.mass_a));
+    if (stick.dot(n) < 0)
+      CHECK(std::abs(pair.velocity_jump(change).dot(n)) < 1e-10 * (1 + stick.norm() / pair.mass_a));
     // b sees the same pair from its side: opposite stick momentum and opposite normal.
     CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law) + change).norm() <= 1e-15 * stick.norm());
   }
@@ -54,7 +56,8 @@ void check_dissipation_and_detection(const Law& law) {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("laws never add kinetic energy and act only on touching, approaching surfaces", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("laws never add kinetic energy and act only on touching, approaching surfaces", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   for (const double friction : {0.0, 0.2, 1.0, 50.0}) check_dissipation_and_detection<Dim>(Coulomb{friction});
   check_dissipation_and_detection<Dim>(Frictionless{});
@@ -68,7 +71,8 @@ TEST_CASE_TEMPLATE("Coulomb: on the cone when sliding, along the sliding, whole 
   Draw draw(2);
   int slid = 0, stuck = 0;
   for (int k = 0; k < 1000; ++k) {
-    const Vec<Dim> n = random_direction<Dim>(draw), stick = uniform(draw, 0.1, 3) * random_direction<Dim>(draw);
+    const Vec<Dim> n = random_direction<Dim>(draw),
+                   stick = uniform(draw, 0.1, 3) * random_direction<Dim>(draw);
     const double along = stick.dot(n), friction = uniform(draw, 0, 1.5);
     if (along >= 0) continue;
     const Vec<Dim> shear = stick - along * n, change = resolve_pair<Dim>(stick, n, -0.1, Coulomb{friction});
@@ -98,7 +102,8 @@ TEST_CASE_TEMPLATE("limits: no friction, endless friction, tied and ignored surf
              resolve_pair<Dim>(stick, n, separation, Frictionless{}))
                 .norm() < 1e-15);
       if (std::abs(stick.dot(n)) > 1e-6)
-        CHECK(resolve_pair<Dim>(stick, n, separation, Coulomb{1e12}) == resolve_pair<Dim>(stick, n, separation, Stick{}));
+        CHECK(resolve_pair<Dim>(stick, n, separation, Coulomb{1e12}) ==
+              resolve_pair<Dim>(stick, n, separation, Stick{}));
       CHECK(resolve_pair<Dim>(stick, n, separation, Perfect{}) == stick);
       CHECK(resolve_pair<Dim>(stick, n, separation, Ignore{}) == Vec<Dim>::Zero());
     }
@@ -111,10 +116,11 @@ TEST_CASE_TEMPLATE("limits: no friction, endless friction, tied and ignored surf
 
 TEST_CASE("every law has a name of its own and says what it is") {
   CHECK(Coulomb::keys[0].name == "friction");
-  const std::string_view names[] = {Coulomb::name, Frictionless::name, Stick::name, Perfect::name, Ignore::name};
+  const std::string_view names[] = {Coulomb::name, Frictionless::name, Stick::name, Perfect::name,
+                                    Ignore::name};
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = 0; j < i; ++j) CHECK(names[i] != names[j]);
-  for (const auto text : {Coulomb::description, Frictionless::description, Stick::description, Perfect::description,
-                          Ignore::description})
+  for (const auto text : {Coulomb::description, Frictionless::description, Stick::description,
+                          Perfect::description, Ignore::description})
     CHECK(!text.empty());
 }

@@ -2,7 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
@@ -36,21 +37,20 @@ Mat<Dim> random_deformation(Draw& draw) {
 }
 
 template <int Dim>
-Mat<Dim> random_rotation(Draw& draw) {
-  Mat<Dim> m;
-  for (int i = 0; i < Dim; ++i)
-    for (int j = 0; j < Dim; ++j) m(i, j) = uniform(draw, -1, 1);
-  Mat<Dim> q = Eigen::HouseholderQR<Mat<Dim>>(m).householderQ();
-  if (q.determinant() < 0) q.col(0) = -q.col(0);
-  return q;
-}
-
-template <int Dim>
 Vec<Dim> random_direction(Draw& draw) {
   std::normal_distribution<double> gauss;
   Vec<Dim> n;
   for (int d = 0; d < Dim; ++d) n[d] = gauss(draw);
   return n.normalized();
+}
+
+template <int Dim>
+Mat<Dim> random_rotation(Draw& draw) {
+  const double angle = uniform(draw, -3, 3);
+  if constexpr (Dim == 2)
+    return Eigen::Rotation2Dd(angle).toRotationMatrix();
+  else
+    return Eigen::AngleAxisd(angle, random_direction<3>(draw)).toRotationMatrix();
 }
 
 template <int Dim>
@@ -113,7 +113,8 @@ double acoustic(const Law& law, const Mat<Dim>& f, const Vec<Dim>& m, const Vec<
 
 // W of one term is about 1e9 J/m³; a difference of step 1e-3 leaves 1e-13·1e9/1e-3 = 0.1 Pa of round-off and
 // 1e-12·(fifth derivative) of truncation: 1e-8 of the moduli is ample for both.
-TEST_CASE_TEMPLATE("neo-Hookean: the Kirchhoff stress is the derivative of W along exp(ε e) F", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("neo-Hookean: the Kirchhoff stress is the derivative of W along exp(ε e) F", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(1);
   for (int k = 0; k < 200; ++k) {
@@ -140,7 +141,8 @@ TEST_CASE("neo-Hookean: plane strain is the 3-D law with F_zz = 1, out-of-plane 
     const Mat<2> f = random_deformation<2>(draw);
     Mat<3> g = Mat<3>::Identity();
     g.topLeftCorner<2, 2>() = f;
-    CHECK((stress<2>(kSolid, f) - stress<3>(kSolid, g)).norm() < 1e-13 * (kSolid.bulk + stress<3>(kSolid, g).norm()));
+    CHECK((stress<2>(kSolid, f) - stress<3>(kSolid, g)).norm() <
+          1e-13 * (kSolid.bulk + stress<3>(kSolid, g).norm()));
     CHECK(energy<2>(kSolid, f) == doctest::Approx(energy<3>(kSolid, g)).epsilon(1e-12));
   }
 }
@@ -178,8 +180,8 @@ TEST_CASE_TEMPLATE("linear elastic: P = ∂W/∂F", D, TwoD, ThreeD) {
     const Mat<3> p = stress<Dim>(kLinear, f);
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j) {
-        const double slope =
-            derivative([&](double e) { return energy<Dim>(kLinear, Mat<Dim>(f + e * unit_matrix<Dim>(i, j))); }, 1e-3);
+        const double slope = derivative(
+            [&](double e) { return energy<Dim>(kLinear, Mat<Dim>(f + e * unit_matrix<Dim>(i, j))); }, 1e-3);
         CHECK(std::abs(p(i, j) - slope) < 1e-9 * kLinear.lambda);
       }
   }
@@ -211,7 +213,8 @@ TEST_CASE_TEMPLATE("neo-Hookean: no longitudinal wave outruns the stated speed",
   }
 }
 
-TEST_CASE_TEMPLATE("at small strain the stated speed is the fastest wave's", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("at small strain the stated speed is the fastest wave's, in 3-D a bound close to it", D,
+                   TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(7);
   const Mat<Dim> h = (random_deformation<Dim>(draw) - Mat<Dim>::Identity()) * 1e-8;
@@ -220,9 +223,11 @@ TEST_CASE_TEMPLATE("at small strain the stated speed is the fastest wave's", D, 
   double fastest = 0;
   for (int s = 0; s < 100; ++s) {
     const Vec<Dim> n = random_direction<Dim>(draw);
-    fastest = std::max(fastest, acoustic<Dim>(kSolid, Mat<Dim>(Mat<Dim>::Identity() + h), n, n) / kSolid.density);
+    fastest =
+        std::max(fastest, acoustic<Dim>(kSolid, Mat<Dim>(Mat<Dim>::Identity() + h), n, n) / kSolid.density);
   }
-  CHECK(c2 == doctest::Approx(fastest).epsilon(1e-6));
+  CHECK(c2 > fastest * (1 - 1e-6));
+  CHECK(c2 < fastest * (1 + (Dim == 2 ? 1e-6 : 0.025)));  // the bound in 3-D leaves 2 % at these moduli
 }
 
 TEST_CASE_TEMPLATE("lanes of particles get the stresses of one by one", D, TwoD, ThreeD) {
@@ -239,7 +244,8 @@ TEST_CASE_TEMPLATE("lanes of particles get the stresses of one by one", D, TwoD,
   for (int i = 0; i < kLanes; ++i) {
     double alone[kSymmetric<Dim>], speed;
     kSolid.stress<Dim>(Rows<Dim>(each[i]).f, alone, speed);
-    for (int s = 0; s < kSymmetric<Dim>; ++s) CHECK(std::abs(tau[s][i] - alone[s]) < 1e-13 * (kSolid.bulk + std::abs(alone[s])));
+    for (int s = 0; s < kSymmetric<Dim>; ++s)
+      CHECK(std::abs(tau[s][i] - alone[s]) < 1e-13 * (kSolid.bulk + std::abs(alone[s])));
     CHECK(c2[i] == doctest::Approx(speed).epsilon(1e-13));
     CHECK(std::abs(w[i] - energy<Dim>(kSolid, each[i])) < 1e-13 * kSolid.bulk);
   }
@@ -255,6 +261,7 @@ TEST_CASE_TEMPLATE("the deformation gradient advances by the exponential's first
     Rows<Dim> rows(f);
     advance_deformation<Dim>(Rows<Dim>(l).f, dt, terms, rows.f);
     const Mat<Dim> expected = (terms == 1 ? one : two) * f;
-    for (int e = 0; e < Dim * Dim; ++e) CHECK(rows.f[e] == doctest::Approx(Rows<Dim>(expected).f[e]).epsilon(1e-14));
+    for (int e = 0; e < Dim * Dim; ++e)
+      CHECK(rows.f[e] == doctest::Approx(Rows<Dim>(expected).f[e]).epsilon(1e-14));
   }
 }

@@ -1,4 +1,5 @@
-/// Clouds that have no proper plane: the regression must say so, and never return anything but a unit vector or zero.
+/// Clouds that have no proper plane: the regression must say so, and never return anything but a unit vector
+/// or zero.
 
 #include <doctest/doctest.h>
 
@@ -110,20 +111,24 @@ TEST_CASE_TEMPLATE("coincident points fail, coincident classes too", D, TwoD, Th
   }
 }
 
-TEST_CASE_TEMPLATE("a ring around a core gives a unit vector towards its centroid or fails", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("a ring around a core gives a unit vector towards its centroid or fails", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(6);
   for (int k = 0; k < 100; ++k) {
     Cloud<Dim> cloud;
-    for (int p = 0; p < 20; ++p) cloud.add(random_direction<Dim>(draw) * (p % 2 ? 1.0 : 0.3), p % 2 ? 1.0 : -1.0);
+    for (int p = 0; p < 20; ++p)
+      cloud.add(random_direction<Dim>(draw) * (p % 2 ? 1.0 : 0.3), p % 2 ? 1.0 : -1.0);
     Vec<Dim> towards = Vec<Dim>::Zero();
     for (std::size_t p = 0; p < 20; ++p)
-      for (std::size_t d = 0; d < Dim; ++d) towards[static_cast<int>(d)] += cloud.side[p] * cloud.xi[d][p] / 10.0;
+      for (std::size_t d = 0; d < Dim; ++d)
+        towards[static_cast<int>(d)] += cloud.side[p] * cloud.xi[d][p] / 10.0;
     CHECK(fit(cloud).normal.dot(towards) >= 0);
   }
 }
 
-TEST_CASE_TEMPLATE("separable, distant, huge and tiny clouds stay finite and part the classes", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("separable, distant, huge and tiny clouds stay finite and part the classes", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(7);
   for (const double penalty : {0.0, 1e-7, 1.0})
@@ -146,7 +151,8 @@ TEST_CASE("random clouds of every size never give anything but a unit vector or 
     const int count = static_cast<int>(uniform(draw, 0, 12));
     // Coordinates on a coarse lattice: many coincide, many clouds are collinear.
     for (int p = 0; p < count; ++p)
-      cloud.add({std::floor(uniform(draw, -2, 2)), std::floor(uniform(draw, -2, 2))}, uniform(draw, -1, 1) < 0 ? -1 : 1);
+      cloud.add({std::floor(uniform(draw, -2, 2)), std::floor(uniform(draw, -2, 2))},
+                uniform(draw, -1, 1) < 0 ? -1 : 1);
     fit(cloud, k % 2 ? 1e-7 : 0.0);
   }
 }

@@ -72,8 +72,8 @@ using ThreeD = std::integral_constant<int, 3>;
 
 }  // namespace
 
-// Reflection with an exchange of the classes leaves the objective unchanged, hence also its minimum: φ has no part
-// along the mirror. The start and every step keep this, whatever the tolerance.
+// Reflection with an exchange of the classes leaves the objective unchanged, hence also its minimum: φ has no
+// part along the mirror. The start and every step keep this, whatever the tolerance.
 TEST_CASE_TEMPLATE("clouds that mirror each other give the mirror plane", D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(1);
@@ -87,9 +87,10 @@ TEST_CASE_TEMPLATE("clouds that mirror each other give the mirror plane", D, Two
     }
 }
 
-// Measured means, of 400 draws: 1.4° (2-D, reach 1.25), 1.0° (2-D, 1.5), 0.7° and 0.5° (3-D); the difference of the
-// centroids errs by 5 to 6°. A strong penalty tilts towards the centroids: 3.6°, 2.9°, 2.0° and 1.2°.
-TEST_CASE_TEMPLATE("jittered blocks that touch at any angle give the plane to a few degrees", D, TwoD, ThreeD) {
+// Measured means, of 400 draws: 1.4° (2-D, reach 1.25), 1.0° (2-D, 1.5), 0.7° and 0.5° (3-D); the difference
+// of the centroids errs by 5 to 6°. A strong penalty tilts towards the centroids: 3.6°, 2.9°, 2.0° and 1.2°.
+TEST_CASE_TEMPLATE("jittered blocks that touch at any angle give the plane to a few degrees", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   CHECK(mean_error<Dim>(1.25, 1e-7, 200) < (Dim == 2 ? 2.0 : 1.0));
   CHECK(mean_error<Dim>(1.5, 1e-7, 200) < (Dim == 2 ? 1.5 : 0.8));
@@ -135,7 +136,8 @@ TEST_CASE("the normal is that of the least objective") {
         for (int i = -4; i <= 4; ++i)
           for (int j = -4; j <= 4; ++j) {
             const double s = size0 + 0.25 * i * width, o = offset0 + 0.25 * j * width;
-            const double value = objective<2>(cloud.view(), 1e-2, {s * std::cos(angle), s * std::sin(angle), o});
+            const double value =
+                objective<2>(cloud.view(), 1e-2, {s * std::cos(angle), s * std::sin(angle), o});
             if (value < best) {
               best = value;
               size = s;
@@ -151,7 +153,8 @@ TEST_CASE("the normal is that of the least objective") {
   }
 }
 
-TEST_CASE_TEMPLATE("the normal points from a to b, and turns round when the classes are exchanged", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("the normal points from a to b, and turns round when the classes are exchanged", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(5);
   for (int k = 0; k < 100; ++k) {

@@ -67,7 +67,8 @@ TEST_CASE_TEMPLATE("the point R n lies on the deformed ellipsoid", D, TwoD, Thre
   }
 }
 
-TEST_CASE_TEMPLATE("undeformed: a sphere has its radius, a box its half-size along each axis", D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE("undeformed: a sphere has its radius, a box its half-size along each axis", D, TwoD,
+                   ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(3);
   double sphere[Dim], box[Dim];
@@ -79,7 +80,8 @@ TEST_CASE_TEMPLATE("undeformed: a sphere has its radius, a box its half-size alo
     CHECK(radius<Dim>(Mat<Dim>::Identity(), sphere, random_direction<Dim>(draw)) ==
           doctest::Approx(0.25).epsilon(1e-14));
   for (int d = 0; d < Dim; ++d)
-    CHECK(radius<Dim>(Mat<Dim>::Identity(), box, Vec<Dim>::Unit(d)) == doctest::Approx(box[d]).epsilon(1e-14));
+    CHECK(radius<Dim>(Mat<Dim>::Identity(), box, Vec<Dim>::Unit(d)) ==
+          doctest::Approx(box[d]).epsilon(1e-14));
 }
 
 TEST_CASE("a stretched circle has the ellipse's radius in every direction, turned or not") {
@@ -87,7 +89,8 @@ TEST_CASE("a stretched circle has the ellipse's radius in every direction, turne
   for (int k = 0; k < 36; ++k) {
     const double angle = 0.1745 * k, turn = 0.7;
     const double a = 0.25 * 1.8, b = 0.25 * 0.6;  // semi-axes
-    const Mat<2> stretch = Vec<2>(1.8, 0.6).asDiagonal(), rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
+    const Mat<2> stretch = Vec<2>(1.8, 0.6).asDiagonal(),
+                 rotation = Eigen::Rotation2Dd(turn).toRotationMatrix();
     const double expected = a * b / std::hypot(b * std::cos(angle - turn), a * std::sin(angle - turn));
     const double found = radius<2>(rotation * stretch, half_size, {std::cos(angle), std::sin(angle)});
     CHECK(found == doctest::Approx(expected).epsilon(1e-13));
@@ -118,7 +121,8 @@ TEST_CASE_TEMPLATE("two spheres are as far apart as their centres less their rad
   Draw draw(5);
   for (int k = 0; k < 50; ++k) {
     const Vec<Dim> n = random_direction<Dim>(draw), a = 0.4 * random_direction<Dim>(draw);
-    const double distance = uniform(draw, 0.2, 1.0), r_a = uniform(draw, 0.1, 0.3), r_b = uniform(draw, 0.1, 0.3);
+    const double distance = uniform(draw, 0.2, 1.0), r_a = uniform(draw, 0.1, 0.3),
+                 r_b = uniform(draw, 0.1, 0.3);
     Cloud<Dim> cloud;
     cloud.add(a, -1.0);
     cloud.add(a + distance * n, 1.0);
@@ -141,8 +145,10 @@ TEST_CASE_TEMPLATE("a cloud's separation is that of its foremost surfaces", D, T
       radii[p] = uniform(draw, 0.1, 0.3);
       double along = 0;
       for (std::size_t d = 0; d < Dim; ++d) along += cloud.xi[d][p] * r(static_cast<int>(d), 0);
-      if (cloud.side[p] < 0) front = std::max(front, along + radii[p]);
-      else back = std::min(back, along - radii[p]);
+      if (cloud.side[p] < 0)
+        front = std::max(front, along + radii[p]);
+      else
+        back = std::min(back, along - radii[p]);
     }
     CHECK(std::abs(cloud_separation<Dim>(cloud.view(), radii.data(), r.col(0)) - (back - front)) < 1e-12);
   }
@@ -162,7 +168,8 @@ TEST_CASE("touching lattices of spheres have no separation, and lattices a gap a
   }
 }
 
-TEST_CASE("separations by the grid: zero at the calibrated distance, growing, mirrored, finite past the node") {
+TEST_CASE(
+    "separations by the grid: zero at the calibrated distance, growing, mirrored, finite past the node") {
   CHECK(position_offset(-0.4, 0.4, 0.8) == doctest::Approx(0.0));
   CHECK(position_offset(-0.5, 0.6, 0.8) == doctest::Approx(0.3));
   // Each surface reaches the node where 2 (e/1.25)^0.58 = 1.

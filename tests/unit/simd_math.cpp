@@ -77,7 +77,8 @@ TEST_CASE("square root, floor, magnitude, larger, smaller and sum of Lanes are t
       y[i] = uniform(draw, -1e3, 1e3);
       sum += x[i];
     }
-    const Lanes root = square_root(magnitude(x)), floor = floor_of(x), more = larger(x, y), less = smaller(x, y);
+    const Lanes root = square_root(magnitude(x)), floor = floor_of(x), more = larger(x, y),
+                less = smaller(x, y);
     for (int i = 0; i < kLanes; ++i) {
       CHECK(root[i] == std::sqrt(std::abs(x[i])));
       CHECK(floor[i] == std::floor(x[i]));

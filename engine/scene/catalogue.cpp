@@ -1,0 +1,63 @@
+#include "engine/scene/catalogue.hpp"
+
+#include <utility>
+
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+template <class E, std::size_t N>
+std::vector<CatalogueEntry> words_of(const std::array<Word<E>, N>& words) {
+  std::vector<CatalogueEntry> out;
+  for (const Word<E>& word : words) out.push_back({word.name, "", word.says});
+  return out;
+}
+
+/// Materials and shapes: a name, its keys, a line.
+template <class Kind>
+std::vector<CatalogueEntry> kinds_of(const std::vector<Kind>& kinds) {
+  std::vector<CatalogueEntry> out;
+  for (const Kind& kind : kinds) out.push_back({kind.name, kind.keys, kind.says});
+  return out;
+}
+
+std::vector<CatalogueEntry> boundaries() {
+  return {
+      {"wall", "",
+       "on a face (left, right, bottom, top, back, front): nothing moves through it, it slides freely"},
+      {"symmetry", "", "another word for wall"},
+      {"fixed", "", "a wall that also holds sideways"},
+      {"free", "", "no condition (default)"},
+      {"{wall: …}", "wall: sliding or held, position", "a wall at another place than the grid's face"},
+      {"{piston: …}", "piston: speed or table, direction = inwards, held = false, position", "a moving wall"},
+      {"NAME: {box: …}", "box: {from, to}, direction, speed: speed or table",
+       "one velocity component prescribed at every node in the box"}};
+}
+
+}  // namespace
+
+std::vector<std::string> catalogue_topics() {
+  return {"materials",   "bases", "updates", "strains",    "positions", "normals",
+          "separations", "laws",  "shapes",  "boundaries", "pictures"};
+}
+
+std::vector<CatalogueEntry> catalogue(const std::string& topic) {
+  if (topic == "materials") return kinds_of(material_kinds());
+  if (topic == "bases") return words_of(kBases);
+  if (topic == "updates") return words_of(kUpdates);
+  if (topic == "strains") return words_of(kStrains);
+  if (topic == "positions") return words_of(kPositions);
+  if (topic == "normals") return words_of(kNormals);
+  if (topic == "separations") return words_of(kSeparations);
+  if (topic == "laws") return words_of(kLaws);
+  if (topic == "shapes") return kinds_of(shape_kinds());
+  if (topic == "boundaries") return boundaries();
+  std::vector<CatalogueEntry> out;
+  if (topic != "pictures") return out;
+  for (const char* picture : kPictures) out.push_back({picture, "", ""});
+  return out;
+}
+
+}  // namespace mpmfast

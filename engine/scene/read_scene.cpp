@@ -1,0 +1,93 @@
+#include "engine/scene/read_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "engine/errors.hpp"
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 16u << 20;  // bytes
+
+std::string read_text(const std::filesystem::path& file) {
+  const auto refuse = [&](const std::string& why) -> FileError {
+    return FileError(fmt::format("{}: cannot read the scene: {}", file.string(), why));
+  };
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) throw refuse("no such file");
+  if (std::filesystem::is_directory(file, error)) throw refuse("it is a folder");
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw refuse("it cannot be opened");
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (!error && size > kLargestFile) throw refuse("it is larger than 16 MiB");
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (stream.bad()) throw refuse("reading failed");
+  return text;
+}
+
+void read_head(MapReader& top, Scene& scene) {
+  scene.title = scene.file.stem().string();
+  if (const auto title = top.find("title")) scene.title = title->text().value_or("");
+  if (const auto space = top.need("space", "plane_strain or 3d")) {
+    if (space->is_word("plane_stress") || space->is_word("axisymmetric")) {
+      space->complain("not in this version (plane_strain or 3d)");
+    } else {
+      scene.space = space->word(kSpaces).value_or(Space::plane_strain);
+    }
+  }
+  if (scene.dimension() == 2) {
+    top.quantity("thickness", Measure::length, kPositive, scene.thickness);
+  } else if (const auto thickness = top.find("thickness")) {
+    thickness->report("a 3-D scene has no thickness");
+  }
+}
+
+void read_sections(const Node& root, Scene& scene, Problems& problems) {
+  MapReader top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
+  if (!top.valid()) return;
+  read_head(top, scene);
+  const int dimension = scene.dimension();
+  const bool grid_known = read_grid(top, dimension, scene.grid);
+  read_time(top, scene.time);
+  read_method(top, scene.method);
+  read_contact(top, dimension, scene.contact);
+  read_gravity(top, dimension, scene.gravity);
+  read_output(top, dimension, scene.output);
+  read_materials(top, scene.materials);
+  read_bodies(top, grid_known, scene);
+  read_boundaries(top, grid_known, scene);
+  top.finish();
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  return parse_scene(read_text(file), file, overrides);
+}
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& file,
+                  const std::vector<Override>& overrides) {
+  std::vector<std::string> sources{file.string()};
+  for (const auto& [path, value] : overrides) sources.push_back(fmt::format("--set {}={}", path, value));
+  Problems problems(sources);
+  Scene scene;
+  scene.file = file;
+  if (std::optional<Node> root = parse_tree(text, 0, problems)) {
+    for (std::size_t k = 0; k < overrides.size(); ++k) {
+      apply_override(*root, overrides[k].first, overrides[k].second, static_cast<int>(k) + 1, problems);
+    }
+    read_sections(*root, scene, problems);
+  }
+  if (!problems.empty()) throw SceneError(problems.sorted());
+  scene.resolved_yaml = write_scene(scene);
+  return scene;
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,201 @@
+#!/usr/bin/env bash
+# Checks the command line as a user meets it: exit codes, messages, and that nothing is written when something is wrong.
+# usage: run_cli.sh MPMFAST SOURCE_DIR
+#
+# A broken scene states what it must provoke in lines "# expect: LINE: path: fragment"; the path is empty where the file
+# as a whole is meant.
+set -u
+program=$(realpath "$1")
+source_dir=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+fail() {
+  failures=$((failures + 1))
+  printf 'FAILED: %s\n' "$1"
+  sed 's/^/    /' out err
+}
+
+# run EXPECTED_CODE WORDS…: runs the program; its streams are in the files out and err.
+run() {
+  local expected=$1
+  shift
+  checks=$((checks + 1))
+  "$program" "$@" >out 2>err
+  local code=$?
+  [[ $code == "$expected" ]] || fail "mpmfast $*: exit $code, expected $expected"
+}
+
+# says FILE TEXT: the stream holds the text.
+says() {
+  checks=$((checks + 1))
+  grep -qF -- "$2" "$1" || fail "'$2' is missing from $1"
+}
+
+# Only the streams may lie in the work folder, beside what the caller names.
+wrote_nothing() {
+  checks=$((checks + 1))
+  local extra
+  extra=$(find . -mindepth 1 -not -name out -not -name err -not -name 'scene*.yaml' | head -n 3)
+  [[ -z $extra ]] || fail "$1 left $extra behind"
+}
+
+# Some line of err is FILE:LINE:COLUMN: path: …fragment….
+reports() {
+  local file=$1 line=$2 path=$3 fragment=$4 text
+  checks=$((checks + 1))
+  while IFS= read -r text; do
+    [[ $text == "$file:$line:"*": ${path:+$path: }"*"$fragment"* ]] && return
+  done <err
+  fail "$file: expected line $line, '$path', '$fragment'"
+}
+
+check_broken_scenes() {
+  local file expectation line path fragment found
+  for file in "$source_dir"/tests/cli/broken/*.yaml; do
+    run 2 run "$file"
+    wrote_nothing "$file"
+    found=0
+    while IFS= read -r expectation; do
+      found=1
+      line=${expectation%%: *}
+      expectation=${expectation#*: }
+      path=${expectation%%: *}
+      fragment=${expectation#*: }
+      if [[ $expectation == ": "* ]]; then
+        path=''
+        fragment=${expectation#: }
+      fi
+      reports "$file" "$line" "$path" "$fragment"
+    done < <(sed -n 's/^# expect: //p' "$file")
+    [[ $found == 1 ]] || fail "$file states no expectation"
+    run 2 check "$file"
+  done
+}
+
+check_unreadable_scenes() {
+  : >scene_empty.yaml
+  run 2 check scene_empty.yaml
+  says err 'scene_empty.yaml: empty (a scene was expected)'
+  printf 'title: a\nspa\0ce: 3d\n' >scene_nul.yaml
+  run 2 check scene_nul.yaml
+  says err 'scene_nul.yaml:2:4: not UTF-8 text, got the byte 0x00'
+  printf 'title: a\n' | iconv -t UTF-16 >scene_utf16.yaml
+  run 2 check scene_utf16.yaml
+  says err 'scene_utf16.yaml:1:1: not UTF-8 text'
+  run 4 run scene_nowhere.yaml
+  says err 'scene_nowhere.yaml: cannot read the scene: no such file'
+  run 4 check .
+  says err 'it is a folder'
+  wrote_nothing 'an unreadable scene'
+}
+
+write_good_scene() {
+  cat >scene.yaml <<'SCENE'
+title: a falling block
+space: plane_strain
+grid: {size: [10 mm, 10 mm], cell: 1 mm}
+time: {end: 1 us}
+materials: {steel: {model: linear_elastic, density: 7.85 g/cm^3, young: 210 GPa, poisson: 0.3}}
+bodies:
+  - {name: block, box: {from: [1 mm, 1 mm], to: [4 mm, 3 mm]}, material: steel, velocity: [0, -1 m/s]}
+output: {frames: 1, history: 2}
+SCENE
+}
+
+check_words() {
+  run 0 --version
+  says out 'mpmfast '
+  run 0 --help
+  says out 'run'
+  run 2
+  run 2 rnu scene.yaml
+  says err "unknown command 'rnu' (one of run, check, list). Did you mean 'run'?"
+  run 2 run
+  says err 'SCENE is required'
+  run 2 run scene.yaml --thread 2
+  says err "Did you mean '--threads'?"
+  run 2 run scene.yaml --threads x
+  says err "--threads: not a number of threads (1 to 4096), got 'x'"
+  run 2 run scene.yaml --threads 0
+  run 2 run scene.yaml --steps=-1
+  run 2 run scene.yaml --until '5 mm'
+  says err "--until: 'mm' is a length"
+  run 2 run scene.yaml --progress loud
+  says err 'one of auto, plain, none'
+  run 2 run scene.yaml --set cfl
+  says err '--set: not an override (KEY=VALUE'
+  run 2 check scene.yaml another.yaml
+  wrote_nothing 'a wrong command line'
+}
+
+check_lists() {
+  run 0 list
+  for word in neo_hookean lcpdi 'xpic(m)' logistic_regression position_offset coulomb polygon piston; do
+    says out "$word"
+  done
+  run 0 list laws
+  says out frictionless
+  grep -q neo_hookean out && fail 'list laws lists materials'
+  run 2 list law
+  says err "Did you mean 'laws'?"
+}
+
+check_overrides() {
+  run 0 check scene.yaml
+  run 0 check --set time.cfl=0.3 scene.yaml --set 'grid.size=[12 mm, 12 mm]'
+  run 2 check scene.yaml --set time.cfl=0.3 --set time.clf=0.3
+  says err "--set time.clf=0.3: time.clf: unknown key. Did you mean 'cfl'?"
+  run 2 check scene.yaml --set bodies.1.material=steel
+  says err '--set bodies.1.material=steel: bodies.1: no such entry'
+  wrote_nothing check
+}
+
+check_output_folder() {
+  run 0 run scene.yaml --steps 2 --progress none
+  says out 'checksum'
+  [[ -f runs/scene/run.json ]] || fail 'runs/scene/run.json is missing'
+  local before
+  before=$(md5sum runs/scene/run.json)
+  run 2 run scene.yaml --steps 2
+  says err 'the output folder runs/scene exists (--force replaces it'
+  [[ $(md5sum runs/scene/run.json) == "$before" ]] || fail 'a refused run wrote into the folder'
+  run 0 run scene.yaml --steps 2 --force --progress none
+  run 0 run runs/scene/scene.yaml --out again --steps 2 --progress none
+  cmp -s runs/scene/scene.yaml again/scene.yaml || fail 'the resolved scene, run again, resolves to another'
+  rm -rf runs again
+}
+
+check_signals() {
+  local signal code
+  for signal in INT TERM; do
+    "$program" run scene.yaml --set 'time.end=1 s' --out "stopped_$signal" --progress none >out 2>err &
+    local process=$!
+    for _ in $(seq 100); do  # the folder appears once the run has begun
+      [[ -d stopped_$signal ]] && break
+      sleep 0.1
+    done
+    sleep 0.3
+    kill -s "$signal" "$process"
+    wait "$process"
+    code=$?
+    checks=$((checks + 1))
+    [[ $code == $((128 + $(kill -l "$signal"))) ]] || fail "SIG$signal: exit $code"
+    grep -q '"stopped"' "stopped_$signal/run.json" || fail "SIG$signal: run.json does not say stopped"
+    rm -rf "stopped_$signal"
+  done
+}
+
+check_broken_scenes
+check_unreadable_scenes
+write_good_scene
+check_words
+check_lists
+check_overrides
+check_output_folder
+check_signals
+printf '%d checks, %d failures\n' "$checks" "$failures"
+[[ $failures == 0 ]]

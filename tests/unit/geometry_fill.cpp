@@ -1,0 +1,166 @@
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "engine/scene/geometry.hpp"
+
+using namespace mpmfast;
+
+namespace {
+
+constexpr GridSpec kGrid{{0, 0, 0}, {1, 1, 1}, 0.02};
+
+BodySpec body_of(Shape shape, std::array<int, 3> particles = {2, 2, 2}) {
+  BodySpec body;
+  body.shape = std::move(shape);
+  body.particles_per_cell = particles;
+  return body;
+}
+
+/// What the particles' domains cover together.
+double measure(const Seeds& seeds, int dimension) {
+  double each = 1;
+  for (int k = 0; k < dimension; ++k) each *= 2 * seeds.half_size[static_cast<std::size_t>(k)];
+  return each * static_cast<double>(seeds.position.size());
+}
+
+/// A lattice of spacing h misjudges at most the cells that the outline cuts: fewer than perimeter/h × √2 + 4,
+/// each in error by less than h²; in truth the errors cancel like a random walk, so half of that is a test
+/// that can fail.
+double area_slack(double perimeter, double h) {
+  return 0.5 * (perimeter * h * std::numbers::sqrt2 + 4 * h * h);
+}
+
+std::shared_ptr<GreyImage> stripes(int width, int height, int levels) {
+  auto image = std::make_shared<GreyImage>();
+  image->width = width;
+  image->height = height;
+  for (int i = 0; i < width * height; ++i)
+    image->pixel.push_back(static_cast<unsigned char>(i % width * levels / width));
+  return image;
+}
+
+}  // namespace
+
+TEST_CASE("a box is filled exactly, whatever its place and size") {
+  for (const Vec3& upper : {Vec3{0.313, 0.5, 0.77}, Vec3{0.105, 0.9, 0.11}, Vec3{0.1001, 0.1001, 0.1001}}) {
+    const BoxShape box{{0.1, 0.07, 0.09}, upper};
+    const Seeds flat = fill(body_of(box), kGrid, 2), solid = fill(body_of(box, {1, 2, 3}), kGrid, 3);
+    const double area = (upper[0] - 0.1) * (upper[1] - 0.07);
+    CHECK(measure(flat, 2) == doctest::Approx(area).epsilon(1e-13));
+    CHECK(measure(solid, 3) == doctest::Approx(area * (upper[2] - 0.09)).epsilon(1e-13));
+    CHECK(flat.position.front()[0] - flat.half_size[0] == doctest::Approx(0.1).epsilon(1e-14));
+    CHECK(flat.position.back()[1] + flat.half_size[1] == doctest::Approx(upper[1]).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("a box on the grid's lattice has particles_per_cell particles a side in each cell") {
+  const Seeds seeds = fill(body_of(BoxShape{{0.2, 0.2, 0}, {0.4, 0.3, 0}}, {2, 3, 1}), kGrid, 2);
+  CHECK(seeds.position.size() == 10u * 2u * 5u * 3u);
+  CHECK(seeds.half_size[0] == doctest::Approx(0.005));
+  CHECK(seeds.half_size[2] == 0);
+  CHECK(seeds.position[0] == Vec3{0.2 + seeds.half_size[0], 0.2 + seeds.half_size[1], 0});
+}
+
+TEST_CASE("the area of every plane shape is right to its lattice") {
+  const double h = 0.01;
+  const auto area = [](const Shape& shape) { return measure(fill(body_of(shape), kGrid, 2), 2); };
+  const double pi = std::numbers::pi;
+  CHECK(std::abs(area(EllipsoidShape{{0.503, 0.497, 0}, {0.3, 0.3, 0}, 0}) - pi * 0.09) <
+        area_slack(2 * pi * 0.3, h));
+  CHECK(std::abs(area(EllipsoidShape{{0.5, 0.5, 0}, {0.4, 0.1, 0}, 0.7}) - pi * 0.04) < area_slack(1.8, h));
+  CHECK(std::abs(area(RingShape{{0.5, 0.5, 0}, 0.2, 0.3, 0}) - pi * 0.05) < area_slack(2 * pi * 0.5, h));
+  CHECK(std::abs(area(PolygonShape{{{0.1, 0.1}, {0.9, 0.2}, {0.5, 0.8}}, 0, 0}) - 0.26) < area_slack(2.3, h));
+}
+
+TEST_CASE("the volume of every solid shape is right to its lattice") {
+  const auto volume = [](const Shape& shape) { return measure(fill(body_of(shape), kGrid, 3), 3); };
+  const double pi = std::numbers::pi;
+  CHECK(volume(EllipsoidShape{{0.5, 0.5, 0.5}, {0.3, 0.3, 0.3}, 0}) ==
+        doctest::Approx(4 * pi / 3 * 0.027).epsilon(2e-3));
+  CHECK(volume(EllipsoidShape{{0.5, 0.5, 0.5}, {0.4, 0.2, 0.1}, 0.4}) ==
+        doctest::Approx(4 * pi / 3 * 0.008).epsilon(5e-3));
+  CHECK(volume(RingShape{{0.5, 0.5, 0.5}, 0.2, 0.3, 0.1}) == doctest::Approx(pi * 0.05 * 0.2).epsilon(5e-3));
+  CHECK(volume(PolygonShape{{{0.1, 0.1}, {0.9, 0.1}, {0.9, 0.5}, {0.1, 0.5}}, 0.2, 0.4}) ==
+        doctest::Approx(0.064).epsilon(1e-9));
+}
+
+TEST_CASE("every particle of a fill lies inside the shape and inside its bounds") {
+  const Shape ellipse = EllipsoidShape{{0.5, 0.5, 0}, {0.4, 0.1, 0}, 0.7};
+  const Bounds box = bounds(ellipse);
+  for (const Vec3& point : fill(body_of(ellipse), kGrid, 2).position) {
+    CHECK(contains(ellipse, point));
+    CHECK((point[0] > box.lower[0] && point[0] < box.upper[0] && point[1] > box.lower[1] &&
+           point[1] < box.upper[1]));
+  }
+  // The turned ellipse's extreme abscissa is sqrt(a² cos² + b² sin²).
+  CHECK(box.upper[0] - 0.5 ==
+        doctest::Approx(std::sqrt(0.16 * std::pow(std::cos(0.7), 2) + 0.01 * std::pow(std::sin(0.7), 2))));
+}
+
+TEST_CASE("shapes that share a face share no particle and leave none out") {
+  const Shape left = PolygonShape{{{0, 0}, {0.613, 0.1}, {0.4, 1}, {0, 1}}, 0, 0};
+  const Shape right = PolygonShape{{{0, 0}, {1, 0}, {1, 1}, {0.4, 1}, {0.613, 0.1}}, 0, 0};
+  const std::size_t total =
+      fill(body_of(left), kGrid, 2).position.size() + fill(body_of(right), kGrid, 2).position.size();
+  CHECK(total == 100u * 100u);
+  const Shape disk = EllipsoidShape{{0.5, 0.5, 0}, {0.2, 0.2, 0}, 0},
+              ring = RingShape{{0.5, 0.5, 0}, 0.2, 0.3, 0};
+  const Shape both = EllipsoidShape{{0.5, 0.5, 0}, {0.3, 0.3, 0}, 0};
+  CHECK(fill(body_of(disk), kGrid, 2).position.size() + fill(body_of(ring), kGrid, 2).position.size() ==
+        fill(body_of(both), kGrid, 2).position.size());
+}
+
+TEST_CASE("points on a surface belong to the lower side") {
+  const Shape box = BoxShape{{0, 0, 0}, {1, 1, 0}};
+  CHECK(contains(box, {0, 0, 0}));
+  CHECK_FALSE(contains(box, {1, 0.5, 0}));
+  CHECK_FALSE(contains(box, {0.5, 1, 0}));
+  const Shape disk = EllipsoidShape{{0, 0, 0}, {1, 1, 0}, 0};
+  CHECK(contains(disk, {-1, 0, 0}));
+  CHECK(contains(disk, {0, -1, 0}));
+  CHECK_FALSE(contains(disk, {1, 0, 0}));
+  CHECK_FALSE(contains(disk, {0, 1, 0}));
+  const Shape square = PolygonShape{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 0, 0};
+  CHECK(contains(square, {0, 0.5, 0}));
+  CHECK(contains(square, {0.5, 0, 0}));
+  CHECK_FALSE(contains(square, {1, 0.5, 0}));
+  CHECK_FALSE(contains(square, {0.5, 1, 0}));
+}
+
+TEST_CASE("a bitmap's row 0 is its top, and a point belongs to its pixel") {
+  auto image = std::make_shared<GreyImage>();
+  image->width = 2;
+  image->height = 2;
+  image->pixel = {1, 2, 3, 4};
+  const auto grey_at = [&](const Vec3& point) {
+    for (int grey = 1; grey <= 4; ++grey) {
+      if (contains(BitmapShape{"", {0, 0, 0}, {2, 1, 0}, grey, image}, point)) return grey;
+    }
+    return 0;
+  };
+  CHECK(grey_at({0.5, 0.9, 0}) == 1);
+  CHECK(grey_at({1.5, 0.9, 0}) == 2);
+  CHECK(grey_at({0.5, 0.1, 0}) == 3);
+  CHECK(grey_at({1.5, 0.1, 0}) == 4);
+  CHECK(grey_at({1, 0, 0}) == 4);
+  CHECK(grey_at({2, 0.5, 0}) == 0);
+  const Bounds box = bounds(BitmapShape{"", {0, 0, 0}, {2, 1, 0}, 2, image});
+  CHECK(box.lower == Vec3{1, 0.5, 0});
+  CHECK(box.upper == Vec3{2, 1, 0});
+}
+
+TEST_CASE("the levels of a bitmap share out all particles, at the cost of one image") {
+  const auto image = stripes(100, 400, 20);
+  const GridSpec grid{{0, 0, 0}, {1, 1, 0}, 0.01};
+  std::size_t total = 0;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int grey = 0; grey < 20; ++grey) {
+    total += fill(body_of(BitmapShape{"", {0, 0, 0}, {1, 1, 0}, grey, image}), grid, 2).position.size();
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  CHECK(total == 40000u);
+  CHECK(seconds.count() < 2);  // measured: a few milliseconds; the bound is for sanitizers on a busy machine
+}

@@ -1,0 +1,94 @@
+// Memory follows the particles, and every particle is where the tables say.
+
+#include <fmt/format.h>
+
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// 20 columns of material side by side over a grid of 200 × 40 cells.
+Scene columns(const char* contact) {
+  std::string yaml = R"(
+space: plane_strain
+grid: {size: [200 mm, 40 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+)";
+  for (int k = 0; k < 20; ++k)
+    yaml += fmt::format("  - {{name: c{}, box: {{from: [{} mm, 1 mm], to: [{} mm, 39 mm]}}, material: m}}\n", k, 10 * k,
+                        10 * k + 10);
+  return scene_from(yaml, {{"contact", contact}});
+}
+
+TEST_CASE("20 fields over one grid take little more nodal memory than one") {
+  const Scene one_scene = columns("none"), many_scene = columns("{law: coulomb, friction: 0.1}");
+  Step<2> one(one_scene), many(many_scene);
+  advance(one, 1);
+  advance(many, 1);
+  CHECK(many.plan().fields.size() == 20);
+  const auto slots_one = one.state().tiling.slots(), slots_many = many.state().tiling.slots();
+  // A column is 10 cells wide: its 11 to 12 nodes lie in 3 to 5 tiles of 4 nodes, against 2.5 without a border.
+  CHECK(slots_many < 2 * slots_one);
+  CHECK(many.state().nodes.bytes() < 2 * one.state().nodes.bytes());
+  // Nodes × fields would be nine times as many.
+  CHECK(9 * slots_many < 20 * 201 * 41);
+}
+
+template <int Dim>
+void check_tables(const Step<Dim>& step) {
+  const State<Dim>& state = step.state();
+  const auto& tiling = state.tiling;
+  std::vector<int> seen(state.particles.size(), 0);
+  for (const auto& tile : tiling.tiles)
+    for (int r = tile.run_begin; r < tile.run_end; ++r) {
+      const auto& run = tiling.runs[static_cast<std::size_t>(r)];
+      CHECK(run.cell_begin[0] == run.begin);
+      CHECK(run.cell_begin[kTileNodes<Dim>] == run.end);
+      for (std::uint32_t p = run.begin; p < run.end; ++p) {
+        ++seen[p];
+        REQUIRE(state.particles.body()[p] == run.body);
+        for (int d = 0; d < Dim; ++d) {
+          const double cells = (state.particles.column(Quantity::position, d)[p] - state.grid.origin[d]) / state.grid.cell;
+          REQUIRE(cells >= tile.window[d]);
+          REQUIRE(cells <= tile.window[d] + kWindowSide - 1);
+        }
+      }
+    }
+  for (int n : seen) REQUIRE(n == 1);
+  for (std::size_t t = 1; t < tiling.node_tiles.size(); ++t) {
+    const auto &a = tiling.node_tiles[t - 1], &b = tiling.node_tiles[t];
+    REQUIRE((a.place < b.place || (a.place == b.place && a.field < b.field)));
+  }
+  // No two tiles of a colour and field share a slot.
+  for (const auto& colour : tiling.colours) {
+    std::vector<int> owner(tiling.node_tiles.size(), 0);
+    for (int t : colour)
+      for (int slot : tiling.tiles[static_cast<std::size_t>(t)].slot) REQUIRE(++owner[static_cast<std::size_t>(slot / kTileNodes<Dim>)] == 1);
+  }
+}
+
+TEST_CASE("every particle is in one run, its support in its window, and tiles of a colour share no slot") {
+  const Scene flat = columns("{law: coulomb}");
+  Step<2> two(flat);
+  advance(two, 1);
+  check_tables(two);
+  const Scene solid = scene_from(R"(
+space: 3d
+grid: {origin: [-3 mm, -3 mm, -3 mm], size: [14 mm, 14 mm, 14 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, sphere: {centre: [1 mm, 1 mm, 1 mm], radius: 3 mm}, material: m}
+  - {name: b, sphere: {centre: [6 mm, 6 mm, 6 mm], radius: 3 mm}, material: m}
+)");
+  Step<3> three(solid);
+  advance(three, 1);
+  check_tables(three);
+}
+
+}  // namespace
+}  // namespace mpmfast

@@ -1,0 +1,207 @@
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+#include "engine/scene/catalogue.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/suggest.hpp"
+#include "exit_codes.hpp"
+#include "mpmfast_version.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr int kMostThreads = 4096;
+
+/// The option values as text; our own checks give messages that people can read.
+struct RawOptions {
+  std::string scene, out, topic, threads, steps, until, progress = "auto";
+  std::vector<std::string> set;
+  bool force = false;
+};
+
+template <class Number>
+bool read_whole(const std::string& text, Number& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+std::string check_threads(std::string& text) {
+  int value = 0;
+  if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
+  return fmt::format("not a number of threads (1 to {}), got '{}'", kMostThreads, text);
+}
+
+std::string check_steps(std::string& text) {
+  std::uint64_t value = 0;
+  return read_whole(text, value) ? "" : fmt::format("not a number of steps (0 or more), got '{}'", text);
+}
+
+std::string check_until(std::string& text) {
+  const auto parsed = parse_quantity(text, Measure::time);
+  if (const auto* error = std::get_if<QuantityError>(&parsed)) {
+    return fmt::format("{}, got '{}'{}", error->message, text, error->hint.empty() ? "" : ". " + error->hint);
+  }
+  return std::get<double>(parsed) > 0 ? ""
+                                      : fmt::format("must be positive (a time such as 5 us), got '{}'", text);
+}
+
+std::string check_progress(std::string& text) {
+  if (text == "auto" || text == "plain" || text == "none") return "";
+  return fmt::format("not known (one of auto, plain, none), got '{}'", text);
+}
+
+std::string check_set(std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals != std::string::npos && equals > 0) return "";
+  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'", text);
+}
+
+std::string check_out(std::string& text) { return text.empty() ? "a folder was expected, got ''" : ""; }
+
+void add_scene_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("SCENE", raw.scene, "The scene, a YAML file")->required()->type_name("");
+  // One value each time: a list option would swallow the scene that follows it.
+  command
+      .add_option("--set", raw.set, "Override a value of the scene, such as time.cfl=0.3; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(CLI::Validator(check_set, ""))
+      ->type_name("KEY=VALUE");
+}
+
+/// Builds the commands; `raw` receives the values.
+struct Commands {
+  CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
+  CLI::App *run, *check, *list;
+
+  explicit Commands(RawOptions& raw) {
+    app.set_version_flag("--version",
+                         fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
+    app.require_subcommand(1);
+    run = app.add_subcommand("run", "Run a scene");
+    check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
+    list = app.add_subcommand("list", "What this build offers");
+    add_scene_options(*run, raw);
+    add_scene_options(*check, raw);
+    run->add_option("--out", raw.out, "Output folder; runs/<scene> if not given")
+        ->check(CLI::Validator(check_out, ""))
+        ->type_name("DIR");
+    run->add_option("--threads", raw.threads, "Threads; OMP_NUM_THREADS or the cores if not given")
+        ->check(CLI::Validator(check_threads, ""))
+        ->type_name("N");
+    run->add_option("--steps", raw.steps, "Stop after so many steps")
+        ->check(CLI::Validator(check_steps, ""))
+        ->type_name("N");
+    run->add_option("--until", raw.until, "Stop at this time, such as \"5 us\"")
+        ->check(CLI::Validator(check_until, ""))
+        ->type_name("TIME");
+    run->add_option("--progress", raw.progress, "auto (a bar on a terminal, else lines), plain or none")
+        ->check(CLI::Validator(check_progress, ""))
+        ->type_name("auto|plain|none");
+    run->add_flag("--force", raw.force, "Replace what an earlier run left in the output folder");
+    list->add_option("TOPIC", raw.topic, fmt::format("One of {}", fmt::join(catalogue_topics(), ", ")))
+        ->type_name("");
+  }
+
+  std::vector<std::string> names() {
+    std::vector<std::string> out;
+    for (const CLI::App* command : app.get_subcommands({})) out.push_back(command->get_name());
+    return out;
+  }
+
+  /// A hint for the first option that the chosen command does not have.
+  std::string option_hint(int count, const char* const* arguments) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    std::vector<std::string> known;
+    for (const CLI::Option* option : (chosen.empty() ? &app : chosen[0])->get_options()) {
+      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+    }
+    for (int k = 1; k < count; ++k) {
+      const std::string word = std::string(arguments[k]).substr(0, std::string_view(arguments[k]).find('='));
+      if (word.rfind("--", 0) != 0 || std::find(known.begin(), known.end(), word) != known.end()) continue;
+      return did_you_mean(word, known);
+    }
+    return "";
+  }
+};
+
+int refuse(const std::string& message, const std::string& hint) {
+  fmt::print(stderr, "mpmfast: {}{}\nTry 'mpmfast --help'.\n", message, hint.empty() ? "" : ". " + hint);
+  return kExitWrongInput;
+}
+
+/// The command as a shell would take it again.
+std::string shell_text(int count, const char* const* arguments) {
+  std::string out;
+  for (int k = 0; k < count; ++k) {
+    const std::string word = arguments[k];
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$`[]{}()*?&|;<>#!~") == std::string::npos;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    out += (k ? " " : "") + (plain ? word : quoted + "'");
+  }
+  return out;
+}
+
+CommandLine make_line(const Commands& commands, const RawOptions& raw) {
+  CommandLine line;
+  line.command = *commands.run ? Command::run : *commands.check ? Command::check : Command::list;
+  line.scene = raw.scene;
+  line.out = raw.out;
+  line.topic = raw.topic;
+  line.set = raw.set;
+  line.force = raw.force;
+  if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
+  if (!raw.steps.empty()) read_whole(raw.steps, line.steps);
+  if (!raw.until.empty()) line.until = std::get<double>(parse_quantity(raw.until, Measure::time));
+  if (raw.progress == "plain") line.progress = ProgressStyle::plain;
+  if (raw.progress == "none") line.progress = ProgressStyle::none;
+  return line;
+}
+
+}  // namespace
+
+std::vector<Override> CommandLine::overrides() const {
+  std::vector<Override> out;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    out.emplace_back(text.substr(0, equals), text.substr(equals + 1));
+  }
+  return out;
+}
+
+ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
+  RawOptions raw;
+  Commands commands(raw);
+  if (count < 2) {
+    fmt::print(stderr, "{}", commands.app.help());
+    return {std::nullopt, kExitWrongInput};
+  }
+  const std::string first = arguments[1];
+  const std::vector<std::string> names = commands.names();
+  if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end()) {
+    return {std::nullopt,
+            refuse(fmt::format("unknown command '{}' (one of {})", first, fmt::join(names, ", ")),
+                   did_you_mean(first, names))};
+  }
+  try {
+    commands.app.parse(count, arguments);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return {std::nullopt, commands.app.exit(error)};  // help, version
+    return {std::nullopt, refuse(error.what(), commands.option_hint(count, arguments))};
+  }
+  CommandLine line = make_line(commands, raw);
+  line.text = shell_text(count, arguments);
+  return {line, 0};
+}
+
+}  // namespace mpmfast

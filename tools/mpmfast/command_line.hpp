@@ -1,0 +1,39 @@
+#pragma once
+
+/// @file What was asked for on the command line.
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/read_scene.hpp"
+
+namespace mpmfast {
+
+enum class Command { run, check, list };
+enum class ProgressStyle { automatic, plain, none };
+
+struct CommandLine {
+  Command command = Command::run;
+  std::string scene, out, topic;
+  std::vector<std::string> set;  ///< as written, "time.cfl=0.3"
+  int threads = 0;
+  std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
+  double until = std::numeric_limits<double>::infinity();  ///< s
+  ProgressStyle progress = ProgressStyle::automatic;
+  bool force = false;
+  std::string text;  ///< the whole command, quoted for a shell
+
+  std::vector<Override> overrides() const;
+};
+
+/// Either what to do, or (help, version, a mistake: already printed) the exit code to leave with.
+struct ParsedCommandLine {
+  std::optional<CommandLine> line;
+  int exit_code = 0;
+};
+ParsedCommandLine parse_command_line(int count, const char* const* arguments);
+
+}  // namespace mpmfast

@@ -1,0 +1,13 @@
+#pragma once
+
+/// @file What each command does; returns the exit code.
+
+#include "command_line.hpp"
+
+namespace mpmfast {
+
+int run_command(const CommandLine& line);
+int check_command(const CommandLine& line);
+int list_command(const CommandLine& line);
+
+}  // namespace mpmfast

@@ -1,0 +1,62 @@
+/// @file The command line. Every way to end, and its exit code, is here (design §3).
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "commands.hpp"
+#include "engine/errors.hpp"
+#include "engine/scene/diagnostic.hpp"
+#include "exit_codes.hpp"
+
+namespace {
+
+using namespace mpmfast;
+
+int perform(const CommandLine& line) {
+  switch (line.command) {
+    case Command::run:
+      return run_command(line);
+    case Command::check:
+      return check_command(line);
+    case Command::list:
+      return list_command(line);
+  }
+  return kExitWrongInput;
+}
+
+int perform_and_report(const CommandLine& line) {
+  try {
+    return perform(line);
+  } catch (const SceneError& error) {
+    const std::size_t count = error.diagnostics().size();
+    fmt::print(stderr, "{}\n{} error{}\n", error.what(), count, count == 1 ? "" : "s");
+    return kExitWrongInput;
+  } catch (const FileError& error) {
+    fmt::print(stderr, "mpmfast: {}\n", error.what());
+    return kExitFile;
+  } catch (const RunFailure& error) {
+    fmt::print(stderr, "mpmfast: the run failed: {}\n", error.what());
+    return kExitRunFailed;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "mpmfast: out of memory ('mpmfast check' tells how much a scene needs)\n");
+    return kExitRunFailed;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "mpmfast: internal error: {}\n", error.what());
+    return kExitRunFailed;
+  }
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const ParsedCommandLine parsed = parse_command_line(count, arguments);
+  const int code = parsed.line ? perform_and_report(*parsed.line) : parsed.exit_code;
+  if (code == 0 && std::fflush(stdout) != 0) {
+    fmt::print(stderr, "mpmfast: the output could not be written\n");
+    return kExitFile;
+  }
+  return code;
+}

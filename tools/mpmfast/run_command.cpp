@@ -1,0 +1,120 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "commands.hpp"
+#include "engine/step/run.hpp"
+#include "exit_codes.hpp"
+#include "progress_display.hpp"
+#include "signals.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void print_passes(const RunSummary& summary) {
+  if (summary.seconds.empty()) return;
+  std::size_t width = 0;
+  for (const auto& [pass, seconds] : summary.seconds) width = std::max(width, pass.size());
+  fmt::print("seconds by pass\n");
+  for (const auto& [pass, seconds] : summary.seconds) {
+    const double share = summary.wall > 0 ? 100 * seconds / summary.wall : 0;
+    fmt::print("  {:<{}}  {:9.3f} s  {:5.1f} %\n", pass, width, seconds, share);
+  }
+}
+
+void print_contact(const RunSummary::Contact& contact) {
+  if (contact.nodes_peak == 0) return;
+  fmt::print(
+      "contact          {} nodes at most, {} regressions of {:.2f} iterations, {} fallbacks, {} "
+      "unconverged\n",
+      contact.nodes_peak, contact.regressions, contact.mean_iterations, contact.fallbacks,
+      contact.unconverged);
+}
+
+/// Where to look at the results.
+void print_files(const fs::path& folder) {
+  std::vector<std::string> pictures;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("picture_", 0) == 0 && entry.path().extension() == ".png")
+      pictures.push_back(entry.path().string());
+  }
+  std::sort(pictures.begin(), pictures.end());
+  for (const std::string& picture : pictures) fmt::print("picture          {}\n", picture);
+  const fs::path series = folder / "particles.pvd";
+  if (fs::exists(series, error)) fmt::print("particles        {}\n", series.string());
+  fmt::print("output           {}\n", folder.string());
+}
+
+void print_summary(const RunSummary& summary, const fs::path& folder) {
+  fmt::print("{}{}{} at {}, step {}\n", summary.status, summary.reason.empty() ? "" : ": ", summary.reason,
+             time_text(summary.time), summary.steps);
+  fmt::print("wall time        {:.2f} s on {} thread{}\n", summary.wall, summary.threads,
+             summary.threads == 1 ? "" : "s");
+  fmt::print("speed            {}particle-steps/s ({} particles, {} fields)\n",
+             count_text(summary.particle_steps_per_second), summary.particles, summary.fields);
+  fmt::print("memory           {:.1f} MiB at most\n",
+             static_cast<double>(summary.peak_memory_bytes) / (1024.0 * 1024.0));
+  print_passes(summary);
+  print_contact(summary.contact);
+  fmt::print("energy error     {:.3g}\n", summary.energy_error);
+  fmt::print("checksum         {}\n", summary.checksum);
+  print_files(folder);
+}
+
+fs::path output_folder(const CommandLine& line) {
+  return line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
+}
+
+}  // namespace
+
+int run_command(const CommandLine& line) {
+  const Scene scene = read_scene(line.scene, line.overrides());
+  const fs::path folder = output_folder(line);
+  std::error_code error;
+  if (!line.force && fs::exists(fs::symlink_status(folder, error))) {
+    fmt::print(stderr,
+               "mpmfast: the output folder {} exists (--force replaces it, --out DIR names another)\n",
+               folder.string());
+    return kExitWrongInput;
+  }
+  catch_stop_signals();
+  ProgressDisplay display(line.progress);
+  RunOptions options;
+  options.folder = folder;
+  options.force = line.force;
+  options.threads = line.threads;
+  options.max_steps = line.steps;
+  options.until = line.until;
+  options.command = line.text;
+  options.overrides = line.set;
+  options.progress = [&](const Progress& progress) { display.show(progress); };
+  options.stop_signal = stop_signal();
+  RunSummary summary;
+  try {
+    summary = run_scene(scene, options);
+  } catch (...) {
+    display.finish();
+    throw;
+  }
+  display.finish();
+  print_summary(summary, folder);
+  const int signal = *stop_signal();
+  return signal != 0 && summary.status == "stopped" ? kExitSignal + signal : 0;
+}
+
+int check_command(const CommandLine& line) {
+  const Scene scene = read_scene(line.scene, line.overrides());
+  std::string plan = describe_plan(scene);
+  while (!plan.empty() && plan.back() == '\n') plan.pop_back();
+  fmt::print("{}\n", plan);
+  return 0;
+}
+
+}  // namespace mpmfast
