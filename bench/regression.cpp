@@ -72,5 +72,3 @@ BENCHMARK(fit<2>)->Name("regression/2d")->Arg(12)->Arg(24)->Arg(36);
 BENCHMARK(fit<3>)->Name("regression/3d")->Arg(60)->Arg(150);
 
 }  // namespace
-
-BENCHMARK_MAIN();

@@ -10,6 +10,7 @@
 
 namespace mpmfast {
 
+/// What a number of the scene measures.
 enum class Measure { number, length, time, mass, velocity, acceleration, density, pressure, angle };
 
 /// Exponents of metre, kilogram, second and radian.

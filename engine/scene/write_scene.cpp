@@ -98,8 +98,8 @@ struct ModelText {
   }
   std::string operator()(const LinearElasticSpec& m) const {
     return fmt::format("model: linear_elastic, density: {}, young: {}, poisson: {}",
-                       quantity_text(m.density, Measure::density),
-                       quantity_text(m.young, Measure::pressure), m.poisson);
+                       quantity_text(m.density, Measure::density), quantity_text(m.young, Measure::pressure),
+                       m.poisson);
   }
   std::string operator()(const RigidSpec& m) const {
     return fmt::format("model: rigid, density: {}", quantity_text(m.density, Measure::density));
@@ -210,8 +210,7 @@ struct BoundaryText {
   }
   std::string operator()(const VelocityBoxSpec& box) const {
     return fmt::format("{{box: {{from: {}, to: {}}}, direction: {}, speed: {}}}",
-                       vector_text(box.lower, Measure::length, d),
-                       vector_text(box.upper, Measure::length, d),
+                       vector_text(box.lower, Measure::length, d), vector_text(box.upper, Measure::length, d),
                        vector_text(box.direction, Measure::number, d), table_text(box.speed));
   }
 };
@@ -235,8 +234,7 @@ std::string contact_text(const ContactSpec& contact, int d) {
   if (!contact.active) return "contact: none\n";
   std::string out = fmt::format("contact:\n  normal: {}\n", name_of(kNormals, contact.normal));
   if (contact.specified_normal != Vec3{}) {
-    out +=
-        fmt::format("  specified_normal: {}\n", vector_text(contact.specified_normal, Measure::number, d));
+    out += fmt::format("  specified_normal: {}\n", vector_text(contact.specified_normal, Measure::number, d));
   }
   return out + fmt::format(
                    "  separation: {}\n  position_offset: {}\n  law: {}\n  friction: {}\n  penalty: {}\n"

@@ -26,6 +26,7 @@ struct State {
   std::vector<int> body_field;        ///< velocity field of each body
   std::vector<bool> field_rigid;
   std::vector<Material> materials;    ///< as Scene::materials; rigid ones hold a default
+  int threads = 1;                    ///< that the passes use
   double time = 0;                    ///< s
   std::uint64_t step = 0;
 

@@ -42,7 +42,7 @@ class BasisPasses final : public Passes<Dim> {
     ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     for (auto& column : first_node_) column.resize(static_cast<std::size_t>(n));
-#pragma omp parallel for schedule(static) if (n > 4096)
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
     for (std::int64_t p = 0; p < n; ++p) {
       ParticleTile<Dim> nowhere{};
       ParticleRun<Dim> one{};
@@ -124,7 +124,7 @@ class BasisPasses final : public Passes<Dim> {
   template <class F>
   void scatter(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
-#pragma omp parallel
+#pragma omp parallel num_threads(state.threads)
     {
       Room& room = *rooms_[static_cast<std::size_t>(omp_get_thread_num())];
       for (const auto& colour : state.tiling.colours) {
@@ -162,7 +162,7 @@ class BasisPasses final : public Passes<Dim> {
     reports_.assign(rooms_.size(), {});
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-#pragma omp parallel for schedule(dynamic, 4)
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 4)
     for (std::int64_t t = 0; t < n; ++t) {
       const auto thread = static_cast<std::size_t>(omp_get_thread_num());
       if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)]) continue;

@@ -139,10 +139,10 @@ void Contact<Dim>::grid_normals(const State<Dim>& state) {
           entry.normal[d] = (field(own) < field(other) ? 1.0 : -1.0) * spec_.specified_normal[static_cast<std::size_t>(d)];
         continue;
       }
-      // A volume gradient points into its own material: from a to the rest is g_b − g_a (N20 Eq. 13).
+      // A volume gradient points out of its own material: from a to the rest is g_a − g_b (N20 Eq. 13).
       Vec<Dim> sum = Vec<Dim>::Zero();
       for (int f = node.field_begin; f < node.field_end; ++f)
-        sum += (f == own ? -1.0 : 1.0) *
+        sum += (f == own ? 1.0 : -1.0) *
                state.nodes.vector(Nodal::volume_gradient, list_.fields[static_cast<std::size_t>(f)].slot);
       const double length = sum.norm();
       if (length > 0) entry.normal = sum / length;
@@ -187,7 +187,7 @@ template <int Dim>
 template <class Law>
 void Contact<Dim>::resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
-#pragma omp parallel for schedule(static) if (n > 64)
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
   for (std::int64_t k = 0; k < n; ++k) resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
   friction_work_ = 0;
   rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());

@@ -36,7 +36,7 @@ class ContactFit {
     const auto n = static_cast<std::int64_t>(contact.nodes.size());
     if (smooth) raw_.resize(contact.entries.size());
     if (regress || ellipsoids) {
-#pragma omp parallel for schedule(dynamic, 8) if (n > 16)
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
       for (std::int64_t k = 0; k < n; ++k) {
         const auto& node = contact.nodes[static_cast<std::size_t>(k)];
         CloudRoom<Dim>& room = this_room();
@@ -105,8 +105,8 @@ class ContactFit {
     tally.unconverged += result.outcome == Outcome::unconverged;
   }
 
-  /// The last resort, where one class is missing or the centroids coincide: the gradient normal g_b − g_a with
-  /// G_pi ∝ ξ_p, the slope of a paraboloid over the support.
+  /// The last resort, where one class is missing or the centroids coincide: the gradient normal with
+  /// G_pi ∝ −ξ_p, the slope of a paraboloid over the support.
   static Vec<Dim> cloud_gradient(const CloudRoom<Dim>& room) {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int k = 0; k < room.count; ++k)
@@ -133,7 +133,7 @@ class ContactFit {
   /// two masses: single normals are poor where a cloud holds few particles of one field.
   void smooth_normals(const State<Dim>& state, ParticleView<Dim>& view, ContactList<Dim>& contact, bool ellipsoids) {
     const auto n = static_cast<std::int64_t>(contact.nodes.size());
-#pragma omp parallel for schedule(dynamic, 8) if (n > 16)
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
     for (std::int64_t k = 0; k < n; ++k) {
       const auto& node = contact.nodes[static_cast<std::size_t>(k)];
       CloudRoom<Dim>& room = this_room();

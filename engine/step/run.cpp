@@ -186,7 +186,7 @@ class Run {
     s.status = status;
     s.reason = reason;
     s.dimension = Dim;
-    s.threads = omp_get_max_threads();
+    s.threads = state.threads;
     s.particles = state.particles.size();
     s.fields = step_.plan().fields.size();
     s.nodes_active_peak = step_.nodes_peak();

@@ -1,6 +1,7 @@
 #include "engine/step/step.hpp"
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include <Eigen/LU>
 
@@ -23,6 +24,8 @@ Step<Dim>::Step(const Scene& scene)
       conditions_(scene),
       contact_(scene.contact, plan_.paired) {
   seed(scene, plan_, state_);
+  // Below a thousand particles a thread, waiting for each other costs more than the work.
+  state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
   passes_->shape_domains(state_);
   state_.nodes.plan(plan_.nodal_columns, plan_.paired);
   sums_.boundary_impulse.assign(scene.boundaries.size(), Vec<Dim>::Zero());
@@ -85,7 +88,7 @@ void Step<Dim>::for_each_slot(F f) {
   constexpr std::int64_t block = 512;
   const auto n = static_cast<std::int64_t>(state_.tiling.slots());
   const std::int64_t blocks = (n + block - 1) / block;
-#pragma omp parallel for schedule(static) if (blocks > 4)
+#pragma omp parallel for num_threads(state_.threads) schedule(static) if (blocks > 4)
   for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
 }
 

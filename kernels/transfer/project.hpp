@@ -34,8 +34,8 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   return inside;
 }
 
-/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing into the
-/// material), and m_i x_i = Σ S_pi M_p X_p with positions relative to the grid origin.
+/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing out of the
+/// material: G_pi turns from the particle to the node), and m_i x_i = Σ S_pi M_p X_p with positions relative to the grid origin.
 template <int Dim, class Basis>
 void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
                            const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position) {

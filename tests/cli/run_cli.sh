@@ -169,10 +169,21 @@ check_output_folder() {
   rm -rf runs again
 }
 
+# The block falls out of the grid, which has no floor.
+check_failed_run() {
+  run 3 run scene.yaml --set 'time.end=10 ms' --out fallen --progress none
+  says err "body 'block'"
+  says err 'left the grid'
+  grep -q '"failed"' fallen/run.json || fail 'run.json does not say failed'
+  run 4 run scene.yaml --out /dev/null/folder
+  rm -rf fallen
+}
+
 check_signals() {
   local signal code
   for signal in INT TERM; do
-    "$program" run scene.yaml --set 'time.end=1 s' --out "stopped_$signal" --progress none >out 2>err &
+    "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' \
+      --out "stopped_$signal" --progress none >out 2>err &
     local process=$!
     for _ in $(seq 100); do  # the folder appears once the run has begun
       [[ -d stopped_$signal ]] && break
@@ -196,6 +207,7 @@ check_words
 check_lists
 check_overrides
 check_output_folder
+check_failed_run
 check_signals
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]

@@ -33,7 +33,8 @@ void check_fixed_point(const std::string& text, const std::filesystem::path& fil
 
 /// A folder that goes away with the test.
 struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("mpmfast_scene_resolved_" + std::to_string(getpid()));
+  std::filesystem::path path =
+      std::filesystem::temp_directory_path() / ("mpmfast_scene_resolved_" + std::to_string(getpid()));
   Folder() { std::filesystem::create_directories(path); }
   ~Folder() {
     std::error_code error;

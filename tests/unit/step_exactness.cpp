@@ -71,8 +71,14 @@ void check_perfect(std::vector<Override> overrides, const std::string& more) {
   REQUIRE(two.plan().fields.size() == 2);
   advance(one, 200);
   advance(two, 200);
-  for (Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress})
+  for (Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient})
     CHECK(relative_difference(by_id(two.state().particles, q), by_id(one.state().particles, q)) < 1e-12);
+  // A stress far below the modulus shows the round-off of F enlarged by their ratio: measure against the modulus.
+  const auto a = by_id(two.state().particles, Quantity::kirchhoff_stress);
+  const auto b = by_id(one.state().particles, Quantity::kirchhoff_stress);
+  double difference = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) difference = std::max(difference, std::abs(a[i] - b[i]));
+  CHECK(difference < 1e-12 * 80e6);
 }
 
 template <int Dim>

@@ -9,8 +9,8 @@ using namespace test;
 
 const char* const kGrains2 = R"(
 space: plane_strain
-grid: {size: [24 mm, 24 mm], cell: 0.5 mm}
-time: {end: 60 us}
+grid: {size: [24 mm, 24 mm], cell: 0.4 mm}
+time: {end: 50 us}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 bodies:
   - {name: a, disk: {centre: [6 mm, 6 mm], radius: 4 mm}, material: m, velocity: [20 m/s, 20 m/s]}
@@ -24,8 +24,8 @@ output: {frames: 0, history: 4}
 
 const char* const kGrains3 = R"(
 space: 3d
-grid: {size: [16 mm, 16 mm, 16 mm], cell: 1 mm}
-time: {end: 40 us}
+grid: {size: [16 mm, 16 mm, 16 mm], cell: 0.8 mm}
+time: {end: 30 us}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 bodies:
   - {name: a, sphere: {centre: [5 mm, 5 mm, 5 mm], radius: 3 mm}, material: m, velocity: [30 m/s, 30 m/s, 30 m/s]}
@@ -40,6 +40,9 @@ TEST_CASE("the checksum is the same on one thread, on two, on three and again") 
     const Scene scene = scene_from(yaml);
     const Outcome one = run(scene, 1), two = run(scene, 2), three = run(scene, 3), again = run(scene, 2);
     REQUIRE(one.failure.empty());
+    CHECK(one.summary.threads == 1);
+    CHECK(two.summary.threads == 2);
+    CHECK(three.summary.threads == 3);
     CHECK(one.summary.contact.regressions > 1000);
     CHECK(one.summary.checksum == two.summary.checksum);
     CHECK(one.summary.checksum == three.summary.checksum);

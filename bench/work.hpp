@@ -1,0 +1,103 @@
+#pragma once
+
+/// @file The least work of a pass on one particle, from which its bound on this machine follows: every column
+/// that it needs crosses the memory bus once for reading and once for writing, every nodal column likewise
+/// (shared among the particles), and only the flops of the formulas count (a multiply-add is two; lanes that
+/// pad are none; values alone where no gradient is asked for). A pass that does more than that shows as a
+/// smaller share of the bound.
+
+#include <initializer_list>
+
+#include "engine/scene/scene.hpp"
+#include "engine/state/nodes.hpp"
+#include "engine/state/particles.hpp"
+
+namespace mpmfast::bench {
+
+struct Work {
+  double bytes, flops;
+};
+
+template <int Dim>
+int doubles(std::initializer_list<Quantity> quantities) {
+  int sum = 0;
+  for (Quantity q : quantities) sum += Particles<Dim>::components(q);
+  return sum;
+}
+
+template <int Dim>
+class PassWork {
+ public:
+  /// @param slots_per_particle  nodal slots over particles
+  PassWork(BasisKind basis, double slots_per_particle) : basis_(basis), slots_(slots_per_particle) {}
+
+  Work project() const {
+    return {bytes(where() + doubles<Dim>({Quantity::mass, Quantity::velocity}), 2 * (1 + Dim)),
+            values() + Dim + scatter(1 + Dim)};
+  }
+  Work strain_and_force() const {
+    const int rows =
+        2 * doubles<Dim>({Quantity::deformation_gradient}) +
+        doubles<Dim>({Quantity::kirchhoff_stress, Quantity::wave_speed, Quantity::initial_volume});
+    return {bytes(where() + rows, 3 * Dim),
+            gradients() + 2 * scatter(Dim * Dim) + kStrain + kNeoHookean + Dim * Dim};
+  }
+  /// @param vectors  gathered from the nodes: 2 (FLIP) or 3 (XPIC)
+  Work update(int vectors) const {
+    const bool convected = basis_ == BasisKind::lcpdi;
+    int rows = where() + doubles<Dim>({Quantity::position, Quantity::wave_speed}) +
+               2 * doubles<Dim>({Quantity::velocity});
+    if (convected) rows += doubles<Dim>({Quantity::domain_edges, Quantity::deformation_gradient});
+    return {bytes(rows, vectors * Dim),
+            values() + scatter(vectors * Dim) + 10 * Dim + (convected ? 4 * Dim * Dim : 0)};
+  }
+  /// @param vectors  v* alone (1) or with Δv* (2)
+  Work xpic(int vectors) const {
+    return {bytes(where() + doubles<Dim>({Quantity::mass}), 3 * vectors * Dim),
+            values() + 2 * scatter(vectors * Dim) + vectors * Dim};
+  }
+  /// Every column read and written once.
+  Work sort(const std::vector<Quantity>& columns) const {
+    int rows = 0;
+    for (Quantity q : columns) rows += Particles<Dim>::components(q);
+    return {16.0 * rows + 12, 0};
+  }
+
+ private:
+  /// F ← exp(Δt L) F with two terms: Δt L, its square, their sum, the product.
+  static constexpr int kStrain = Dim * Dim * (1 + (2 * Dim - 1) + 2 + 2 * Dim);
+  /// Counted in kernels/materials/neo_hookean.hpp, with 70 for the logarithm and the exponential.
+  static constexpr int kNeoHookean = Dim == 2 ? 125 : 185;
+
+  int support() const { return basis_ == BasisKind::linear ? 2 : 3; }  // lCPDI: of most of its domains
+  int nodes() const { return power(support(), Dim); }
+  double scatter(int components) const { return 2.0 * nodes() * components; }
+
+  /// What places a particle on the grid.
+  int where() const {
+    return doubles<Dim>({Quantity::position}) +
+           (basis_ == BasisKind::lcpdi ? doubles<Dim>({Quantity::domain_edges}) : 0);
+  }
+  double bytes(int rows, int nodal_rows) const { return 8.0 * (rows + slots_ * nodal_rows); }
+
+  /// Values of one-dimensional functions (with their derivatives), and their products.
+  double one_dimensional() const {
+    return Dim * (basis_ == BasisKind::linear ? 4.0 : basis_ == BasisKind::ugimp ? 26.0 : 14.0);
+  }
+  /// lCPDI: hats at the corners, their products, summed.
+  double corners(int sums) const {
+    return kCorners<Dim> * (Dim * (Dim + 2.0 * support()) + nodes() * (Dim - 1.0 + sums));
+  }
+  double values() const {
+    return basis_ == BasisKind::lcpdi ? corners(1) + nodes() : one_dimensional() + nodes() * (Dim - 1.0);
+  }
+  double gradients() const {
+    if (basis_ == BasisKind::lcpdi) return corners(Dim) + nodes() * Dim * 2.0 * Dim;
+    return one_dimensional() + nodes() * Dim * (Dim - 1.0);
+  }
+
+  BasisKind basis_;
+  double slots_;
+};
+
+}  // namespace mpmfast::bench

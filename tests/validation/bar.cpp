@@ -1,0 +1,110 @@
+// An elastic bar held sideways (uniaxial strain): c = sqrt((λ + 2G)/ρ), against its wave speed and lowest frequency.
+
+#include <numbers>
+
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// 100 cells long, one cell high between symmetry planes. λ + 2G = 13.46 MPa, ρ 1000: c = 116.0 m/s.
+const char* const kBar = R"(
+space: plane_strain
+grid: {size: [140 mm, 1 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: linear_elastic, density: 1000 kg/m^3, young: 10 MPa, poisson: 0.3}}
+bodies: [{name: bar, box: {from: [0 mm, 0 mm], to: [100 mm, 1 mm]}, material: m}]
+boundaries: {left: wall, bottom: symmetry, top: symmetry}
+)";
+
+double bar_speed() {
+  const double young = 10e6, poisson = 0.3;
+  return std::sqrt(young * (1 - poisson) / ((1 + poisson) * (1 - 2 * poisson)) / 1000);
+}
+
+/// Period of the lowest mode, velocity ∝ sin(πx/2L), from the zeros of its modal velocity over five periods.
+double measured_period(const Scene& scene) {
+  Step<2> step(scene);
+  auto& particles = step.state().particles;
+  const double length = 0.1;
+  const auto mode = [&](std::size_t p) {
+    return std::sin(std::numbers::pi * particles.column(Quantity::position, 0)[p] / (2 * length));
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) particles.column(Quantity::velocity, 0)[p] = 0.01 * mode(p);
+  const auto amplitude = [&] {
+    double sum = 0;
+    for (std::size_t p = 0; p < particles.size(); ++p) sum += mode(p) * particles.column(Quantity::velocity, 0)[p];
+    return sum;
+  };
+  std::vector<double> zeros;
+  double before = amplitude(), time_before = 0;
+  while (zeros.size() < 11) {
+    step.advance(step.stable_dt());
+    const double now = amplitude(), time = step.state().time;
+    if (now * before < 0) zeros.push_back(time_before + (time - time_before) * before / (before - now));
+    before = now;
+    time_before = time;
+    REQUIRE(step.state().step < 100000);
+  }
+  return (zeros.back() - zeros.front()) / 5;
+}
+
+TEST_CASE("a standing wave in an elastic bar has the frequency c/4L within 1 %") {
+  const double period = 4 * 0.1 / bar_speed();
+  for (const char* basis : {"linear", "ugimp", "lcpdi", "bspline2"})
+    for (const char* update : {"flip", "xpic(5)"}) {
+      CAPTURE(std::string(basis));
+      CAPTURE(std::string(update));
+      const double measured = measured_period(scene_from(kBar, {{"method.basis", basis}, {"method.update", update}}));
+      CHECK(measured == doctest::Approx(period).epsilon(0.01));
+    }
+}
+
+TEST_CASE("a standing wave keeps its frequency under every strain update and in a neo-Hookean bar") {
+  const double period = 4 * 0.1 / bar_speed();
+  for (const char* strain : {"first", "last", "average"}) {
+    CAPTURE(std::string(strain));
+    CHECK(measured_period(scene_from(kBar, {{"method.strain", strain}})) == doctest::Approx(period).epsilon(0.01));
+  }
+  const std::string same_modulus = "{m: {model: neo_hookean, density: 1000 kg/m^3, young: 10 MPa, poisson: 0.3}}";
+  CHECK(measured_period(scene_from(kBar, {{"materials", same_modulus}})) == doctest::Approx(period).epsilon(0.01));
+}
+
+/// Where the velocity falls to half the piston's.
+double front(const Particles<2>& particles, double speed) {
+  std::map<double, double> profile;  // the lower of the two rows of particles
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    if (particles.column(Quantity::position, 1)[p] < 0.5e-3)
+      profile[particles.column(Quantity::position, 0)[p]] = particles.column(Quantity::velocity, 0)[p];
+  double x_before = 0, v_before = speed;
+  for (const auto& [x, v] : profile) {
+    if (v < 0.5 * speed && v_before >= 0.5 * speed)
+      return x_before + (x - x_before) * (v_before - 0.5 * speed) / (v_before - v);
+    x_before = x;
+    v_before = v;
+  }
+  return x_before;
+}
+
+TEST_CASE("a pushed bar's front runs at the wave speed within 1 %, and the piston feels rho c v") {
+  const double speed = 0.01, c = bar_speed();
+  for (const char* update : {"pic", "xpic(5)"}) {
+    CAPTURE(std::string(update));
+    const Scene scene = scene_from(kBar, {{"method.update", update}, {"boundaries.left", "{piston: 0.01 m/s, direction: right}"}});
+    Step<2> step(scene);
+    while (step.state().time < 0.3 * 0.1 / c) step.advance(step.stable_dt());
+    const double early = front(step.state().particles, speed), early_time = step.state().time;
+    const Vec<2> early_impulse = step.sums().boundary_impulse[0];
+    while (step.state().time < 0.8 * 0.1 / c) step.advance(step.stable_dt());
+    const double late = front(step.state().particles, speed), span = step.state().time - early_time;
+    CHECK((late - early) / span == doctest::Approx(c).epsilon(0.01));
+    // Force on the material per metre of thickness: ρ c v times 1 mm.
+    const double force = (step.sums().boundary_impulse[0] - early_impulse)[0] / span;
+    CHECK(force == doctest::Approx(1000 * c * speed * 1e-3).epsilon(0.01));
+  }
+}
+
+}  // namespace
+}  // namespace mpmfast
