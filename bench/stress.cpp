@@ -13,7 +13,9 @@ namespace {
 using namespace mpmfast;
 
 template <int Dim, class Law>
-void stress(benchmark::State& state, const Law& law) {
+void stress(benchmark::State& state) {
+  Law law{1200, 80e6, 30e6};
+  benchmark::DoNotOptimize(law);  // a scene's numbers are no constants
   constexpr std::size_t n = 1024;
   Column<double> deformation[Dim * Dim], tau[kSymmetric<Dim>], wave_speed;
   for (auto& column : deformation) column.resize_discard(n);
@@ -37,11 +39,9 @@ void stress(benchmark::State& state, const Law& law) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(n));
 }
 
-constexpr NeoHookean kRubber{1200, 80e6, 30e6};
-constexpr LinearElastic kSteel{7850, 120e9, 80e9};
-BENCHMARK_CAPTURE(stress<2>, , kRubber)->Name("stress/neo_hookean/2d");
-BENCHMARK_CAPTURE(stress<3>, , kRubber)->Name("stress/neo_hookean/3d");
-BENCHMARK_CAPTURE(stress<2>, , kSteel)->Name("stress/linear_elastic/2d");
-BENCHMARK_CAPTURE(stress<3>, , kSteel)->Name("stress/linear_elastic/3d");
+BENCHMARK(stress<2, NeoHookean>)->Name("stress/neo_hookean/2d");
+BENCHMARK(stress<3, NeoHookean>)->Name("stress/neo_hookean/3d");
+BENCHMARK(stress<2, LinearElastic>)->Name("stress/linear_elastic/2d");
+BENCHMARK(stress<3, LinearElastic>)->Name("stress/linear_elastic/3d");
 
 }  // namespace

@@ -20,7 +20,7 @@ inline constexpr int kBlockSide = Dim == 2 ? 224 : 29;
 /// A block of neo-Hookean solid in a grid with room to move, cut into `cuts` bodies along x and along y.
 template <int Dim>
 std::string block_yaml(const std::string& basis, const std::string& update, int cuts = 1) {
-  constexpr int side = kBlockSide<Dim>, margin = 8;
+  constexpr int side = kBlockSide<Dim>, margin = 16;
   const auto cube = [](const std::string& length) {
     return Dim == 2 ? fmt::format("[{0}, {0}]", length) : fmt::format("[{0}, {0}, {0}]", length);
   };

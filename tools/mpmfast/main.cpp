@@ -10,6 +10,7 @@
 #include "engine/errors.hpp"
 #include "engine/scene/diagnostic.hpp"
 #include "exit_codes.hpp"
+#include "quiet_threads.hpp"
 
 namespace {
 
@@ -52,6 +53,7 @@ int perform_and_report(const CommandLine& line) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  wait_quietly(arguments);
   const ParsedCommandLine parsed = parse_command_line(count, arguments);
   const int code = parsed.line ? perform_and_report(*parsed.line) : parsed.exit_code;
   if (code == 0 && std::fflush(stdout) != 0) {
