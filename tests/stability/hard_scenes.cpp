@@ -1,0 +1,107 @@
+// Scenes at the edge of what the method stands: they must end, with sane numbers.
+
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// Runs a scene to its end; no particle may be lost and energy may not appear from nowhere.
+Outcome survive(const Scene& scene, double energy_gain) {
+  const Outcome outcome = run(scene);
+  CHECK(outcome.failure == "");
+  CHECK(outcome.summary.energy_error < energy_gain);
+  return outcome;
+}
+
+TEST_CASE("small ellipses: the compaction of a coarse packing reaches 75 % in every normal that claims to") {
+  for (const char* cell : {"1/20 mm", "1/35 mm"}) {
+    CAPTURE(std::string(cell));
+    const Scene scene = scene_file("ellipses.yaml", {{"grid.cell", cell}, {"output.frames", "0"}});
+    const Outcome outcome = survive(scene, 0.05);
+    const double stress = -outcome.history.at("all.mean_stress_yy_Pa").back();
+    CHECK(stress > 60e9);   // N20: 84 GPa interpenetrating, 105 GPa clean
+    CHECK(stress < 140e9);
+  }
+}
+
+TEST_CASE("bodies a million times apart in density bounce and part") {
+  for (const char* update : {"flip", "xpic(3)"}) {
+    CAPTURE(std::string(update));
+    survive(scene_from(R"(
+space: plane_strain
+grid: {size: [24 mm, 14 mm], cell: 1 mm}
+time: {end: 600 us}
+materials:
+  light: {model: neo_hookean, density: 1 kg/m^3, bulk: 8 kPa, shear: 4 kPa}
+  heavy: {model: neo_hookean, density: 1e6 kg/m^3, bulk: 8 GPa, shear: 4 GPa}
+bodies:
+  - {name: a, box: {from: [3 mm, 4 mm], to: [9 mm, 10 mm]}, material: light, velocity: [5 m/s, 0 m/s]}
+  - {name: b, disk: {centre: [14.3 mm, 7.2 mm], radius: 3 mm}, material: heavy}
+contact: {law: coulomb, friction: 0.5}
+output: {frames: 0, history: 10}
+)",
+                       {{"method.update", update}}),
+            0.05);
+  }
+}
+
+TEST_CASE("bodies of a single particle, of one row, and touching ones at a cell's corner") {
+  survive(scene_from(R"(
+space: plane_strain
+grid: {size: [12 mm, 12 mm], cell: 1 mm}
+time: {end: 400 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: dust, box: {from: [5.5 mm, 8 mm], to: [6 mm, 8.5 mm]}, material: m, velocity: [0 m/s, -10 m/s]}
+  - {name: row, box: {from: [4 mm, 6.5 mm], to: [8 mm, 7 mm]}, material: m}
+  - {name: c, box: {from: [4 mm, 4 mm], to: [6 mm, 6 mm]}, material: m}
+  - {name: d, box: {from: [6 mm, 4 mm], to: [8 mm, 6 mm]}, material: m}
+  - {name: e, box: {from: [4 mm, 2 mm], to: [6 mm, 4 mm]}, material: m}
+  - {name: f, box: {from: [6 mm, 2 mm], to: [8 mm, 4 mm]}, material: m}
+contact: {law: coulomb, friction: 0.3}
+output: {frames: 0, history: 10}
+)"),
+          0.05);
+}
+
+TEST_CASE("bodies that overlap at the start are pushed neither apart by violence nor to nowhere") {
+  const Outcome outcome = survive(scene_from(R"(
+space: plane_strain
+grid: {size: [16 mm, 12 mm], cell: 1 mm}
+time: {end: 500 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, disk: {centre: [6 mm, 6 mm], radius: 3 mm}, material: m, velocity: [5 m/s, 0 m/s]}
+  - {name: b, disk: {centre: [9 mm, 6 mm], radius: 3 mm}, material: m, velocity: [-5 m/s, 0 m/s]}
+contact: {law: frictionless}
+output: {frames: 0, history: 10}
+)"),
+                                  0.05);
+  const auto& kinetic = outcome.history.at("kinetic_J");
+  for (double k : kinetic) CHECK(k < 1.05 * kinetic.front());
+}
+
+TEST_CASE("a 3-D impact of a sphere on a corner keeps its particles") {
+  for (const char* basis : {"ugimp", "lcpdi"}) {
+    CAPTURE(std::string(basis));
+    survive(scene_from(R"(
+space: 3d
+grid: {size: [14 mm, 14 mm, 14 mm], cell: 1 mm}
+time: {end: 300 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: ball, sphere: {centre: [9.6 mm, 9.6 mm, 9.6 mm], radius: 2.5 mm}, material: m, velocity: [-25 m/s, -25 m/s, -25 m/s]}
+  - {name: cube, box: {from: [3 mm, 3 mm, 3 mm], to: [8 mm, 8 mm, 8 mm]}, material: m}
+contact: {law: coulomb, friction: 0.3}
+method: {update: xpic(3)}
+output: {frames: 0, history: 10}
+)",
+                       {{"method.basis", basis}}),
+            0.05);
+  }
+}
+
+}  // namespace
+}  // namespace mpmfast
