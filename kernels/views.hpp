@@ -86,9 +86,9 @@ struct WeightRoom {
   alignas(64) ChunkWeights<Dim, Basis::kMaxSupport> wide;
 };
 
-/// Stages each chunk of the tile and calls f(weights, run, begin, count).
+/// Stages each chunk of the tile, with the weights that are wanted, and calls f(weights, run, begin, count).
 /// @return false if a particle's support left the window (the rest of the tile is then skipped).
-template <int Dim, class Basis, class F>
+template <int Dim, class Basis, Wanted W, class F>
 inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, F f) {
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
     const ParticleRun<Dim>& run = c.runs[r];
@@ -96,10 +96,10 @@ inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& ro
       const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
       const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
       if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
-        if (!Basis::stage(g, room.narrow)) return false;
+        if (!Basis::template stage<W>(g, room.narrow)) return false;
         f(room.narrow, run, begin, count);
       } else {
-        if (!Basis::stage(g, room.wide)) return false;
+        if (!Basis::template stage<W>(g, room.wide)) return false;
         f(room.wide, run, begin, count);
       }
     }

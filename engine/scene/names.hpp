@@ -39,7 +39,7 @@ inline constexpr std::array<Word<UpdateKind>, 3> kUpdates{{
 inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
     {StrainKind::first, "first", "strain updated before the forces"},
     {StrainKind::last, "last", "strain updated after the particles"},
-    {StrainKind::average, "average", "half before, half after"},
+    {StrainKind::average, "average", "half before, half after (default): the best energy balance in contact"},
 }};
 
 inline constexpr std::array<Word<PositionKind>, 3> kPositions{{

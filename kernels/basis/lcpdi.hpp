@@ -37,9 +37,10 @@ struct LcpdiBasis {
     for (auto& e : edge) e *= scale;
   }
 
-  template <int K>
+  template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
     alignas(64) double first[Dim][kChunk<Dim>];
+    constexpr double mean = 1.0 / kCorners<Dim>;
     for (int k = 0; k < g.count; k += kLanes) {
       Lanes r[Dim], edge[Dim][Dim];
       centre_and_edges(g, k, r, edge);
@@ -50,9 +51,7 @@ struct LcpdiBasis {
         store_lanes(&first[d][k], node);
         r[d] -= node;
       }
-      Lanes sum[1 + Dim][power(K, Dim)];  // Σ N, then Σ s_1 N … over the corners
-      for (auto& row : sum)
-        for (auto& v : row) v = broadcast<Lanes>(0.0);
+      Lanes plane[power(K, 2)][kCorners<Dim>], last[K][kCorners<Dim>];  // N_x N_y and (3-D) N_z at the corners
       for (int c = 0; c < kCorners<Dim>; ++c) {
         Lanes hat[Dim][K];
         for (int d = 0; d < Dim; ++d) {
@@ -60,23 +59,30 @@ struct LcpdiBasis {
           for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
           for (int i = 0; i < K; ++i) hat[d][i] = larger(1.0 - magnitude(x - double(i)), broadcast<Lanes>(0.0));
         }
-        for (int n = 0; n < out.kNodes; ++n) {
-          Lanes value = hat[0][n % K] * hat[1][n / K % K];
-          if constexpr (Dim == 3) value *= hat[2][n / (K * K)];
-          sum[0][n] += value;
-          for (int j = 0; j < Dim; ++j) sum[1 + j][n] = (c >> j & 1) ? sum[1 + j][n] + value : sum[1 + j][n] - value;
-        }
+        for (int n = 0; n < K * K; ++n) plane[n][c] = hat[0][n % K] * hat[1][n / K];
+        if constexpr (Dim == 3)
+          for (int i = 0; i < K; ++i) last[i][c] = hat[2][i];
       }
       Lanes inverse[Dim][Dim];
-      invert(edge, inverse);
-      constexpr double mean = 1.0 / kCorners<Dim>;
+      if constexpr (W != Wanted::values) {
+        invert(edge, inverse);
+        for (auto& row : inverse)
+          for (auto& v : row) v *= mean * g.inverse_cell;
+      }
       for (int n = 0; n < out.kNodes; ++n) {
-        store_lanes(&out.value[n][k], sum[0][n] * mean);
-        for (int d = 0; d < Dim; ++d) {
-          Lanes slope = inverse[0][d] * sum[1][n];
-          for (int j = 1; j < Dim; ++j) slope += inverse[j][d] * sum[1 + j][n];
-          store_lanes(&out.gradient[d][n][k], slope * (mean * g.inverse_cell));
+        Lanes value[kCorners<Dim>], sum[1 + Dim];
+        for (int c = 0; c < kCorners<Dim>; ++c) {
+          value[c] = plane[n % (K * K)][c];
+          if constexpr (Dim == 3) value[c] *= last[n / (K * K)][c];
         }
+        add_corners(value, sum);
+        if constexpr (W != Wanted::gradients) store_lanes(&out.value[n][k], sum[0] * mean);
+        if constexpr (W != Wanted::values)
+          for (int d = 0; d < Dim; ++d) {
+            Lanes slope = inverse[0][d] * sum[1];
+            for (int j = 1; j < Dim; ++j) slope += inverse[j][d] * sum[1 + j];
+            store_lanes(&out.gradient[d][n][k], slope);
+          }
       }
     }
     return place_in_window<Dim, K>(first, g, out.first);
@@ -129,6 +135,22 @@ struct LcpdiBasis {
   }
 
  private:
+  /// Σ v_c and Σ s_cj v_c over the corners: direction after direction, neighbours are replaced by their sum and their
+  /// difference; a difference needs only be summed from there on.
+  static void add_corners(Lanes (&v)[kCorners<Dim>], Lanes (&sum)[1 + Dim]) {
+#pragma GCC unroll 4
+    for (int j = 0; j < Dim; ++j) {
+      const int half = kCorners<Dim> >> (j + 1);
+#pragma GCC unroll 8
+      for (int c = 0; c < half; ++c) {
+        const Lanes difference = v[2 * c + 1] - v[2 * c];
+        sum[1 + j] = c == 0 ? difference : sum[1 + j] + difference;
+        v[c] = v[2 * c] + v[2 * c + 1];
+      }
+    }
+    sum[0] = v[0];
+  }
+
   /// Centre and half-edge vectors in cells.
   static void centre_and_edges(const ChunkGeometry<Dim>& g, int k, Lanes (&r)[Dim], Lanes (&edge)[Dim][Dim]) {
     for (int d = 0; d < Dim; ++d) {

@@ -85,7 +85,7 @@ struct SeparableBasis {
   static constexpr bool kConvected = false;  ///< needs no half-edge vectors
 
   /// Stages the weights of a chunk. @return false if a support leaves the window.
-  template <int K>
+  template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
     static_assert(K == Function::kSupport);
     alignas(64) double first[Dim][kChunk<Dim>];
@@ -100,17 +100,22 @@ struct SeparableBasis {
       }
       for (int n = 0; n < out.kNodes; ++n) {
         const int i = n % K, j = n / K % K;
+        constexpr bool values = W != Wanted::gradients, gradients = W != Wanted::values;
         if constexpr (Dim == 2) {
-          store_lanes(&out.value[n][k], w[0][i] * w[1][j]);
-          store_lanes(&out.gradient[0][n][k], slope[0][i] * w[1][j]);
-          store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j]);
+          if constexpr (values) store_lanes(&out.value[n][k], w[0][i] * w[1][j]);
+          if constexpr (gradients) {
+            store_lanes(&out.gradient[0][n][k], slope[0][i] * w[1][j]);
+            store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j]);
+          }
         } else {
           const int l = n / (K * K);
           const Lanes yz = w[1][j] * w[2][l];
-          store_lanes(&out.value[n][k], w[0][i] * yz);
-          store_lanes(&out.gradient[0][n][k], slope[0][i] * yz);
-          store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j] * w[2][l]);
-          store_lanes(&out.gradient[2][n][k], w[0][i] * w[1][j] * slope[2][l]);
+          if constexpr (values) store_lanes(&out.value[n][k], w[0][i] * yz);
+          if constexpr (gradients) {
+            store_lanes(&out.gradient[0][n][k], slope[0][i] * yz);
+            store_lanes(&out.gradient[1][n][k], w[0][i] * (slope[1][j] * w[2][l]));
+            store_lanes(&out.gradient[2][n][k], w[0][i] * (w[1][j] * slope[2][l]));
+          }
         }
       }
     }

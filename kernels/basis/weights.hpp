@@ -27,6 +27,9 @@ struct ChunkGeometry {
   int count;                           ///< ≤ kChunk
 };
 
+/// Which weights a pass needs: the others are not computed.
+enum class Wanted { values, gradients, both };
+
 /// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] + window_offset(n).
 template <int Dim, int K>
 struct ChunkWeights {
@@ -52,18 +55,21 @@ constexpr int window_offset(int n) {
 /// @return false if a particle's support leaves the window: the particles must be sorted anew.
 template <int Dim, int K>
 inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g, int* index) {
-  bool inside = true;
-  for (int k = 0; k < g.count; ++k) {
-    int at = 0, stride = 1;
+  IntLanes outside{}, lane;
+  for (int i = 0; i < kLanes; ++i) lane[i] = i;
+  for (int k = 0; k < g.count; k += kLanes) {
+    Lanes at = broadcast<Lanes>(0.0);
+    double stride = 1;
     for (int d = 0; d < Dim; ++d) {
-      const double offset = first[d][k] - g.window[d];
-      inside &= offset >= 0 && offset <= kWindowSide - K;  // false for NaN too
-      at += static_cast<int>(inside ? offset : 0) * stride;
+      const Lanes offset = load_lanes(&first[d][k]) - static_cast<double>(g.window[d]);
+      const IntLanes fits = (offset >= 0.0) & (offset <= static_cast<double>(kWindowSide - K));  // not for NaN
+      outside |= ~fits & (lane < static_cast<std::int64_t>(g.count - k));
+      at += (fits ? offset : 0.0) * stride;
       stride *= kWindowSide;
     }
-    index[k] = at;
+    store_indices(index + k, at);
   }
-  return inside;
+  return !any_of(outside);
 }
 
 }  // namespace mpmfast

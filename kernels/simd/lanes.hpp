@@ -44,6 +44,26 @@ inline Lanes load_lanes(const double* p) {
 }
 inline void store_lanes(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
 
+/// Whole numbers as int.
+inline void store_indices(int* p, Lanes v) {
+  using Indices = int __attribute__((vector_size(4 * kLanes)));
+  const Indices whole = __builtin_convertvector(v, Indices);
+  std::memcpy(p, &whole, sizeof whole);
+}
+/// Is a bit set in any lane?
+inline bool any_of(IntLanes v) {
+  std::int64_t all = 0;
+  for (int i = 0; i < kLanes; ++i) all |= v[i];
+  return all != 0;
+}
+/// The first n ≤ kLanes lanes.
+inline void store_first(double* p, Lanes v, int n) {
+  if (n >= kLanes)
+    store_lanes(p, v);
+  else
+    for (int i = 0; i < n; ++i) p[i] = v[i];
+}
+
 /// The same value in every lane (or the value itself).
 template <class V>
 inline V broadcast(double x) {

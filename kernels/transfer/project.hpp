@@ -12,6 +12,8 @@ template <int Dim, class Basis>
 struct ProjectRoom {
   WeightRoom<Dim, Basis> weights;
   Window<Dim, 1> mass_momentum, gradient_volume, mass_position;
+  alignas(64) double row[1 + Dim][kChunk<Dim>];  ///< mass and momentum of the particles
+  Record record[kChunk<Dim>];
 };
 
 /// Nodal mass and momentum of one tile (N20 Eq. 5): m_i = Σ S_pi M_p, p_i = Σ S_pi M_p V_p.
@@ -21,14 +23,16 @@ template <int Dim, class Basis>
 bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.mass_momentum);
-  const bool inside = for_each_chunk<Dim, Basis>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-    for (int k = 0; k < count; ++k) {
-      const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-      const double m = p.mass[q];
-      Record a{m, m * p.velocity[0][q], m * p.velocity[1][q], 0};
-      if constexpr (Dim == 3) a[3] = m * p.velocity[2][q];
-      scatter_values(w, k, a, room.mass_momentum.at[0]);
+  const bool inside = for_each_chunk<Dim, Basis, Wanted::values>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+    for (int k = 0; k < count; k += kLanes) {
+      const Lanes m = load_lanes(p.mass + begin + k);
+      store_lanes(&room.row[0][k], m);
+      for (int d = 0; d < Dim; ++d) store_lanes(&room.row[1 + d][k], m * load_lanes(p.velocity[d] + begin + k));
     }
+    const double* row[1 + Dim];
+    for (int e = 0; e <= Dim; ++e) row[e] = room.row[e];
+    stack(row, count, room.record);
+    for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
   });
   if (inside) flush_window<Dim, 1 + Dim>(room.mass_momentum, c.tile->slot, out);
   return inside;
@@ -42,7 +46,7 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   const ParticleView<Dim>& p = *c.particles;
   clear(room.gradient_volume);
   clear(room.mass_position);
-  for_each_chunk<Dim, Basis>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+  for_each_chunk<Dim, Basis, Wanted::both>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
     for (int k = 0; k < count; ++k) {
       const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
       double f[Dim * Dim];

@@ -69,15 +69,21 @@ inline void gather_velocity_gradient(const ChunkWeights<Dim, K>& w, int count, c
 }
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
-template <int Dim, int K>
+template <int Dim, int K, class Room>
 inline void scatter_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin, int count,
-                          Record* force) {
+                          Room& room) {
+  for (int s = 0; s < kSymmetric<Dim>; ++s)
+    for (int k = 0; k < count; k += kLanes)
+      store_lanes(&room.stress[s][k], -load_lanes(p.volume + begin + k) * load_lanes(p.stress[s] + begin + k));
+  for (int d = 0; d < Dim; ++d) {
+    const double* row[Dim];
+    for (int i = 0; i < Dim; ++i) row[i] = room.stress[symmetric_index<Dim>(i, d)];
+    stack(row, count, room.gathered[d]);
+  }
   for (int k = 0; k < count; ++k) {
-    const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-    Record row[Dim] = {};
-    for (int d = 0; d < Dim; ++d)
-      for (int i = 0; i < Dim; ++i) row[d][i] = -p.volume[q] * p.stress[symmetric_index<Dim>(i, d)][q];
-    scatter_gradients(w, k, row, force);
+    Record row[Dim];
+    for (int d = 0; d < Dim; ++d) row[d] = room.gathered[d][k];
+    scatter_gradients(w, k, row, room.force.at[0]);
   }
 }
 
@@ -92,7 +98,7 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
   double smallest = 1e300;
   if (dt_strain > 0) load_window<Dim, Dim>(velocity, c.tile->slot, room.velocity);
   clear(room.force);
-  for_each_chunk<Dim, Basis>(
+  for_each_chunk<Dim, Basis, Wanted::gradients>(
       c, room.weights, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         if (dt_strain > 0) {
           gather_velocity_gradient(w, count, room.velocity.at[0], room);
@@ -101,7 +107,7 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
             smallest = j < smallest ? j : smallest;
           });
         }
-        scatter_force(p, w, begin, count, room.force.at[0]);
+        scatter_force(p, w, begin, count, room);
       });
   flush_window<Dim, Dim>(room.force, c.tile->slot, force);
   return smallest;

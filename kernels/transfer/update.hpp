@@ -56,13 +56,14 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, 
     else return room.three;
   }();
   load_window<Dim, NV * Dim>(nodes, c.tile->slot, window);
-  for_each_chunk<Dim, Basis>(
-      c, room.weights, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+  for_each_chunk<Dim, Basis, Wanted::values>(
+      c, room.weights, [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         Record(&values)[NR][kChunk<Dim>] = reinterpret_cast<Record(&)[NR][kChunk<Dim>]>(room.values);
         for (int r = 0; r < NR; ++r)
           for (int k = 0; k < count; ++k) values[r][k] = gather_values(w, k, window.at[r]);
         unstack<Dim, NR>(values, count, reinterpret_cast<double(&)[4 * NR][kChunk<Dim>]>(room.value));
         if (rule.dt_strain > 0) {
+          Basis::template stage<Wanted::gradients>(chunk_geometry(c, run, begin, count), w);
           // v⁺ comes first in the window, so its gradient is that of the first record.
           gather_velocity_gradient(w, count, window.at[0], room);
           visit_material(c.bodies[run.body].material, [&](const auto& law) {

@@ -112,10 +112,11 @@ inline void scatter_gradients(const ChunkWeights<Dim, K>& w, int k, const Record
 template <int Dim, int K>
 inline Record gather_values(const ChunkWeights<Dim, K>& w, int k, const Record* window) {
   const Record* source = window + w.first[k];
-  Record sum{};
+  Record sum[K] = {};  // a chain of additions for each node of a row, so that they need not wait for each other
 #pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) sum += w.value[n][k] * source[window_offset<Dim, K>(n)];
-  return sum;
+  for (int n = 0; n < w.kNodes; ++n) sum[n % K] += w.value[n][k] * source[window_offset<Dim, K>(n)];
+  for (int i = 1; i < K; ++i) sum[0] += sum[i];
+  return sum[0];
 }
 
 /// Gathers Σ_i G_pi,d window_i for every direction d.
@@ -127,6 +128,19 @@ inline void gather_gradients(const ChunkWeights<Dim, K>& w, int k, const Record*
   for (int n = 0; n < w.kNodes; ++n) {
     const Record node = source[window_offset<Dim, K>(n)];
     for (int d = 0; d < Dim; ++d) out[d] += w.gradient[d][n][k] * node;
+  }
+}
+
+/// The reverse: record k holds entry k of each of N arrays, then zeros. The arrays must be readable a record further.
+/// (Built component by component, a record would be read back before its parts have left the store buffer.)
+template <int N>
+inline void stack(const double* const (&in)[N], int count, Record* out) {
+  static_assert(N <= 4);
+  for (int k = 0; k < count; k += 4) {
+    Record row[4];
+    for (int c = 0; c < 4; ++c) row[c] = c < N ? detail::load_row(in[c < N ? c : 0] + k) : Record{};
+    transpose(row[0], row[1], row[2], row[3]);
+    for (int c = 0; c < 4; ++c) out[k + c] = row[c];
   }
 }
 

@@ -21,7 +21,7 @@ void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const 
   const ParticleView<Dim>& p = *c.particles;
   load_window<Dim, NC>(in, c.tile->slot, room.in);
   clear(room.out);
-  for_each_chunk<Dim, Basis>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+  for_each_chunk<Dim, Basis, Wanted::values>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
     for (int k = 0; k < count; ++k)
       for (int r = 0; r < records_for(NC); ++r) {
         const Record a = gather_values(w, k, room.in.at[r]);
