@@ -43,7 +43,7 @@ inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
 }};
 
 inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
-    {PositionKind::grid, "grid", "particles move with the grid's midpoint velocity"},
+    {PositionKind::grid, "grid", "particles move with the grid's midpoint velocity (default)"},
     {PositionKind::trapezoid, "trapezoid", "particles move with the mean of old and new velocity"},
     {PositionKind::particle, "particle", "particles move with their new velocity"},
 }};

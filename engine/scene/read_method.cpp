@@ -49,7 +49,6 @@ void read_method(MapReader& top, MethodSpec& method) {
   if (const auto update = map.find("update")) read_update(*update, method);
   map.word("strain", kStrains, method.strain);
   const auto position = map.find("position");
-  method.position = method.update == UpdateKind::flip ? PositionKind::grid : PositionKind::particle;
   if (const auto chosen = position ? position->word(kPositions) : std::nullopt) {
     if (method.update == UpdateKind::flip && *chosen != PositionKind::grid) {
       position->complain("flip moves particles with the grid (position: grid)");

@@ -26,14 +26,14 @@ TEST_CASE("a scene that states its physics alone gets the defaults") {
   CHECK(scene.boundaries.empty());
 }
 
-TEST_CASE("pic and xpic move particles with their own velocity unless the scene says otherwise") {
+TEST_CASE("every update moves particles with the grid unless the scene says otherwise") {
   const auto method = [](const std::string& keys) {
     return parse(plain_scene() + "method: {" + keys + "}\n").method;
   };
-  CHECK(method("update: pic").position == PositionKind::particle);
+  CHECK(method("update: pic").position == PositionKind::grid);
   CHECK(method("update: xpic(5)").xpic_order == 5);
-  CHECK(method("update: xpic(5)").position == PositionKind::particle);
-  CHECK(method("update: xpic(20), position: grid").position == PositionKind::grid);
+  CHECK(method("update: xpic(5)").position == PositionKind::grid);
+  CHECK(method("update: xpic(20), position: particle").position == PositionKind::particle);
   for (const char* wrong :
        {"xpic", "xpic(1)", "xpic(21)", "xpic(05)", "xpic()", "xpic(5", "xpic(-2)", "xpic(5) "}) {
     CHECK_MESSAGE(holds(fault(plain_scene() + "method: {update: '" + wrong + "'}\n"), "method.update: "),
