@@ -14,7 +14,8 @@ using Mat = Eigen::Matrix<double, Dim, Dim>;
 template <int Dim>
 using NodeIndex = Eigen::Matrix<int, Dim, 1>;  ///< integer node coordinates, any sign
 
-/// Components of a symmetric tensor, in the order xx, yy, zz, xy (plane strain carries zz), then yz, xz in 3-D.
+/// Components of a symmetric tensor, in the order xx, yy, zz, xy (plane strain carries zz), then yz, xz in
+/// 3-D.
 template <int Dim>
 inline constexpr int kSymmetric = Dim == 2 ? 4 : 6;
 

@@ -13,11 +13,11 @@ template <int Dim>
 struct ParticleView {
   double* position[Dim];
   double* velocity[Dim];
-  double* deformation[Dim * Dim];      ///< row-major F
-  double* stress[kSymmetric<Dim>];     ///< Kirchhoff
-  double* edges[Dim * Dim];            ///< half-edge vectors of CPDI domains
+  double* deformation[Dim * Dim];   ///< row-major F
+  double* stress[kSymmetric<Dim>];  ///< Kirchhoff
+  double* edges[Dim * Dim];         ///< half-edge vectors of CPDI domains
   double* mass;
-  double* volume;                      ///< undeformed
+  double* volume;  ///< undeformed
   double* wave_speed;
 };
 
@@ -33,14 +33,14 @@ struct ParticleRun {
 template <int Dim>
 struct ParticleTile {
   int field;
-  int run_begin, run_end;        ///< into the list of runs
-  int window[Dim];               ///< node coordinates of the window's first node
-  int slot[kCorners<Dim>];       ///< first slot of each node tile under the window
+  int run_begin, run_end;   ///< into the list of runs
+  int window[Dim];          ///< node coordinates of the window's first node
+  int slot[kCorners<Dim>];  ///< first slot of each node tile under the window
 };
 
 template <int Dim>
 struct GridView {
-  double origin[Dim];   ///< m, of node (0, …, 0)
+  double origin[Dim];  ///< m, of node (0, …, 0)
   double cell, inverse_cell;
 };
 
@@ -63,8 +63,8 @@ struct TileContext {
 };
 
 template <int Dim>
-inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const ParticleRun<Dim>& run, std::uint32_t begin,
-                                         int count) {
+inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
+                                         std::uint32_t begin, int count) {
   ChunkGeometry<Dim> g;
   for (int d = 0; d < Dim; ++d) {
     g.position[d] = c.particles->position[d] + begin;

@@ -1,11 +1,12 @@
 #pragma once
 
-/// @file Helpers of the tests: scenes in a few lines of YAML, steps without files, runs in a folder that is removed.
+/// @file Helpers of the tests: scenes in a few lines of YAML, steps without files, runs in a folder that is
+/// removed.
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <unistd.h>
+#include <cmath>
 
 #include <filesystem>
 #include <fstream>
@@ -40,7 +41,8 @@ std::vector<double> by_id(const Particles<Dim>& particles, Quantity q) {
   const auto n = static_cast<std::size_t>(Particles<Dim>::components(q));
   std::vector<double> rows(n * particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p)
-    for (std::size_t k = 0; k < n; ++k) rows[particles.id()[p] * n + k] = particles.column(q, static_cast<int>(k))[p];
+    for (std::size_t k = 0; k < n; ++k)
+      rows[particles.id()[p] * n + k] = particles.column(q, static_cast<int>(k))[p];
   return rows;
 }
 
@@ -76,7 +78,8 @@ class Folder {
  public:
   Folder() {
     static int count = 0;
-    path_ = std::filesystem::temp_directory_path() / ("mpmfast_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
+    path_ = std::filesystem::temp_directory_path() /
+            ("mpmfast_test_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
     std::filesystem::create_directories(path_);
   }
   ~Folder() {
@@ -107,7 +110,8 @@ inline History read_history(const std::filesystem::path& file) {
   return history;
 }
 
-/// Runs a scene and returns its history. A physical failure is returned in `failure`, with what was written until then.
+/// Runs a scene and returns its history. A physical failure is returned in `failure`, with what was written
+/// until then.
 struct Outcome {
   RunSummary summary;
   History history;

@@ -109,7 +109,9 @@ double Canvas::text_width(std::string_view text) {
 
 void Canvas::text(PixelPoint anchor, Align align, std::string_view text, Colour colour) {
   const double width = text_width(text);
-  double left = std::round(anchor.x - (align == Align::left ? 0 : align == Align::centre ? width / 2 : width));
+  double left = std::round(anchor.x - (align == Align::left     ? 0
+                                       : align == Align::centre ? width / 2
+                                                                : width));
   const double top = std::round(anchor.y - kTextHeight / 2);
   for (const char letter : printable(text)) {
     for (int row = 0; row < kGlyphHeight; ++row)
@@ -144,7 +146,8 @@ void Canvas::write_png(const std::filesystem::path& path) const {
     }
   std::string bytes;
   const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
+                                               static_cast<std::size_t>(size));
   };
   if (stbi_write_png_to_func(append, &bytes, width_, height_, 3, pixel.data(), 3 * width_) == 0)
     throw_file_error("encode", path, ENOMEM);

@@ -25,7 +25,8 @@ struct PixelPoint {
 
 enum class Align { left, centre, right };
 
-/// Draws at kSamples × kSamples the resolution of the picture it writes. Whatever is outside, or not a number, is cut.
+/// Draws at kSamples × kSamples the resolution of the picture it writes. Whatever is outside, or not a
+/// number, is cut.
 class Canvas {
  public:
   Canvas(int width, int height);

@@ -12,7 +12,8 @@ namespace {
 /// XXH3-128 over values gathered in a given order.
 class StateHash {
  public:
-  explicit StateHash(std::vector<std::uint32_t> order) : order_(std::move(order)), state_(XXH3_createState()) {
+  explicit StateHash(std::vector<std::uint32_t> order)
+      : order_(std::move(order)), state_(XXH3_createState()) {
     if (!state_) throw std::bad_alloc();
     XXH3_128bits_reset(state_.get());
   }
@@ -44,8 +45,8 @@ std::string checksum(const Particles<Dim>& particles) {
   StateHash hash(order_by_id(particles));
   hash.add(particles.id().data());
   hash.add(particles.body().data());
-  for (const Quantity quantity : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient,
-                                  Quantity::kirchhoff_stress}) {
+  for (const Quantity quantity :
+       {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress}) {
     if (!particles.has(quantity)) continue;
     for (int k = 0; k < Particles<Dim>::components(quantity); ++k) hash.add(particles.column(quantity, k));
   }

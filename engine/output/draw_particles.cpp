@@ -26,8 +26,7 @@ struct Extent {
 
 PictureText picture_text(const Scene& scene, const std::string& label, double time) {
   const DisplayUnit unit = display_unit(std::abs(time), "s");
-  return {scene.title,
-          fmt::format("{} at {:.4g} {}", label, time / unit.in_si, time == 0 ? "s" : unit.name)};
+  return {scene.title, fmt::format("{} at {:.4g} {}", label, time / unit.in_si, time == 0 ? "s" : unit.name)};
 }
 
 /// The colour of every particle, and the bar that explains it.
@@ -124,12 +123,14 @@ void draw(const std::filesystem::path& png, const Particles<3>& particles, const
       for (double side : {-radius, radius}) box[static_cast<std::size_t>(d)].include(centre[d] + side);
   }
   for (std::size_t d = 0; d < 3; ++d)
-    if (box[d].empty()) box[d] = {scene.grid.origin[d], scene.grid.origin[d] + std::max(scene.grid.size[d], 1e-9)};
+    if (box[d].empty())
+      box[d] = {scene.grid.origin[d], scene.grid.origin[d] + std::max(scene.grid.size[d], 1e-9)};
   const ViewBox view({box[0].lower, box[1].lower, box[2].lower}, {box[0].upper, box[1].upper, box[2].upper});
   const Colouring colour(field);
   Picture picture(view.across(), view.up(), !colour.by_body);
   view.draw_edges(picture);
-  std::stable_sort(balls.begin(), balls.end(), [](const Ball& a, const Ball& b) { return a.view[2] < b.view[2]; });
+  std::stable_sort(balls.begin(), balls.end(),
+                   [](const Ball& a, const Ball& b) { return a.view[2] < b.view[2]; });
   for (const Ball& ball : balls)
     draw_ball(picture, picture.at(ball.view[0], ball.view[1]), ball.radius * picture.pixels_per_metre(),
               colour(ball.particle));
@@ -148,9 +149,9 @@ void draw_particles(const std::filesystem::path& png, const Particles<Dim>& part
   draw(png, particles, scene, field_values(particles, field), time);
 }
 
-template void draw_particles(const std::filesystem::path&, const Particles<2>&, const Scene&, const std::string&,
-                             double);
-template void draw_particles(const std::filesystem::path&, const Particles<3>&, const Scene&, const std::string&,
-                             double);
+template void draw_particles(const std::filesystem::path&, const Particles<2>&, const Scene&,
+                             const std::string&, double);
+template void draw_particles(const std::filesystem::path&, const Particles<3>&, const Scene&,
+                             const std::string&, double);
 
 }  // namespace mpmfast

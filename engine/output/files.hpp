@@ -16,6 +16,7 @@ void write_aside(const std::filesystem::path& path, std::string_view content);
 void make_folder(const std::filesystem::path& folder);
 
 /// Throws FileError: what could not be done to which file, and the system's reason.
-[[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path, int error = errno);
+[[noreturn]] void throw_file_error(std::string_view action, const std::filesystem::path& path,
+                                   int error = errno);
 
 }  // namespace mpmfast

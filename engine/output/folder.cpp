@@ -11,8 +11,8 @@
 namespace mpmfast {
 namespace {
 
-constexpr std::array<std::string_view, 7> kOurFiles{"scene.yaml",    "run.json",   "run.log", "history.csv",
-                                                    "particles.pvd", "failed.vtu", "checkpoint.h5"};
+constexpr std::array<std::string_view, 7> kOurFiles{
+    "scene.yaml", "run.json", "run.log", "history.csv", "particles.pvd", "failed.vtu", "checkpoint.h5"};
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -38,7 +38,8 @@ void remove_files(const std::filesystem::path& folder, Chosen chosen) {
   std::vector<std::filesystem::path> doomed;
   for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error))
-    if (!entry->is_directory(error) && chosen(entry->path().filename().string())) doomed.push_back(entry->path());
+    if (!entry->is_directory(error) && chosen(entry->path().filename().string()))
+      doomed.push_back(entry->path());
   if (error) throw_file_error("read the folder", folder, error.value());
   for (const auto& path : doomed) {
     std::filesystem::remove(path, error);
@@ -63,7 +64,8 @@ void prepare_folder(const std::filesystem::path& folder, const Scene& scene, boo
     if (!std::filesystem::is_directory(folder, error))
       throw FileError("output folder " + folder.string() + " is a file");
     if (!force)
-      throw FileError("output folder " + folder.string() + " exists already (--force replaces the run in it)");
+      throw FileError("output folder " + folder.string() +
+                      " exists already (--force replaces the run in it)");
     remove_earlier_run(folder);
   }
   make_folder(folder);

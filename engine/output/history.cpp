@@ -98,7 +98,8 @@ void HistoryFile::append(const HistoryRow& row) {
   for (std::size_t i = 0; i < scene_->boundaries.size(); ++i)
     line.add(i < row.boundary_force.size() ? row.boundary_force[i] : Vec3{}, dim);
   for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    if (is_rigid(*scene_, scene_->bodies[b])) line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
+    if (is_rigid(*scene_, scene_->bodies[b]))
+      line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
   line.add(row.body_force_work);
   line.add(row.mean_stress, tensor);
   errno = 0;

@@ -26,19 +26,20 @@ struct HistoryRow {
   double time = 0, dt = 0;
   double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
   Vec3 momentum{};
-  std::array<double, 6> mean_stress{};      ///< Pa, as Body::mean_stress, over all bodies that deform
+  std::array<double, 6> mean_stress{};  ///< Pa, as Body::mean_stress, over all bodies that deform
   struct Body {
     std::array<double, 6> mean_stress{};  ///< Pa, Cauchy, xx yy zz xy yz xz, weighted by current volume
     double mass = 0;
-    Vec3 position{}, velocity{};          ///< of the centre of mass
+    Vec3 position{}, velocity{};  ///< of the centre of mass
   };
-  std::vector<Body> bodies;               ///< as Scene::bodies
-  std::vector<Vec3> boundary_force;       ///< N, on the material, mean over the interval; as Scene::boundaries
-  std::vector<Vec3> rigid_force;          ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
+  std::vector<Body> bodies;          ///< as Scene::bodies
+  std::vector<Vec3> boundary_force;  ///< N, on the material, mean over the interval; as Scene::boundaries
+  std::vector<Vec3> rigid_force;     ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
 };
 
-/// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise the same
-/// for any order of the particles. Rigid bodies have means, but no share in the kinetic energy and momentum.
+/// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise
+/// the same for any order of the particles. Rigid bodies have means, but no share in the kinetic energy and
+/// momentum.
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
@@ -67,14 +68,15 @@ class ParticleSeries {
   std::vector<std::pair<double, std::string>> frames_;
 };
 
-/// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured by
-/// `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and a colour bar
-/// with units. Throws std::invalid_argument for a field that there is not.
+/// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
+/// by `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and
+/// a colour bar with units. Throws std::invalid_argument for a field that there is not.
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
                     const std::string& field, double time);
 
-/// XXH3-128 over the particle state (all columns, ordered by id), as hexadecimal text. Independent of sort order.
+/// XXH3-128 over the particle state (all columns, ordered by id), as hexadecimal text. Independent of sort
+/// order.
 template <int Dim>
 std::string checksum(const Particles<Dim>& particles);
 
@@ -92,9 +94,9 @@ struct RunSummary {
   } contact;
   double energy_error = 0;
   std::string checksum;
-  std::string command;                    ///< the command line
-  std::vector<std::string> overrides;     ///< --set arguments
-  std::string resolved_yaml;              ///< Scene::resolved_yaml, of which run.json holds the hash
+  std::string command;                 ///< the command line
+  std::vector<std::string> overrides;  ///< --set arguments
+  std::string resolved_yaml;           ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);

@@ -81,8 +81,9 @@ FieldValues field_values(const Particles<Dim>& particles, const std::string& fie
   if (field == "body")
     return collect(particles, Quantity::position, field, "",
                    [&](std::size_t p) { return static_cast<double>(particles.body()[p]); });
-  throw std::invalid_argument(fmt::format(
-      "unknown field '{}' (expected body, pressure, von_mises, speed, {})", field, fmt::join(kStressNames, ", ")));
+  throw std::invalid_argument(
+      fmt::format("unknown field '{}' (expected body, pressure, von_mises, speed, {})", field,
+                  fmt::join(kStressNames, ", ")));
 }
 
 template std::vector<std::uint32_t> order_by_id(const Particles<2>&);

@@ -26,8 +26,8 @@ std::vector<T> gather_vector(const Particles<Dim>& particles, const std::vector<
 }
 
 template <int Dim>
-void add_identity(const Particles<Dim>& particles, const Scene& scene, const std::vector<std::uint32_t>& order,
-                  VtuFile& file) {
+void add_identity(const Particles<Dim>& particles, const Scene& scene,
+                  const std::vector<std::uint32_t>& order, VtuFile& file) {
   std::vector<std::uint32_t> id(order.size());
   std::vector<std::uint16_t> body(order.size()), material(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -56,7 +56,8 @@ void add_stress(const Particles<Dim>& particles, const std::vector<std::uint32_t
 
 /// F in double precision: small strains are its small difference from the identity.
 template <int Dim>
-void add_deformation(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+void add_deformation(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order,
+                     VtuFile& file) {
   std::vector<double> deformation(9 * order.size(), 0.0);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Mat<Dim> f = particles.deformation_gradient(order[i]);

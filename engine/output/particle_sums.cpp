@@ -67,7 +67,8 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
       body.position[k] = sums[b].moment[k] / body.mass;
       body.velocity[k] = sums[b].momentum[k] / body.mass;
     }
-    if (!rigid[b]) all.add(sums[b]);  // rigid bodies move as told: theirs is no energy or momentum of the balance
+    if (!rigid[b])
+      all.add(sums[b]);  // rigid bodies move as told: theirs is no energy or momentum of the balance
   }
   row.kinetic = 0.5 * all.twice_kinetic;
   row.momentum = all.momentum;

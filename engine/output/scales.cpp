@@ -17,7 +17,10 @@ constexpr std::array<unsigned, 9> kSequential{0x440154, 0x472d7b, 0x3b518b, 0x2c
 constexpr std::array<unsigned, 9> kDiverging{0x16315f, 0x2f63a8, 0x6f9fd0, 0xb5cfe6, 0xf2f1ee,
                                              0xecc3ae, 0xd98870, 0xb54646, 0x70162e};
 /// Each as far as can be, in OKLab, from all before it and from black and white.
-constexpr std::array<unsigned, 28> kBodies{0x1e69b4, 0xe15a0f, 0x00c369, 0xe187f0, 0x78004b, 0x0f4b00, 0xffc300, 0x4bc3ff, 0x78785a, 0x2dffe1, 0x964bb4, 0xd2b4b4, 0x3c1e96, 0x008700, 0x7887ff, 0x3c3c4b, 0x963c1e, 0xa5f069, 0xb49600, 0xff7896, 0x00a5a5, 0xc33c78, 0xa587b4, 0x006969, 0xff965a, 0xffc3ff, 0x96d2a5, 0x875a78};
+constexpr std::array<unsigned, 28> kBodies{
+    0x1e69b4, 0xe15a0f, 0x00c369, 0xe187f0, 0x78004b, 0x0f4b00, 0xffc300, 0x4bc3ff, 0x78785a, 0x2dffe1,
+    0x964bb4, 0xd2b4b4, 0x3c1e96, 0x008700, 0x7887ff, 0x3c3c4b, 0x963c1e, 0xa5f069, 0xb49600, 0xff7896,
+    0x00a5a5, 0xc33c78, 0xa587b4, 0x006969, 0xff965a, 0xffc3ff, 0x96d2a5, 0x875a78};
 
 template <std::size_t N>
 Colour interpolate(const std::array<unsigned, N>& points, double place) {
@@ -75,7 +78,8 @@ DisplayUnit display_unit(double size, std::string_view si_unit) {
   constexpr std::array<std::pair<std::string_view, double>, 8> prefixes{
       {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
   const auto usual = [&](std::string_view prefix) {  // nobody writes ks, Mm or mPa
-    if (unit == "Pa") return prefix == "T" || prefix == "G" || prefix == "M" || prefix == "k" || prefix.empty();
+    if (unit == "Pa")
+      return prefix == "T" || prefix == "G" || prefix == "M" || prefix == "k" || prefix.empty();
     if (unit == "m" && prefix == "k") return true;
     return prefix.empty() || prefix == "m" || prefix == "u" || prefix == "n";
   };

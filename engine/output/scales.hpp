@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file From numbers to colours and labels: robust ranges, colour maps, round ticks, units of a sensible size.
+/// @file From numbers to colours and labels: robust ranges, colour maps, round ticks, units of a sensible
+/// size.
 
 #include <span>
 #include <string>
@@ -16,10 +17,12 @@ struct Range {
   double width() const { return upper - lower; }
 };
 
-/// From the 0.5 to the 99.5 percentile of the finite values, so that a few outliers do not hide the rest; never empty.
+/// From the 0.5 to the 99.5 percentile of the finite values, so that a few outliers do not hide the rest;
+/// never empty.
 Range robust_range(std::span<const double> values);
 
-/// A linear scale of colours: sequential, or diverging and symmetric about zero when the values take both signs.
+/// A linear scale of colours: sequential, or diverging and symmetric about zero when the values take both
+/// signs.
 class ColourScale {
  public:
   explicit ColourScale(Range values);

@@ -21,7 +21,8 @@ void append_integers(std::string& out, const std::vector<std::uint64_t>& integer
   out.append(reinterpret_cast<const char*>(integers.data()), integers.size() * sizeof(std::uint64_t));
 }
 
-/// VTK's layout: block count, block size, size of a last partial block (else 0), compressed sizes, the blocks.
+/// VTK's layout: block count, block size, size of a last partial block (else 0), compressed sizes, the
+/// blocks.
 std::string compressed(std::string_view data) {
   const std::size_t blocks = (data.size() + kBlock - 1) / kBlock;
   std::vector<std::uint64_t> header{blocks, kBlock, data.size() % kBlock};
@@ -69,13 +70,15 @@ std::string VtuFile::array_tag(std::string_view type, std::string_view name, std
 }
 
 void VtuFile::write(const std::filesystem::path& path, double time) const {
-  constexpr std::string_view order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+  constexpr std::string_view order =
+      std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   std::string text;
   const auto out = std::back_inserter(text);
-  fmt::format_to(out,
-                 "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-                 "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n",
-                 order);
+  fmt::format_to(
+      out,
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n  <UnstructuredGrid>\n",
+      order);
   fmt::format_to(out,
                  "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
                  "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",

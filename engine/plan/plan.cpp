@@ -34,8 +34,8 @@ void plan_fields(const Scene& scene, Plan& plan) {
 }
 
 void plan_columns(const Scene& scene, Plan& plan) {
-  plan.particle_columns = {Quantity::position,     Quantity::velocity, Quantity::deformation_gradient,
-                           Quantity::kirchhoff_stress, Quantity::mass, Quantity::initial_volume,
+  plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
+                           Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
   if (plan.basis == BasisKind::lcpdi) plan.particle_columns.push_back(Quantity::domain_edges);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
@@ -68,7 +68,8 @@ void list_passes(const Scene& scene, Plan& plan) {
   p.push_back("momentum update with reactions");
   if (plan.contact) p.push_back("second contact correction");
   if (plan.order > 1)
-    p.push_back("XPIC: " + std::to_string(plan.order - 1) + (plan.paired ? " passes over v* and dv*" : " passes over v*"));
+    p.push_back("XPIC: " + std::to_string(plan.order - 1) +
+                (plan.paired ? " passes over v* and dv*" : " passes over v*"));
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
 }
 

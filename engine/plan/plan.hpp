@@ -17,19 +17,19 @@ struct Plan {
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};
-  int order = 1;                       ///< m of XPIC(m)
-  double strain_first = 1;             ///< share of the strain that is advanced before the forces; the rest comes last
+  int order = 1;            ///< m of XPIC(m)
+  double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
   int deformation_terms = 2;
-  bool contact = false;                ///< more than one velocity field, and a law that acts
-  bool paired = false;                 ///< XPIC carries Δv* beside v*
-  bool geometry = false;               ///< volume gradients and mean positions are projected
+  bool contact = false;   ///< more than one velocity field, and a law that acts
+  bool paired = false;    ///< XPIC carries Δv* beside v*
+  bool geometry = false;  ///< volume gradients and mean positions are projected
   bool gravity = false;
-  std::vector<std::string> fields;     ///< names of the velocity fields
-  std::vector<int> body_field;         ///< as Scene::bodies
+  std::vector<std::string> fields;  ///< names of the velocity fields
+  std::vector<int> body_field;      ///< as Scene::bodies
   std::vector<bool> field_rigid;
   std::vector<Quantity> particle_columns;
   std::vector<Nodal> nodal_columns;
-  std::vector<std::string> passes;     ///< of a step, in order
+  std::vector<std::string> passes;  ///< of a step, in order
 };
 
 Plan make_plan(const Scene& scene);

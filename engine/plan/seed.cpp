@@ -13,10 +13,12 @@ namespace mpmfast {
 namespace {
 
 Material make_material(const MaterialSpec& spec) {
-  if (const auto* m = std::get_if<NeoHookeanSpec>(&spec.model)) return NeoHookean{m->density, m->bulk, m->shear};
+  if (const auto* m = std::get_if<NeoHookeanSpec>(&spec.model))
+    return NeoHookean{m->density, m->bulk, m->shear};
   if (const auto* m = std::get_if<LinearElasticSpec>(&spec.model)) {
     const double shear = m->young / (2 * (1 + m->poisson));
-    return LinearElastic{m->density, m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)), shear};
+    return LinearElastic{m->density, m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)),
+                         shear};
   }
   return NeoHookean{};
 }
@@ -37,8 +39,10 @@ void for_each_deformable(const State<Dim>& state, const F& f) {
     const auto& body = state.bodies[state.particles.body()[p]];
     if (body.rigid) continue;
     double deformation[Dim * Dim];
-    for (int e = 0; e < Dim * Dim; ++e) deformation[e] = state.particles.column(Quantity::deformation_gradient, e)[p];
-    std::visit([&](const auto& law) { f(p, law, deformation); }, state.materials[static_cast<std::size_t>(body.material)]);
+    for (int e = 0; e < Dim * Dim; ++e)
+      deformation[e] = state.particles.column(Quantity::deformation_gradient, e)[p];
+    std::visit([&](const auto& law) { f(p, law, deformation); },
+               state.materials[static_cast<std::size_t>(body.material)]);
   }
 }
 
@@ -68,7 +72,9 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     for (const Vec3& x : seeds.back().position)
       for (std::size_t d = 0; d < Dim; ++d)
         if (!(x[d] > scene.grid.origin[d] && x[d] < scene.grid.origin[d] + scene.grid.size[d]))
-          refuse(scene, b, fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1], x[2]));
+          refuse(scene, b,
+                 fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1],
+                             x[2]));
     BodyView<Dim> view;
     for (std::size_t d = 0; d < Dim; ++d) view.half_size[d] = seeds.back().half_size[d];
     view.material = scene.bodies[b].material;
@@ -82,7 +88,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     double volume = Dim == 2 ? scene.thickness : 1.0;
     for (std::size_t d = 0; d < Dim; ++d) volume *= 2 * seeds[b].half_size[d];
-    const double mass = volume * density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
+    const double mass =
+        volume * density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
     for (const Vec3& x : seeds[b].position) {
       for (int d = 0; d < Dim; ++d) {
         particles.column(Quantity::position, d)[p] = x[static_cast<std::size_t>(d)];
@@ -101,10 +108,11 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
 
 template <int Dim>
 void refresh_stress(State<Dim>& state) {
-  for_each_deformable(state, [&](std::size_t p, const auto& law, const double (&f)[Dim * Dim]) {
+  for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
     double tau[kSymmetric<Dim>], c2;
     law.template stress<Dim>(f, tau, c2);
-    for (int s = 0; s < kSymmetric<Dim>; ++s) state.particles.column(Quantity::kirchhoff_stress, s)[p] = tau[s];
+    for (int s = 0; s < kSymmetric<Dim>; ++s)
+      state.particles.column(Quantity::kirchhoff_stress, s)[p] = tau[s];
     state.particles.column(Quantity::wave_speed)[p] = std::sqrt(c2);
   });
 }
@@ -112,7 +120,7 @@ void refresh_stress(State<Dim>& state) {
 template <int Dim>
 double stored_energy(const State<Dim>& state) {
   std::vector<double> by_id(state.particles.size(), 0.0);
-  for_each_deformable(state, [&](std::size_t p, const auto& law, const double (&f)[Dim * Dim]) {
+  for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
     by_id[state.particles.id()[p]] =
         state.particles.column(Quantity::initial_volume)[p] * law.template energy<Dim>(f);
   });

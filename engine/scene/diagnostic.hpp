@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file What is wrong with a scene, said for people (design: file:line:col: path: what (expected), got VALUE).
+/// @file What is wrong with a scene, said for people (design: file:line:col: path: what (expected), got
+/// VALUE).
 
 #include <stdexcept>
 #include <string>
@@ -13,7 +14,7 @@ struct Diagnostic {
   int line = 0, column = 0;  ///< 1-based; 0 when the file as a whole is meant
   std::string path;          ///< dotted path of the key, e.g. materials.steel.young
   std::string message;
-  std::string hint;          ///< e.g. "Did you mean 'GPa'?"; may be empty
+  std::string hint;  ///< e.g. "Did you mean 'GPa'?"; may be empty
 
   std::string text() const;
 };

@@ -30,9 +30,9 @@ struct Seeds {
   Vec3 half_size{};            ///< m
 };
 
-/// Fills a body with particles_per_cell particles per cell side. A box gets a lattice of its own that ends on its
-/// faces (spacing = edge / round(edge / h)), so that its volume is exact; every other shape keeps the points of the
-/// grid's lattice (cell / particles_per_cell, from the grid's origin) that lie inside it.
+/// Fills a body with particles_per_cell particles per cell side. A box gets a lattice of its own that ends on
+/// its faces (spacing = edge / round(edge / h)), so that its volume is exact; every other shape keeps the
+/// points of the grid's lattice (cell / particles_per_cell, from the grid's origin) that lie inside it.
 Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension);
 
 }  // namespace mpmfast

@@ -41,19 +41,19 @@ struct GridSpec {
 };
 
 struct TimeSpec {
-  double end = 0;                                          ///< s
-  double cfl = 0.5;                                        ///< Δt = cfl Δx / max_p(c_p + |v_p|)
+  double end = 0;                                             ///< s
+  double cfl = 0.5;                                           ///< Δt = cfl Δx / max_p(c_p + |v_p|)
   double max_step = std::numeric_limits<double>::infinity();  ///< s
 };
 
 struct MethodSpec {
   BasisKind basis = BasisKind::ugimp;
   UpdateKind update = UpdateKind::flip;
-  int xpic_order = 1;             ///< m of XPIC(m), 2..20 when update is xpic
-  bool contact_correction = true; ///< the Δv* terms of N20 Eq. 42
+  int xpic_order = 1;              ///< m of XPIC(m), 2..20 when update is xpic
+  bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   StrainKind strain = StrainKind::average;
   PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid
-  int deformation_terms = 2;      ///< terms of exp(Δt ∇v) kept after the identity: 1 or 2
+  int deformation_terms = 2;                   ///< terms of exp(Δt ∇v) kept after the identity: 1 or 2
 };
 
 /// N20 Eq. 18.
@@ -96,8 +96,8 @@ struct PolygonShape {
 /// The pixels of one grey level of an image stretched over a rectangle (2-D).
 struct BitmapShape {
   std::filesystem::path file;
-  Vec3 lower{}, upper{};     ///< m
-  int grey = 0;              ///< the level that belongs to this body
+  Vec3 lower{}, upper{};  ///< m
+  int grey = 0;           ///< the level that belongs to this body
   std::shared_ptr<const struct GreyImage> image;
 };
 
@@ -106,26 +106,26 @@ using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, Bi
 struct BodySpec {
   std::string name;
   Shape shape;
-  int material = 0;                      ///< index into Scene::materials
-  std::string field;                     ///< bodies with the same name here share a velocity field; default: own name
+  int material = 0;   ///< index into Scene::materials
+  std::string field;  ///< bodies with the same name here share a velocity field; default: own name
   std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
-  Vec3 velocity{0, 0, 0};                ///< m/s, initial; of a rigid body: constant unless tables are given
+  Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
 };
 
 /// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
 struct WallSpec {
-  int axis = 0;             ///< 0..2
-  bool upper = false;       ///< nodes at and beyond `position` in +axis (true) or −axis direction
-  double position = 0;      ///< m, at time 0
-  TimeTable speed;          ///< m/s along +axis; the plane moves with it
-  bool held = false;        ///< also fixes the tangential velocity
+  int axis = 0;         ///< 0..2
+  bool upper = false;   ///< nodes at and beyond `position` in +axis (true) or −axis direction
+  double position = 0;  ///< m, at time 0
+  TimeTable speed;      ///< m/s along +axis; the plane moves with it
+  bool held = false;    ///< also fixes the tangential velocity
 };
 /// Prescribed velocity along one direction at every node inside a box.
 struct VelocityBoxSpec {
-  Vec3 lower{}, upper{};    ///< m
-  Vec3 direction{};         ///< unit vector
-  TimeTable speed;          ///< m/s along `direction`
+  Vec3 lower{}, upper{};  ///< m
+  Vec3 direction{};       ///< unit vector
+  TimeTable speed;        ///< m/s along `direction`
 };
 
 struct BoundarySpec {
@@ -143,20 +143,21 @@ struct ContactSpec {
   NormalKind normal = NormalKind::logistic_regression;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;
-  double position_offset = 0.8;    ///< c of `position_offset`, in cells
+  double position_offset = 0.8;  ///< c of `position_offset`, in cells
   LawKind law = LawKind::coulomb;
-  double friction = 0;             ///< Coulomb coefficient
-  double penalty = 1e-7;           ///< λ of the regression in cell units
-  bool advance_separation = false; ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
-  double hysteresis = 0;           ///< cells; a node in contact stays so up to this gap
-  /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little mass, left
-  /// alone between pressed bodies, is thrown by its force and strains its particles: screen round-off only.
+  double friction = 0;              ///< Coulomb coefficient
+  double penalty = 1e-7;            ///< λ of the regression in cell units
+  bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
+  double hysteresis = 0;            ///< cells; a node in contact stays so up to this gap
+  /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
+  /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen
+  /// round-off only.
   double mass_screen = 1e-12;
 };
 
 struct OutputSpec {
-  int frames = 20;          ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
-  int history = 200;        ///< rows of history.csv beside the initial one
+  int frames = 20;    ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
+  int history = 200;  ///< rows of history.csv beside the initial one
   std::string picture = "pressure";  ///< field of the second picture: pressure, von_mises, stress_xx, …
 };
 
@@ -164,7 +165,7 @@ struct Scene {
   std::string title;
   std::filesystem::path file;  ///< where it was read from
   Space space = Space::plane_strain;
-  double thickness = 1;        ///< m, 2-D only
+  double thickness = 1;  ///< m, 2-D only
   GridSpec grid;
   TimeSpec time;
   MethodSpec method;
@@ -174,7 +175,7 @@ struct Scene {
   GravitySpec gravity;
   ContactSpec contact;
   OutputSpec output;
-  std::string resolved_yaml;   ///< the scene with every default written out; reading it gives this scene again
+  std::string resolved_yaml;  ///< the scene with every default written out; reading it gives this scene again
   int dimension() const { return space == Space::three_dimensional ? 3 : 2; }
 };
 

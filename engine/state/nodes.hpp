@@ -16,13 +16,13 @@ namespace mpmfast {
 enum class Nodal {
   mass,
   momentum,
-  force,             ///< after the second contact correction: a Δt
-  velocity,          ///< for the strain: with conditions; after the update: v⁺
-  star,              ///< v*_k of the XPIC recursion, then Δv*_k (k = 1: Δv of the first contact correction)
-  next,              ///< what an XPIC pass accumulates
-  series,            ///< m (v − v*) of XPIC
-  volume_gradient,   ///< Σ G_pi V_p
-  mass_position,     ///< Σ S_pi M_p X_p
+  force,            ///< after the second contact correction: a Δt
+  velocity,         ///< for the strain: with conditions; after the update: v⁺
+  star,             ///< v*_k of the XPIC recursion, then Δv*_k (k = 1: Δv of the first contact correction)
+  next,             ///< what an XPIC pass accumulates
+  series,           ///< m (v − v*) of XPIC
+  volume_gradient,  ///< Σ G_pi V_p
+  mass_position,    ///< Σ S_pi M_p X_p
 };
 inline constexpr int kNodalQuantities = 9;
 
@@ -75,7 +75,9 @@ class Nodes {
   bool has(Nodal q) const { return !columns_[index(q)].empty(); }
   const std::vector<Nodal>& quantities() const { return quantities_; }
   double* column(Nodal q, int k = 0) { return columns_[index(q)][static_cast<std::size_t>(k)].data(); }
-  const double* column(Nodal q, int k = 0) const { return columns_[index(q)][static_cast<std::size_t>(k)].data(); }
+  const double* column(Nodal q, int k = 0) const {
+    return columns_[index(q)][static_cast<std::size_t>(k)].data();
+  }
 
   Vec<Dim> vector(Nodal q, int slot) const {
     Vec<Dim> v;

@@ -13,7 +13,16 @@
 namespace mpmfast {
 
 /// Every particle quantity there is. A plan lists the ones that a scene needs; the others are not allocated.
-enum class Quantity { position, velocity, deformation_gradient, kirchhoff_stress, mass, initial_volume, wave_speed, domain_edges };
+enum class Quantity {
+  position,
+  velocity,
+  deformation_gradient,
+  kirchhoff_stress,
+  mass,
+  initial_volume,
+  wave_speed,
+  domain_edges
+};
 inline constexpr int kQuantities = 8;
 
 struct QuantityInfo {
@@ -27,8 +36,10 @@ struct QuantityInfo {
 inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::position, "position", "m", 2, 3, "every scene"},
     {Quantity::velocity, "velocity", "m/s", 2, 3, "every scene"},
-    {Quantity::deformation_gradient, "deformation_gradient", "-", 4, 9, "strain (row-major F; plane strain: F_zz = 1)"},
-    {Quantity::kirchhoff_stress, "kirchhoff_stress", "Pa", 4, 6, "internal force, output (xx yy zz xy yz xz)"},
+    {Quantity::deformation_gradient, "deformation_gradient", "-", 4, 9,
+     "strain (row-major F; plane strain: F_zz = 1)"},
+    {Quantity::kirchhoff_stress, "kirchhoff_stress", "Pa", 4, 6,
+     "internal force, output (xx yy zz xy yz xz)"},
     {Quantity::mass, "mass", "kg", 1, 1, "every scene"},
     {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force"},
     {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
@@ -62,11 +73,15 @@ class Particles {
   const std::vector<Quantity>& quantities() const { return quantities_; }
 
   /// The column of component k of q; valid until the next sort.
-  double* column(Quantity q, int k = 0) { return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)].data(); }
+  double* column(Quantity q, int k = 0) {
+    return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)].data();
+  }
   const double* column(Quantity q, int k = 0) const {
     return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)].data();
   }
-  Column<double>& raw(Quantity q, int k) { return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)]; }
+  Column<double>& raw(Quantity q, int k) {
+    return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)];
+  }
 
   /// Stable number of a particle, from its seeding.
   Column<std::uint32_t>& id() { return id_; }

@@ -13,7 +13,8 @@
 
 namespace mpmfast {
 
-/// A constitutive law with its parameters. A new law is one more entry here and one in engine/plan/materials.cpp.
+/// A constitutive law with its parameters. A new law is one more entry here and one in
+/// engine/plan/materials.cpp.
 using Material = std::variant<NeoHookean, LinearElastic>;
 
 template <int Dim>
@@ -23,11 +24,11 @@ struct State {
   Nodes<Dim> nodes;
   GridView<Dim> grid;
   std::vector<BodyView<Dim>> bodies;
-  std::vector<int> body_field;        ///< velocity field of each body
+  std::vector<int> body_field;  ///< velocity field of each body
   std::vector<bool> field_rigid;
-  std::vector<Material> materials;    ///< as Scene::materials; rigid ones hold a default
-  int threads = 1;                    ///< that the passes use
-  double time = 0;                    ///< s
+  std::vector<Material> materials;  ///< as Scene::materials; rigid ones hold a default
+  int threads = 1;                  ///< that the passes use
+  double time = 0;                  ///< s
   std::uint64_t step = 0;
 
   int fields() const { return static_cast<int>(field_rigid.size()); }

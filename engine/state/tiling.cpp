@@ -12,8 +12,9 @@ constexpr int kMargin = 2;  ///< tiles beyond the domain on each side: supports 
 constexpr int kDigit = 11;  ///< bits a radix pass
 
 /// Stable radix sort of keys with their order. Passes over digits that no key uses are not made.
-void radix_sort(std::vector<std::uint64_t>& key, std::vector<std::uint32_t>& order, std::vector<std::uint64_t>& key_spare,
-                std::vector<std::uint32_t>& order_spare, std::uint64_t largest) {
+void radix_sort(std::vector<std::uint64_t>& key, std::vector<std::uint32_t>& order,
+                std::vector<std::uint64_t>& key_spare, std::vector<std::uint32_t>& order_spare,
+                std::uint64_t largest) {
   const std::size_t n = key.size();
   key_spare.resize(n);
   order_spare.resize(n);
@@ -160,8 +161,9 @@ int Tiling<Dim>::find(std::int64_t place, int field) const {
     return t.place != key.first ? t.place < key.first : t.field < key.second;
   };
   const auto it = std::lower_bound(node_tiles.begin(), node_tiles.end(), std::pair{place, field}, before);
-  return it != node_tiles.end() && it->place == place && it->field == field ? static_cast<int>(it - node_tiles.begin())
-                                                                            : -1;
+  return it != node_tiles.end() && it->place == place && it->field == field
+             ? static_cast<int>(it - node_tiles.begin())
+             : -1;
 }
 
 template <int Dim>
@@ -198,12 +200,15 @@ void Tiling<Dim>::stack_up() {
     Stack<Dim> stack{};
     stack.begin = t;
     const std::int64_t at = node_tiles[static_cast<std::size_t>(t)].place;
-    while (t < static_cast<int>(node_tiles.size()) && node_tiles[static_cast<std::size_t>(t)].place == at) ++t;
+    while (t < static_cast<int>(node_tiles.size()) && node_tiles[static_cast<std::size_t>(t)].place == at)
+      ++t;
     stack.end = t;
     stack.first_node = coordinates(at) * kTileSide;
     stacks.push_back(stack);
   }
-  const auto place_of = [&](const Stack<Dim>& s) { return node_tiles[static_cast<std::size_t>(s.begin)].place; };
+  const auto place_of = [&](const Stack<Dim>& s) {
+    return node_tiles[static_cast<std::size_t>(s.begin)].place;
+  };
   for (auto& stack : stacks)
     for (int k = 0; k < power(3, Dim); ++k) {
       NodeIndex<Dim> at = coordinates(place_of(stack));
@@ -219,7 +224,8 @@ void Tiling<Dim>::stack_up() {
       const std::int64_t wanted = place(at);
       const auto it = std::lower_bound(stacks.begin(), stacks.end(), wanted,
                                        [&](const Stack<Dim>& s, std::int64_t p) { return place_of(s) < p; });
-      if (it != stacks.end() && place_of(*it) == wanted) stack.neighbour[k] = static_cast<int>(it - stacks.begin());
+      if (it != stacks.end() && place_of(*it) == wanted)
+        stack.neighbour[k] = static_cast<int>(it - stacks.begin());
     }
 }
 

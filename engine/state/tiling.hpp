@@ -1,12 +1,13 @@
 #pragma once
 
-/// @file Who sits where: particles sorted by velocity field, tile, body and cell; the slots of the nodes they touch.
+/// @file Who sits where: particles sorted by velocity field, tile, body and cell; the slots of the nodes they
+/// touch.
 ///
-/// A particle whose support begins at node b belongs to the particle tile t = floor((b − 1)/4) of its field, so that it
-/// starts at offset b − 4t = 1 … 4 of the tile's window of 8 nodes a side, and may drift by a cell before the next sort.
-/// The window covers 2^Dim node tiles. A node tile exists for a field only where a particle tile of it needs one: memory
-/// follows the particles, not nodes × fields. Slots are numbered by (place, field), so the fields of a place are
-/// neighbours: a stack.
+/// A particle whose support begins at node b belongs to the particle tile t = floor((b − 1)/4) of its field,
+/// so that it starts at offset b − 4t = 1 … 4 of the tile's window of 8 nodes a side, and may drift by a cell
+/// before the next sort. The window covers 2^Dim node tiles. A node tile exists for a field only where a
+/// particle tile of it needs one: memory follows the particles, not nodes × fields. Slots are numbered by
+/// (place, field), so the fields of a place are neighbours: a stack.
 
 #include <array>
 #include <cstdint>
@@ -20,17 +21,17 @@ namespace mpmfast {
 /// A tile of nodes of one field.
 template <int Dim>
 struct NodeTile {
-  std::int64_t place;                 ///< Tiling::place of its coordinates
+  std::int64_t place;  ///< Tiling::place of its coordinates
   int field;
-  int particle_tile[kCorners<Dim>];   ///< corner c: the particle tile that lies c below; −1: none
+  int particle_tile[kCorners<Dim>];  ///< corner c: the particle tile that lies c below; −1: none
 };
 
 /// The node tiles of all fields at one place.
 template <int Dim>
 struct Stack {
-  int begin, end;                     ///< into node_tiles
-  NodeIndex<Dim> first_node;          ///< coordinates of its lowest node
-  int neighbour[power(3, Dim)];       ///< stacks around it (x fastest, itself in the middle); −1: none
+  int begin, end;                ///< into node_tiles
+  NodeIndex<Dim> first_node;     ///< coordinates of its lowest node
+  int neighbour[power(3, Dim)];  ///< stacks around it (x fastest, itself in the middle); −1: none
 };
 
 template <int Dim>
@@ -76,7 +77,7 @@ class Tiling {
   void number_slots();
   void stack_up();
 
-  std::array<int, 3> span_{1, 1, 1};      ///< tiles along each axis, with a margin
+  std::array<int, 3> span_{1, 1, 1};  ///< tiles along each axis, with a margin
   std::vector<std::uint64_t> key_, key_spare_;
   std::vector<std::uint32_t> order_, order_spare_;
   std::vector<double> spare_;

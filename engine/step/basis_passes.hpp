@@ -50,7 +50,8 @@ class BasisPasses final : public Passes<Dim> {
       const TileContext<Dim> c{&view, &nowhere, &one, state.bodies.data(), &state.grid};
       const NodeIndex<Dim> first =
           Basis::first_node(chunk_geometry(c, one, static_cast<std::uint32_t>(p), 1), 0);
-      for (int d = 0; d < Dim; ++d) first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] = first[d];
+      for (int d = 0; d < Dim; ++d)
+        first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] = first[d];
     }
     state.tiling.build(state.particles, first_node_, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
@@ -62,7 +63,8 @@ class BasisPasses final : public Passes<Dim> {
     for (int d = 0; d < Dim; ++d) out.column[1 + d] = state.nodes.column(Nodal::momentum, d);
     outside_.assign(rooms_.size(), 0);
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      if (!project_tile<Dim, Basis>(c, room.project, out)) outside_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
+      if (!project_tile<Dim, Basis>(c, room.project, out))
+        outside_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
     });
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
   }
@@ -80,7 +82,8 @@ class BasisPasses final : public Passes<Dim> {
     smallest_.assign(rooms_.size(), std::numeric_limits<double>::infinity());
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
-      const double j = strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
+      const double j =
+          strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
       double& smallest = smallest_[static_cast<std::size_t>(omp_get_thread_num())];
       smallest = std::min(smallest, j);
     });
@@ -94,7 +97,8 @@ class BasisPasses final : public Passes<Dim> {
       xpic_columns<Dim>(state);
   }
 
-  TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) override {
+  TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
+                    const Vec<Dim>& upper) override {
     return rule.velocity == ParticleUpdate::xpic ? update_columns<3>(state, rule, lower, upper)
                                                  : update_columns<2>(state, rule, lower, upper);
   }
@@ -111,16 +115,18 @@ class BasisPasses final : public Passes<Dim> {
   };
 
   static auto visitor(const State<Dim>& state) {
-    return [&state](int material, const auto& f) { std::visit(f, state.materials[static_cast<std::size_t>(material)]); };
+    return [&state](int material, const auto& f) {
+      std::visit(f, state.materials[static_cast<std::size_t>(material)]);
+    };
   }
 
   TileContext<Dim> context(const State<Dim>& state, const ParticleView<Dim>& view, int tile) const {
-    return {&view, &state.tiling.tiles[static_cast<std::size_t>(tile)], state.tiling.runs.data(), state.bodies.data(),
-            &state.grid};
+    return {&view, &state.tiling.tiles[static_cast<std::size_t>(tile)], state.tiling.runs.data(),
+            state.bodies.data(), &state.grid};
   }
 
-  /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap, and each
-  /// slot adds up its tiles in the order of the colours, whatever the threads.
+  /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap,
+  /// and each slot adds up its tiles in the order of the colours, whatever the threads.
   template <class F>
   void scatter(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
@@ -141,7 +147,8 @@ class BasisPasses final : public Passes<Dim> {
 
   template <int NC>
   void xpic_columns(State<Dim>& state) {
-    const auto in = state.nodes.template columns<NC>(Nodal::star), out = state.nodes.template columns<NC>(Nodal::next);
+    const auto in = state.nodes.template columns<NC>(Nodal::star),
+               out = state.nodes.template columns<NC>(Nodal::next);
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
       auto& xpic_room = reinterpret_cast<XpicRoom<Dim, Basis, NC>&>(room.xpic);
@@ -150,7 +157,8 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   template <int NV>
-  TileReport update_columns(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  TileReport update_columns(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
+                            const Vec<Dim>& upper) {
     NodeColumns<NV * Dim> in;
     for (int d = 0; d < Dim; ++d) {
       in.column[d] = state.nodes.column(Nodal::velocity, d);
@@ -165,9 +173,11 @@ class BasisPasses final : public Passes<Dim> {
 #pragma omp parallel for num_threads(state.threads) schedule(dynamic, 4)
     for (std::int64_t t = 0; t < n; ++t) {
       const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)]) continue;
-      const TileReport r = update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), rooms_[thread]->update,
-                                                       in, rule, low, high, visitor(state));
+      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
+        continue;
+      const TileReport r =
+          update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), rooms_[thread]->update, in,
+                                      rule, low, high, visitor(state));
       merge(r, reports_[thread].report);
     }
     TileReport all;

@@ -8,10 +8,21 @@
 
 namespace mpmfast {
 
-enum class Pass { sort, project, contact_nodes, contact_geometry, contact_resolve, strain_force, nodes, conditions, xpic, update };
+enum class Pass {
+  sort,
+  project,
+  contact_nodes,
+  contact_geometry,
+  contact_resolve,
+  strain_force,
+  nodes,
+  conditions,
+  xpic,
+  update
+};
 inline constexpr std::array<std::string_view, 10> kPassNames{
-    "sort", "project", "contact_nodes", "contact_geometry", "contact_resolve",
-    "strain_force", "nodes", "conditions", "xpic", "update"};
+    "sort",       "project", "contact_nodes", "contact_geometry", "contact_resolve", "strain_force", "nodes",
+    "conditions", "xpic",    "update"};
 
 class PassClock {
  public:
@@ -21,7 +32,9 @@ class PassClock {
     struct Booking {
       double& seconds;
       std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-      ~Booking() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+      ~Booking() {
+        seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      }
     } booking{seconds_[static_cast<std::size_t>(pass)]};
     return f();
   }

@@ -55,7 +55,8 @@ void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
     if (!wall) continue;
     const double plane = wall->position + integral_to(table, t);
     const double cells = (plane - grid.origin[static_cast<std::size_t>(wall->axis)]) / grid.cell;
-    const int row = static_cast<int>(wall->upper ? std::ceil(cells - kRowTolerance) : std::floor(cells + kRowTolerance));
+    const int row =
+        static_cast<int>(wall->upper ? std::ceil(cells - kRowTolerance) : std::floor(cells + kRowTolerance));
     stale_ |= row != row_[b];
     row_[b] = row;
   }
@@ -72,7 +73,8 @@ bool Conditions<Dim>::covers(std::size_t b, const NodeIndex<Dim>& node) const {
   const auto& box = std::get<VelocityBoxSpec>(condition);
   const auto& grid = scene_->grid;
   for (std::size_t d = 0; d < Dim; ++d) {
-    const double x = grid.origin[d] + node[static_cast<int>(d)] * grid.cell, slack = kRowTolerance * grid.cell;
+    const double x = grid.origin[d] + node[static_cast<int>(d)] * grid.cell,
+                 slack = kRowTolerance * grid.cell;
     if (x < box.lower[d] - slack || x > box.upper[d] + slack) return false;
   }
   return true;
@@ -89,7 +91,8 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
       const NodeIndex<Dim> node = state.tiling.node(stack, local);
       members.clear();
       for (std::size_t c = 0; c < components_.size(); ++c)
-        if (covers(static_cast<std::size_t>(components_[c].boundary), node)) members.push_back(static_cast<int>(c));
+        if (covers(static_cast<std::size_t>(components_[c].boundary), node))
+          members.push_back(static_cast<int>(c));
       if (members.empty()) continue;
       std::size_t k = 0;
       while (k < combinations_.size() && combinations_[k].members != members) ++k;
@@ -98,7 +101,8 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
         combinations_.back().members = members;
       }
       for (int t = stack.begin; t < stack.end; ++t)
-        if (!state.field_rigid[static_cast<std::size_t>(state.tiling.node_tiles[static_cast<std::size_t>(t)].field)])
+        if (!state.field_rigid[static_cast<std::size_t>(
+                state.tiling.node_tiles[static_cast<std::size_t>(t)].field)])
           nodes_.push_back({t * kTileNodes<Dim> + local, static_cast<int>(k)});
     }
 }
@@ -143,7 +147,8 @@ void Conditions<Dim>::impose_velocity(State<Dim>& state) const {
   }
 }
 
-/// Calls change(mass, slot, direction, speed) for every constrained component; it returns the reaction along it, N.
+/// Calls change(mass, slot, direction, speed) for every constrained component; it returns the reaction along
+/// it, N.
 template <int Dim>
 template <class Change>
 void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file Velocity conditions on nodes: walls, pistons, symmetry planes, prescribed velocities (NN §2.3.2, §2.5).
+/// @file Velocity conditions on nodes: walls, pistons, symmetry planes, prescribed velocities (NN §2.3.2,
+/// §2.5).
 
 #include <vector>
 
@@ -9,12 +10,14 @@
 
 namespace mpmfast {
 
-/// Each condition prescribes v·n = u on its nodes: a wall on the nodes at and beyond its plane, a box on those inside.
-/// Where several act on a node, they are turned to orthonormal directions one after the other: a parallel one adds its
-/// velocity, an oblique one keeps what is new of it, so that every prescribed component is met to round-off.
+/// Each condition prescribes v·n = u on its nodes: a wall on the nodes at and beyond its plane, a box on
+/// those inside. Where several act on a node, they are turned to orthonormal directions one after the other:
+/// a parallel one adds its velocity, an oblique one keeps what is new of it, so that every prescribed
+/// component is met to round-off.
 ///
-/// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would otherwise be
-/// thrown by the full force of the particles at the wall; held at the wall's velocity, they cannot.
+/// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would
+/// otherwise be thrown by the full force of the particles at the wall; held at the wall's velocity, they
+/// cannot.
 template <int Dim>
 class Conditions {
  public:
@@ -43,17 +46,17 @@ class Conditions {
  private:
   /// Conditions that meet on a node, by orthonormal direction.
   struct Combination {
-    std::vector<int> members;      ///< indices into directions_
-    int count = 0;                 ///< orthonormal directions
+    std::vector<int> members;  ///< indices into directions_
+    int count = 0;             ///< orthonormal directions
     Vec<Dim> direction[Dim];
     double speed[Dim];
-    int boundary[Dim];             ///< which boundary a direction's reaction is booked on
+    int boundary[Dim];  ///< which boundary a direction's reaction is booked on
   };
   /// One prescribed component: v·n = u on the nodes of a boundary.
   struct Component {
     int boundary;
     Vec<Dim> direction;
-    bool moving;                   ///< u is the boundary's speed; else zero
+    bool moving;  ///< u is the boundary's speed; else zero
   };
   struct Constrained {
     int slot, combination;
@@ -69,8 +72,8 @@ class Conditions {
   std::vector<Component> components_;
   std::vector<Combination> combinations_;
   std::vector<Constrained> nodes_;
-  std::vector<double> speed_;      ///< by boundary, this step
-  std::vector<int> row_;           ///< by wall: first (upper) or last (lower) row of nodes beyond it
+  std::vector<double> speed_;  ///< by boundary, this step
+  std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes beyond it
   std::vector<Vec<Dim>> force_;
   double work_ = 0, fastest_ = 0;
   bool stale_ = true;

@@ -67,21 +67,23 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
   }
 }
 
-/// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the rest.
+/// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
+/// rest.
 template <int Dim>
 void Contact<Dim>::add_entries(ContactNode<Dim>& node, const double* mass) {
   const int fields = node.field_end - node.field_begin;
   // Tied fields must move as one to the last node (the perfect interface is exact).
   const double screen = spec_.law == LawKind::perfect ? 0 : spec_.mass_screen;
-  const auto mass_of = [&](int k) { return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot]; };
+  const auto mass_of = [&](int k) {
+    return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+  };
   double total = 0;
   for (int k = 0; k < fields; ++k) total += mass_of(k);
   ContactEntry<Dim> entry;
   entry.normal = entry.impulse = Vec<Dim>::Zero();
   for (int k = 0; k < fields; ++k) {
     if (k == node.rigid) continue;
-    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total))
-      continue;
+    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) continue;
     entry.a = k;
     entry.b = fields == 2 ? 1 - k : -1;
     list_.entries.push_back(entry);
@@ -93,9 +95,11 @@ template <int Dim>
 std::uint64_t Contact<Dim>::entry_key(const State<Dim>& state, const ContactNode<Dim>& node,
                                       const ContactEntry<Dim>& entry) const {
   const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
-  const auto place = static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
+  const auto place =
+      static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
   const int field = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
-  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) * static_cast<std::uint64_t>(state.fields()) +
+  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) *
+             static_cast<std::uint64_t>(state.fields()) +
          static_cast<std::uint64_t>(field);
 }
 
@@ -120,7 +124,8 @@ void Contact<Dim>::recall_touching(const State<Dim>& state) {
 template <int Dim>
 void Contact<Dim>::find_geometry(State<Dim>& state, Passes<Dim>& passes) {
   if (list_.nodes.empty() || spec_.law == LawKind::perfect || spec_.law == LawKind::ignore) return;
-  if (spec_.normal == NormalKind::specified || spec_.normal == NormalKind::average_gradient) grid_normals(state);
+  if (spec_.normal == NormalKind::specified || spec_.normal == NormalKind::average_gradient)
+    grid_normals(state);
   if (spec_.separation == SeparationKind::none)
     for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
   passes.fit_contact(state, spec_, list_);
@@ -132,11 +137,13 @@ void Contact<Dim>::grid_normals(const State<Dim>& state) {
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      const int own = node.field_begin + entry.a, other = own == node.field_begin ? own + 1 : node.field_begin;
+      const int own = node.field_begin + entry.a,
+                other = own == node.field_begin ? own + 1 : node.field_begin;
       const auto field = [&](int f) { return list_.fields[static_cast<std::size_t>(f)].field; };
       if (spec_.normal == NormalKind::specified) {
         for (int d = 0; d < Dim; ++d)
-          entry.normal[d] = (field(own) < field(other) ? 1.0 : -1.0) * spec_.specified_normal[static_cast<std::size_t>(d)];
+          entry.normal[d] =
+              (field(own) < field(other) ? 1.0 : -1.0) * spec_.specified_normal[static_cast<std::size_t>(d)];
         continue;
       }
       // A volume gradient points out of its own material: from a to the rest is g_a − g_b (N20 Eq. 13).
@@ -163,7 +170,8 @@ void Contact<Dim>::grid_separations(const State<Dim>& state) {
         side.momentum += state.nodes.vector(Nodal::mass_position, slot);
       }
       const auto ahead = [&](const Side<Dim>& side) {  // e = (x − x_i)·n in cells
-        return (side.momentum / (side.mass * state.grid.cell) - node.node.template cast<double>()).dot(entry.normal);
+        return (side.momentum / (side.mass * state.grid.cell) - node.node.template cast<double>())
+            .dot(entry.normal);
       };
       entry.separation =
           state.grid.cell * (spec_.separation == SeparationKind::position_offset
@@ -175,11 +183,16 @@ void Contact<Dim>::grid_separations(const State<Dim>& state) {
 template <int Dim>
 void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
   switch (spec_.law) {
-    case LawKind::coulomb: return resolve_law(state, Coulomb{spec_.friction}, correction, dt);
-    case LawKind::frictionless: return resolve_law(state, Frictionless{}, correction, dt);
-    case LawKind::stick: return resolve_law(state, Stick{}, correction, dt);
-    case LawKind::perfect: return resolve_law(state, Perfect{}, correction, dt);
-    case LawKind::ignore: return resolve_law(state, Ignore{}, correction, dt);
+    case LawKind::coulomb:
+      return resolve_law(state, Coulomb{spec_.friction}, correction, dt);
+    case LawKind::frictionless:
+      return resolve_law(state, Frictionless{}, correction, dt);
+    case LawKind::stick:
+      return resolve_law(state, Stick{}, correction, dt);
+    case LawKind::perfect:
+      return resolve_law(state, Perfect{}, correction, dt);
+    case LawKind::ignore:
+      return resolve_law(state, Ignore{}, correction, dt);
   }
 }
 
@@ -188,7 +201,8 @@ template <class Law>
 void Contact<Dim>::resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
+  for (std::int64_t k = 0; k < n; ++k)
+    resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
   friction_work_ = 0;
   rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());
   if (correction == Correction::initial) return;
@@ -210,7 +224,9 @@ void Contact<Dim>::resolve_node(State<Dim>& state, const Law& law, Correction co
                                 const ContactNode<Dim>& node) {
   auto& nodes = state.nodes;
   const double* mass = nodes.column(Nodal::mass);
-  const auto slot_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot; };
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
   Side<Dim> all;
   for (int k = 0; k < node.field_end - node.field_begin; ++k) {
     all.mass += mass[slot_of(k)];
@@ -234,7 +250,8 @@ void Contact<Dim>::resolve_node(State<Dim>& state, const Law& law, Correction co
     entry.impulse = resolve_pair<Dim>(stick, entry.normal, separation, law);
     entry.touching = !entry.impulse.isZero(0);
     const Vec<Dim> tangential = entry.impulse - entry.impulse.dot(entry.normal) * entry.normal;
-    entry.friction_work = Law::scope == LawScope::contact ? tangential.dot(stick - entry.impulse) / reduced : 0.0;
+    entry.friction_work =
+        Law::scope == LawScope::contact ? tangential.dot(stick - entry.impulse) / reduced : 0.0;
   }
   const auto apply = [&](int slot, const Vec<Dim>& impulse) {
     nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);

@@ -31,8 +31,10 @@ class Contact {
   void resolve(State<Dim>& state, Correction correction, double dt);
 
   const ContactList<Dim>& list() const { return list_; }
-  double friction_work() const { return friction_work_; }                     ///< J, of the last step
-  const std::vector<Vec<Dim>>& rigid_impulse() const { return rigid_impulse_; }  ///< N s, by field, of the last step
+  double friction_work() const { return friction_work_; }  ///< J, of the last step
+  const std::vector<Vec<Dim>>& rigid_impulse() const {
+    return rigid_impulse_;
+  }  ///< N s, by field, of the last step
 
  private:
   void list_stack(const State<Dim>& state, int stack);
@@ -44,14 +46,17 @@ class Contact {
   template <class Law>
   void resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt);
   template <class Law>
-  void resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt, const ContactNode<Dim>& node);
-  std::uint64_t entry_key(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  void resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt,
+                    const ContactNode<Dim>& node);
+  std::uint64_t entry_key(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const;
 
   ContactSpec spec_;
   bool keep_velocity_change_;
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;      ///< of the entries, kept for the hysteresis
-  std::vector<std::uint64_t> touching_;  ///< keys of the entries in contact at the end of the last step, ascending
+  std::vector<std::uint64_t> keys_;  ///< of the entries, kept for the hysteresis
+  std::vector<std::uint64_t>
+      touching_;  ///< keys of the entries in contact at the end of the last step, ascending
   double friction_work_ = 0;
   std::vector<Vec<Dim>> rigid_impulse_;
 };

@@ -17,23 +17,23 @@ struct ContactField {
 /// One field against the rest of a node.
 template <int Dim>
 struct ContactEntry {
-  int a;                    ///< which of the node's fields
-  int b;                    ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
-  Vec<Dim> normal;          ///< unit, from a to the rest; zero: unknown, no contact
-  double separation = 0;    ///< m, negative: overlap
-  bool touched = false;     ///< in contact at the end of the last step (for the hysteresis)
-  bool touching = false;    ///< in contact at the last correction
-  double friction_work = 0; ///< J, of the last correction
-  Vec<Dim> impulse;         ///< Δp_a of the last correction
+  int a;                     ///< which of the node's fields
+  int b;                     ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
+  Vec<Dim> normal;           ///< unit, from a to the rest; zero: unknown, no contact
+  double separation = 0;     ///< m, negative: overlap
+  bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
+  bool touching = false;     ///< in contact at the last correction
+  double friction_work = 0;  ///< J, of the last correction
+  Vec<Dim> impulse;          ///< Δp_a of the last correction
 };
 
 template <int Dim>
 struct ContactNode {
   int stack, local;
-  NodeIndex<Dim> node;             ///< coordinates
-  int field_begin, field_end;      ///< into ContactList::fields
-  int entry_begin, entry_end;      ///< into ContactList::entries
-  int rigid;                       ///< which of its fields is the rigid one; −1: none
+  NodeIndex<Dim> node;         ///< coordinates
+  int field_begin, field_end;  ///< into ContactList::fields
+  int entry_begin, entry_end;  ///< into ContactList::entries
+  int rigid;                   ///< which of its fields is the rigid one; −1: none
 };
 
 struct ContactCounters {
@@ -45,7 +45,7 @@ struct ContactList {
   std::vector<ContactNode<Dim>> nodes;
   std::vector<ContactField> fields;
   std::vector<ContactEntry<Dim>> entries;
-  std::vector<int> node_at;        ///< [stack · kTileNodes + local] → contact node or −1
+  std::vector<int> node_at;  ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };
 

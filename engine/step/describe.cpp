@@ -11,14 +11,18 @@ namespace mpmfast {
 
 namespace {
 
-std::string in_mebibytes(std::size_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0); }
+std::string in_mebibytes(std::size_t bytes) {
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0);
+}
 
 template <int Dim>
 std::string describe(const Scene& scene) {
   Step<Dim> step(scene);
   const double dt = step.stable_dt(), steps = std::ceil(scene.time.end / dt);
   std::string text = fmt::format("{}\n", scene.title.empty() ? scene.file.filename().string() : scene.title);
-  const auto line = [&](const char* name, const std::string& value) { text += fmt::format("  {:<16}{}\n", name, value); };
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<16}{}\n", name, value);
+  };
 
   // A few steps of the scene itself measure what a step costs on this machine.
   constexpr int kTrial = 5;
@@ -29,8 +33,10 @@ std::string describe(const Scene& scene) {
       const double stable = step.stable_dt();
       step.advance(stable);
     }
-    const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTrial;
-    estimate = fmt::format("{:.3g} s of stepping at {:.3g} ms a step (measured over {} steps)", wall * steps, wall * 1e3, kTrial);
+    const double wall =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTrial;
+    estimate = fmt::format("{:.3g} s of stepping at {:.3g} ms a step (measured over {} steps)", wall * steps,
+                           wall * 1e3, kTrial);
   } catch (const RunFailure& failure) {
     estimate = fmt::format("unknown: {}", failure.what());
   }
@@ -39,10 +45,12 @@ std::string describe(const Scene& scene) {
   std::string columns, nodal, fields, passes;
   for (Quantity q : particles.quantities()) {
     const auto& info = kQuantityTable[static_cast<std::size_t>(q)];
-    columns += fmt::format("\n    {:<22}{} x {} ({})", info.name, Particles<Dim>::components(q), info.unit, info.reason);
+    columns += fmt::format("\n    {:<22}{} x {} ({})", info.name, Particles<Dim>::components(q), info.unit,
+                           info.reason);
   }
   for (Nodal q : step.state().nodes.quantities())
-    nodal += fmt::format("\n    {:<22}({})", kNodalTable[static_cast<std::size_t>(q)].name, kNodalTable[static_cast<std::size_t>(q)].reason);
+    nodal += fmt::format("\n    {:<22}({})", kNodalTable[static_cast<std::size_t>(q)].name,
+                         kNodalTable[static_cast<std::size_t>(q)].reason);
   for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
@@ -51,9 +59,10 @@ std::string describe(const Scene& scene) {
   line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
-  line("memory", fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting", in_mebibytes(planned),
-                             particles.size() > 0 ? planned / particles.size() : 0,
-                             in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes())));
+  line("memory",
+       fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting",
+                   in_mebibytes(planned), particles.size() > 0 ? planned / particles.size() : 0,
+                   in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes())));
   line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));
   line("steps", fmt::format("{:.0f} at that step", steps));
   line("estimated time", estimate);
@@ -65,6 +74,8 @@ std::string describe(const Scene& scene) {
 
 }  // namespace
 
-std::string describe_plan(const Scene& scene) { return scene.dimension() == 3 ? describe<3>(scene) : describe<2>(scene); }
+std::string describe_plan(const Scene& scene) {
+  return scene.dimension() == 3 ? describe<3>(scene) : describe<2>(scene);
+}
 
 }  // namespace mpmfast

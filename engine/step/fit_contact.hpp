@@ -70,8 +70,8 @@ class ContactFit {
       const auto& node_tile = state.tiling.node_tiles[static_cast<std::size_t>(slot / kTileNodes<Dim>)];
       for (int t : node_tile.particle_tile) {
         if (t < 0) continue;
-        const TileContext<Dim> c{&view, &state.tiling.tiles[static_cast<std::size_t>(t)], state.tiling.runs.data(),
-                                 state.bodies.data(), &state.grid};
+        const TileContext<Dim> c{&view, &state.tiling.tiles[static_cast<std::size_t>(t)],
+                                 state.tiling.runs.data(), state.bodies.data(), &state.grid};
         collect_tile<Dim, Basis>(c, node.node, f - node.field_begin, room);
       }
     }
@@ -129,9 +129,10 @@ class ContactFit {
     return cell * cloud_separation<Dim>(room.view(), room.radius.data(), normal);
   }
 
-  /// The mean of the regression normals of the same contact on the 3^Dim nodes around, weighted by the smaller of the
-  /// two masses: single normals are poor where a cloud holds few particles of one field.
-  void smooth_normals(const State<Dim>& state, ParticleView<Dim>& view, ContactList<Dim>& contact, bool ellipsoids) {
+  /// The mean of the regression normals of the same contact on the 3^Dim nodes around, weighted by the
+  /// smaller of the two masses: single normals are poor where a cloud holds few particles of one field.
+  void smooth_normals(const State<Dim>& state, ParticleView<Dim>& view, ContactList<Dim>& contact,
+                      bool ellipsoids) {
     const auto n = static_cast<std::int64_t>(contact.nodes.size());
 #pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
     for (std::int64_t k = 0; k < n; ++k) {
@@ -143,7 +144,8 @@ class ContactFit {
         Vec<Dim> sum = Vec<Dim>::Zero();
         for (int m = 0; m < power(3, Dim); ++m) {
           const int other = neighbour(state.tiling, contact, node, m);
-          if (other >= 0) add_normals(state, contact, node, entry, contact.nodes[static_cast<std::size_t>(other)], sum);
+          if (other >= 0)
+            add_normals(state, contact, node, entry, contact.nodes[static_cast<std::size_t>(other)], sum);
         }
         const double length = sum.norm();
         if (length > 0) entry.normal = sum / length;
@@ -155,7 +157,8 @@ class ContactFit {
   }
 
   /// The contact node at one of the 3^Dim places around a node (itself in the middle), or −1.
-  static int neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact, const ContactNode<Dim>& node, int m) {
+  static int neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact,
+                       const ContactNode<Dim>& node, int m) {
     int stack_digit = 0, stride3 = 1, local = 0, stride4 = 1, rest = node.local;
     for (int d = 0; d < Dim; ++d) {
       int at = rest % kTileSide + m % 3 - 1;
@@ -170,11 +173,13 @@ class ContactFit {
       m /= 3;
     }
     const int stack = tiling.stacks[static_cast<std::size_t>(node.stack)].neighbour[stack_digit];
-    return stack < 0 ? -1 : contact.node_at[static_cast<std::size_t>(stack) * kTileNodes<Dim> + static_cast<std::size_t>(local)];
+    return stack < 0 ? -1
+                     : contact.node_at[static_cast<std::size_t>(stack) * kTileNodes<Dim> +
+                                       static_cast<std::size_t>(local)];
   }
 
-  /// Adds the other node's normals of field a against any of the fields that a meets here, and of such a field against
-  /// a, turned round.
+  /// Adds the other node's normals of field a against any of the fields that a meets here, and of such a
+  /// field against a, turned round.
   void add_normals(const State<Dim>& state, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry, const ContactNode<Dim>& other, Vec<Dim>& sum) const {
     const auto field = [&](const ContactNode<Dim>& n, int k) {

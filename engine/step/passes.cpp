@@ -15,10 +15,14 @@ std::unique_ptr<Passes<Dim>> make_bspline2_passes();
 template <int Dim>
 std::unique_ptr<Passes<Dim>> make_passes(BasisKind basis) {
   switch (basis) {
-    case BasisKind::linear: return make_linear_passes<Dim>();
-    case BasisKind::ugimp: return make_ugimp_passes<Dim>();
-    case BasisKind::lcpdi: return make_lcpdi_passes<Dim>();
-    case BasisKind::bspline2: return make_bspline2_passes<Dim>();
+    case BasisKind::linear:
+      return make_linear_passes<Dim>();
+    case BasisKind::ugimp:
+      return make_ugimp_passes<Dim>();
+    case BasisKind::lcpdi:
+      return make_lcpdi_passes<Dim>();
+    case BasisKind::bspline2:
+      return make_bspline2_passes<Dim>();
   }
   return nullptr;
 }

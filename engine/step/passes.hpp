@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file The passes that depend on the basis, as the step calls them: one virtual call a pass, none per particle.
+/// @file The passes that depend on the basis, as the step calls them: one virtual call a pass, none per
+/// particle.
 
 #include <memory>
 
@@ -31,7 +32,8 @@ class Passes {
   /// One order of XPIC: next += Σ_p S_pi M_p S_p star. @param paired carries Δv* beside v*
   virtual void xpic(State<Dim>& state, bool paired) = 0;
   /// New particle velocities, positions, (strain last) strains, domains.
-  virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower, const Vec<Dim>& upper) = 0;
+  virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
+                            const Vec<Dim>& upper) = 0;
   /// Normals by regression and separations by ellipsoids of the listed contact entries.
   virtual void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) = 0;
 };

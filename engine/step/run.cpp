@@ -16,7 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// Even marks in time: 0, interval, 2 · interval …
 class Marks {
@@ -40,7 +42,8 @@ class EnergyBalance {
     if (!started_) first_ = balance;
     started_ = true;
     drift_ = balance - first_;
-    scale_ = std::max({scale_, row.kinetic + row.stored, std::abs(row.boundary_work), std::abs(row.body_force_work)});
+    scale_ = std::max(
+        {scale_, row.kinetic + row.stored, std::abs(row.boundary_work), std::abs(row.body_force_work)});
   }
   double error() const { return scale_ > 0 ? drift_ / scale_ : 0; }
 
@@ -77,7 +80,9 @@ class Run {
       finish("failed", failure.what());
       throw;
     }
-    return finish(stopped_ ? "stopped" : "finished", stopped_ ? "signal" : step_.state().time < end_ ? "steps" : "");
+    return finish(stopped_ ? "stopped" : "finished", stopped_                    ? "signal"
+                                                     : step_.state().time < end_ ? "steps"
+                                                                                 : "");
   }
 
  private:
@@ -93,7 +98,8 @@ class Run {
       // Two even steps rather than a last sliver.
       const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
       if (!(dt > 1e-12 * end_) && dt < left)
-        throw RunFailure(fmt::format("step {}, time {:.9g} s: the time step collapsed to {:.3g} s", state.step, state.time, dt));
+        throw RunFailure(fmt::format("step {}, time {:.9g} s: the time step collapsed to {:.3g} s",
+                                     state.step, state.time, dt));
       const auto begin = Clock::now();
       step_.advance(dt);
       stepping_ += seconds_since(begin);
@@ -127,7 +133,8 @@ class Run {
     const double elapsed = state.time - last_row_time_;
     const auto mean_force = [&](const Vec<Dim>& now, const Vec<Dim>& before) {
       Vec3 force{};
-      for (int d = 0; d < Dim && elapsed > 0; ++d) force[static_cast<std::size_t>(d)] = (now[d] - before[d]) / elapsed;
+      for (int d = 0; d < Dim && elapsed > 0; ++d)
+        force[static_cast<std::size_t>(d)] = (now[d] - before[d]) / elapsed;
       return force;
     };
     for (std::size_t b = 0; b < sums.boundary_impulse.size(); ++b)
@@ -152,12 +159,13 @@ class Run {
 
   void draw(const std::string& which) {
     for (const std::string& field : {std::string("body"), scene_.output.picture})
-      draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field), step_.state().particles, scene_,
-                     field, step_.state().time);
+      draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field),
+                     step_.state().particles, scene_, field, step_.state().time);
   }
 
   double throughput() const {
-    const auto work = static_cast<double>(step_.state().particles.size()) * static_cast<double>(step_.state().step);
+    const auto work =
+        static_cast<double>(step_.state().particles.size()) * static_cast<double>(step_.state().step);
     return stepping_ > 0 ? work / stepping_ : 0;
   }
 
@@ -201,8 +209,9 @@ class Run {
       s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
     s.seconds.emplace_back("output", std::max(0.0, s.wall - stepping_));
     const ContactCounters& c = step_.contact_counters();
-    s.contact = {c.nodes_peak, c.regressions, c.fallbacks, c.unconverged,
-                 c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0};
+    s.contact = {
+        c.nodes_peak, c.regressions, c.fallbacks, c.unconverged,
+        c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0};
     s.energy_error = balance_.error();
     s.checksum = checksum(state.particles);
     s.command = options_.command;
@@ -220,7 +229,8 @@ class Run {
   std::optional<ParticleSeries<Dim>> series_;
   EnergyBalance balance_;
   Sums<Dim> last_impulse_;
-  double last_row_time_ = 0, dt_ = 0, dt_min_ = std::numeric_limits<double>::infinity(), dt_max_ = 0, stepping_ = 0;
+  double last_row_time_ = 0, dt_ = 0, dt_min_ = std::numeric_limits<double>::infinity(), dt_max_ = 0,
+         stepping_ = 0;
   std::uint64_t last_row_step_ = ~std::uint64_t{0}, last_frame_step_ = ~std::uint64_t{0};
   bool stopped_ = false;
   Clock::time_point start_ = Clock::now(), last_report_ = start_;

@@ -18,31 +18,33 @@ namespace mpmfast {
 /// Where a run stands; handed to the progress callback a few times a second.
 struct Progress {
   std::uint64_t step = 0;
-  double time = 0, end = 0;                  ///< s, simulated
-  double wall = 0;                           ///< s, since stepping began
-  double particle_steps_per_second = 0;      ///< since stepping began
-  double seconds_left = 0;                   ///< wall, estimated; 0 when unknown
+  double time = 0, end = 0;              ///< s, simulated
+  double wall = 0;                       ///< s, since stepping began
+  double particle_steps_per_second = 0;  ///< since stepping began
+  double seconds_left = 0;               ///< wall, estimated; 0 when unknown
   double energy_error = 0;
 };
 
 struct RunOptions {
   std::filesystem::path folder;
   bool force = false;
-  int threads = 0;                                                    ///< 0: OMP_NUM_THREADS or the cores
+  int threads = 0;  ///< 0: OMP_NUM_THREADS or the cores
   std::uint64_t max_steps = std::numeric_limits<std::uint64_t>::max();
-  double until = std::numeric_limits<double>::infinity();             ///< s
+  double until = std::numeric_limits<double>::infinity();  ///< s
   std::string command;
   std::vector<std::string> overrides;
-  std::function<void(const Progress&)> progress;                      ///< may be empty
-  const volatile int* stop_signal = nullptr;                          ///< non-zero: finish the step and stop
+  std::function<void(const Progress&)> progress;  ///< may be empty
+  const volatile int* stop_signal = nullptr;      ///< non-zero: finish the step and stop
 };
 
 /// Runs a scene and writes everything of design §4 but checkpoints.
-/// Throws FileError (exit 4); RunFailure (exit 3) after the history is closed and run.json says status "failed".
+/// Throws FileError (exit 4); RunFailure (exit 3) after the history is closed and run.json says status
+/// "failed".
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
-/// What `mpmfast check` prints: particles, nodes, fields, columns, passes, memory, time step, steps, estimated time.
-/// Throws SceneError when the scene cannot be set up (a particle outside the grid, a body without particles).
+/// What `mpmfast check` prints: particles, nodes, fields, columns, passes, memory, time step, steps,
+/// estimated time. Throws SceneError when the scene cannot be set up (a particle outside the grid, a body
+/// without particles).
 std::string describe_plan(const Scene& scene);
 
 }  // namespace mpmfast

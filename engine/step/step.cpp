@@ -69,7 +69,7 @@ void Step<Dim>::advance(double dt) {
   if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
   add_body_force(dt);
   clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt); });
-  update_momenta(dt);  // Eq. 30
+  update_momenta(dt);                                                                            // Eq. 30
   clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::final, dt); });  // Eq. 31, 33
   clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
   end_velocities(dt);
@@ -92,8 +92,8 @@ void Step<Dim>::for_each_slot(F f) {
   for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
 }
 
-/// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of date; half a
-/// cell is kept for the growth of CPDI domains.
+/// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of
+/// date; half a cell is kept for the growth of CPDI domains.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
   if (!sort_due_ && travelled_ < 0.5 * state_.grid.cell) return;
@@ -116,7 +116,8 @@ void Step<Dim>::project() {
           for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
         };
         clear(Nodal::mass, 1);
-        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position}) clear(q, Dim);
+        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position})
+          clear(q, Dim);
         if (plan_.paired)
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
       });
@@ -138,7 +139,8 @@ void Step<Dim>::find_contact() {
   clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
 }
 
-/// v = p/m after the first contact correction: for XPIC as it is, for the strain with conditions imposed on the copy.
+/// v = p/m after the first contact correction: for XPIC as it is, for the strain with conditions imposed on
+/// the copy.
 template <int Dim>
 void Step<Dim>::start_velocities() {
   clock_.time(Pass::nodes, [&] {
@@ -207,8 +209,9 @@ void Step<Dim>::end_velocities(double dt) {
   });
 }
 
-/// series = m (v − v*), v* = Σ_{k=2..m} (−1)^k (v*_k + (m−1)/m Δv*_{k−1}), with v*_k = (m+1−k)/k S⁺S v*_{k−1} and
-/// Δv*_k = (m−k)/k S⁺S Δv*_{k−1} (N20 Eq. 42 to 44); S⁺ is the extrapolation within a field, divided by its mass.
+/// series = m (v − v*), v* = Σ_{k=2..m} (−1)^k (v*_k + (m−1)/m Δv*_{k−1}), with v*_k = (m+1−k)/k S⁺S v*_{k−1}
+/// and Δv*_k = (m−k)/k S⁺S Δv*_{k−1} (N20 Eq. 42 to 44); S⁺ is the extrapolation within a field, divided by
+/// its mass.
 template <int Dim>
 void Step<Dim>::filter_velocities() {
   if (plan_.order < 2) return;
@@ -234,7 +237,8 @@ void Step<Dim>::filter_velocities() {
     });
     const double sign = k % 2 == 0 ? m : -m;  // with the factor m of Eq. 41
     const double share = static_cast<double>(m - 1) / m;
-    const double star_factor = static_cast<double>(m + 1 - k) / k, change_factor = static_cast<double>(m - k) / k;
+    const double star_factor = static_cast<double>(m + 1 - k) / k,
+                 change_factor = static_cast<double>(m - k) / k;
     clock_.time(Pass::nodes, [&] {
       for_each_slot([&](std::int64_t begin, std::int64_t end) {
         for (int d = 0; d < Dim; ++d) {
@@ -259,8 +263,10 @@ void Step<Dim>::filter_velocities() {
 
 template <int Dim>
 void Step<Dim>::update_particles(double dt) {
-  const UpdateRule rule{plan_.update, plan_.position, dt, (1 - plan_.strain_first) * dt, plan_.deformation_terms};
-  const TileReport report = clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
+  const UpdateRule rule{plan_.update, plan_.position, dt, (1 - plan_.strain_first) * dt,
+                        plan_.deformation_terms};
+  const TileReport report =
+      clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;
   travelled_ += report.speed * dt;
   if (!(report.smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
@@ -306,7 +312,8 @@ void Step<Dim>::book(double dt) {
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) {
     sums_.friction_work += contact_.friction_work();
-    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) sums_.rigid_impulse[f] += contact_.rigid_impulse()[f];
+    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f)
+      sums_.rigid_impulse[f] += contact_.rigid_impulse()[f];
   }
   if (plan_.gravity) {
     double power = 0;

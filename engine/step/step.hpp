@@ -71,9 +71,9 @@ class Step {
   Contact<Dim> contact_;
   Sums<Dim> sums_;
   PassClock clock_;
-  Vec<Dim> lower_, upper_;         ///< box that particles must stay in, m
-  double fastest_ = 0;             ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;           ///< bound on any particle's path since the last sort, m
+  Vec<Dim> lower_, upper_;               ///< box that particles must stay in, m
+  double fastest_ = 0;                   ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;                 ///< bound on any particle's path since the last sort, m
   Vec<Dim> gravity_ = Vec<Dim>::Zero();  ///< of this step, m/s²
   bool sort_due_ = true;
   std::uint64_t nodes_peak_ = 0;

@@ -1,8 +1,9 @@
 #pragma once
 
-/// @file Linear CPDI (Sadeghirad et al. 2011): the particle's domain is the parallelogram or parallelepiped with
-/// half-edge vectors r_k, convected by F. The grid function is replaced by its multilinear interpolation from the
-/// 2^Dim corners x_c = x_p + Σ_k s_ck r_k (s_ck = ±1), whose mean and mean gradient over the domain are exact:
+/// @file Linear CPDI (Sadeghirad et al. 2011): the particle's domain is the parallelogram or parallelepiped
+/// with half-edge vectors r_k, convected by F. The grid function is replaced by its multilinear interpolation
+/// from the 2^Dim corners x_c = x_p + Σ_k s_ck r_k (s_ck = ±1), whose mean and mean gradient over the domain
+/// are exact:
 ///   S_pi = 2^−Dim Σ_c N_i(x_c),   G_pi = R^−T 2^−Dim Σ_c s_c N_i(x_c),   R = [r_1 … r_Dim].
 /// In 2-D this is Sadeghirad's formula with full edge vectors.
 
@@ -51,13 +52,15 @@ struct LcpdiBasis {
         store_lanes(&first[d][k], node);
         r[d] -= node;
       }
-      Lanes plane[power(K, 2)][kCorners<Dim>], last[K][kCorners<Dim>];  // N_x N_y and (3-D) N_z at the corners
+      Lanes plane[power(K, 2)][kCorners<Dim>],
+          last[K][kCorners<Dim>];  // N_x N_y and (3-D) N_z at the corners
       for (int c = 0; c < kCorners<Dim>; ++c) {
         Lanes hat[Dim][K];
         for (int d = 0; d < Dim; ++d) {
           Lanes x = r[d];
           for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-          for (int i = 0; i < K; ++i) hat[d][i] = larger(1.0 - magnitude(x - double(i)), broadcast<Lanes>(0.0));
+          for (int i = 0; i < K; ++i)
+            hat[d][i] = larger(1.0 - magnitude(x - double(i)), broadcast<Lanes>(0.0));
         }
         for (int n = 0; n < K * K; ++n) plane[n][c] = hat[0][n % K] * hat[1][n / K];
         if constexpr (Dim == 3)
@@ -110,7 +113,8 @@ struct LcpdiBasis {
     for (int d = 0; d < Dim; ++d) {
       double extent = 0;
       for (int j = 0; j < Dim; ++j) extent += std::abs(g.edge[Dim * d + j][k]);
-      node[d] = static_cast<int>(std::floor((g.position[d][k] - g.origin[d] - extent) * g.inverse_cell + kEdge));
+      node[d] =
+          static_cast<int>(std::floor((g.position[d][k] - g.origin[d] - extent) * g.inverse_cell + kEdge));
     }
     return node;
   }
@@ -135,8 +139,8 @@ struct LcpdiBasis {
   }
 
  private:
-  /// Σ v_c and Σ s_cj v_c over the corners: direction after direction, neighbours are replaced by their sum and their
-  /// difference; a difference needs only be summed from there on.
+  /// Σ v_c and Σ s_cj v_c over the corners: direction after direction, neighbours are replaced by their sum
+  /// and their difference; a difference needs only be summed from there on.
   static void add_corners(Lanes (&v)[kCorners<Dim>], Lanes (&sum)[1 + Dim]) {
 #pragma GCC unroll 4
     for (int j = 0; j < Dim; ++j) {

@@ -30,8 +30,8 @@ struct LinearFunction {
 };
 
 /// uGIMP: the hat averaged over an undeformed domain of half-size l ≤ ½ cell (N20 Eq. 2 with a top-hat χ_p).
-/// With s in [½, 3/2) the outer two nodes lie at distances a ≥ ½ ≥ l, where the average is 1 − a up to a = 1 − l and
-/// (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
+/// With s in [½, 3/2) the outer two nodes lie at distances a ≥ ½ ≥ l, where the average is 1 − a up to a = 1
+/// − l and (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
 struct UGimpFunction {
   static constexpr int kSupport = 3;
   template <class V>
@@ -129,7 +129,8 @@ struct SeparableBasis {
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
     NodeIndex<Dim> node;
     for (int d = 0; d < Dim; ++d)
-      node[d] = static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
+      node[d] =
+          static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
     return node;
   }
 

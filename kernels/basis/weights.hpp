@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file What every basis hands to the transfers: for a chunk of particles, the first node of the support and the
-/// values S_pi and gradients G_pi (N20 Eq. 2, 12) on a small cube of nodes.
+/// @file What every basis hands to the transfers: for a chunk of particles, the first node of the support and
+/// the values S_pi and gradients G_pi (N20 Eq. 2, 12) on a small cube of nodes.
 
 #include "kernels/dimension.hpp"
 #include "kernels/simd/lanes.hpp"
@@ -18,19 +18,20 @@ inline constexpr double kEdge = 1e-9;
 /// What a basis reads of a chunk of particles of one body.
 template <int Dim>
 struct ChunkGeometry {
-  const double* position[Dim];         ///< [count], m
-  const double* edge[Dim * Dim];       ///< [count], m; half-edge vectors of CPDI domains, row-major; else null
-  double half_size[Dim];               ///< m, of the undeformed domain
-  double origin[Dim];                  ///< m, of node (0, …, 0)
-  double inverse_cell;                 ///< 1/m
-  int window[Dim];                     ///< coordinates of the first node of the tile's window
-  int count;                           ///< ≤ kChunk
+  const double* position[Dim];    ///< [count], m
+  const double* edge[Dim * Dim];  ///< [count], m; half-edge vectors of CPDI domains, row-major; else null
+  double half_size[Dim];          ///< m, of the undeformed domain
+  double origin[Dim];             ///< m, of node (0, …, 0)
+  double inverse_cell;            ///< 1/m
+  int window[Dim];                ///< coordinates of the first node of the tile's window
+  int count;                      ///< ≤ kChunk
 };
 
 /// Which weights a pass needs: the others are not computed.
 enum class Wanted { values, gradients, both };
 
-/// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] + window_offset(n).
+/// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] +
+/// window_offset(n).
 template <int Dim, int K>
 struct ChunkWeights {
   static constexpr int kNodes = power(K, Dim);
@@ -54,7 +55,8 @@ constexpr int window_offset(int n) {
 /// Turns first-node coordinates (whole numbers, [Dim][kChunk]) into window indices.
 /// @return false if a particle's support leaves the window: the particles must be sorted anew.
 template <int Dim, int K>
-inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g, int* index) {
+inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g,
+                            int* index) {
   IntLanes outside{}, lane;
   for (int i = 0; i < kLanes; ++i) lane[i] = i;
   for (int k = 0; k < g.count; k += kLanes) {
@@ -62,7 +64,8 @@ inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const Chunk
     double stride = 1;
     for (int d = 0; d < Dim; ++d) {
       const Lanes offset = load_lanes(&first[d][k]) - static_cast<double>(g.window[d]);
-      const IntLanes fits = (offset >= 0.0) & (offset <= static_cast<double>(kWindowSide - K));  // not for NaN
+      const IntLanes fits =
+          (offset >= 0.0) & (offset <= static_cast<double>(kWindowSide - K));  // not for NaN
       outside |= ~fits & (lane < static_cast<std::int64_t>(g.count - k));
       at += (fits ? offset : 0.0) * stride;
       stride *= kWindowSide;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file Strain measures from the row-major deformation gradient, for a double or for Lanes. In 2-D, plane strain:
-/// F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
+/// @file Strain measures from the row-major deformation gradient, for a double or for Lanes. In 2-D, plane
+/// strain: F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
 
 #include "kernels/dimension.hpp"
 #include "kernels/simd/lanes.hpp"
@@ -55,8 +55,9 @@ inline void small_strain(const V (&f)[Dim * Dim], V (&e)[kSymmetric<Dim>]) {
 }
 
 /// A lower bound of the smallest eigenvalue of B over directions in the plane (2-D: exact) or in space.
-/// 3-D: J² = b1 b2 b3 ≤ b1 ((I1 − b1)/2)² gives b1 ≥ 4J²/(I1 − b1)²; from b1 = 0 this rises to the bound. Near
-/// isotropy it converges slowly, and the other bound, mean − 2p with 6p² = dev B : dev B, is the better one.
+/// 3-D: J² = b1 b2 b3 ≤ b1 ((I1 − b1)/2)² gives b1 ≥ 4J²/(I1 − b1)²; from b1 = 0 this rises to the bound.
+/// Near isotropy it converges slowly, and the other bound, mean − 2p with 6p² = dev B : dev B, is the better
+/// one.
 template <int Dim, class V>
 inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
   if constexpr (Dim == 2) {

@@ -8,8 +8,9 @@
 
 namespace mpmfast {
 
-/// σ = λ tr(ε) I + 2G ε with ε = sym(F) − I; small strains and rotations only (a turned body is seen as strained).
-/// The first Piola–Kirchhoff stress of W(ε) is σ itself and the force integral is Σ V0 P·∇0 S; at this order τ = σ.
+/// σ = λ tr(ε) I + 2G ε with ε = sym(F) − I; small strains and rotations only (a turned body is seen as
+/// strained). The first Piola–Kirchhoff stress of W(ε) is σ itself and the force integral is Σ V0 P·∇0 S; at
+/// this order τ = σ.
 struct LinearElastic {
   double density = 0;  ///< kg/m³
   double lambda = 0;   ///< Lamé's first constant, Pa

@@ -9,7 +9,8 @@
 namespace mpmfast {
 
 /// W = ½G(I1 J^{−2/3} − 3) + ½K(½(J² − 1) − ln J), so that
-/// τ = Jσ = G J^{−2/3} dev(B) + ½K(J² − 1) I  (N20 Eq. 18). I1 and dev are of the 3-D tensor; plane strain has B_zz = 1.
+/// τ = Jσ = G J^{−2/3} dev(B) + ½K(J² − 1) I  (N20 Eq. 18). I1 and dev are of the 3-D tensor; plane strain
+/// has B_zz = 1.
 struct NeoHookean {
   double density = 0;  ///< kg/m³, undeformed
   double bulk = 0;     ///< K, Pa

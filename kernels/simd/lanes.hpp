@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file Short vectors of doubles: Lanes holds one quantity of several particles, Record four quantities of one node.
-/// Both are GCC vector types, so that arithmetic, comparison and ?: read as for a double.
+/// @file Short vectors of doubles: Lanes holds one quantity of several particles, Record four quantities of
+/// one node. Both are GCC vector types, so that arithmetic, comparison and ?: read as for a double.
 
 #include <cstdint>
 #include <cstring>
@@ -108,8 +108,10 @@ inline double sum_of(Lanes x) {
 /// Transposes four records in place: row i of the result holds component i of each.
 inline void transpose(Record& a, Record& b, Record& c, Record& d) {
   using Pick = std::int64_t __attribute__((vector_size(32)));
-  const Record ab_even = __builtin_shuffle(a, b, Pick{0, 4, 2, 6}), ab_odd = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
-  const Record cd_even = __builtin_shuffle(c, d, Pick{0, 4, 2, 6}), cd_odd = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
+  const Record ab_even = __builtin_shuffle(a, b, Pick{0, 4, 2, 6}),
+               ab_odd = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
+  const Record cd_even = __builtin_shuffle(c, d, Pick{0, 4, 2, 6}),
+               cd_odd = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
   a = __builtin_shuffle(ab_even, cd_even, Pick{0, 1, 4, 5});
   b = __builtin_shuffle(ab_odd, cd_odd, Pick{0, 1, 4, 5});
   c = __builtin_shuffle(ab_even, cd_even, Pick{2, 3, 6, 7});

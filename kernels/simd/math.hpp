@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file Branch-free exponential, logarithm and J^(−2/3) on a double or on Lanes, to a few units in the last place.
-/// The compiler's own vector mathematics needs -ffast-math, which would switch off the checks for NaN.
+/// @file Branch-free exponential, logarithm and J^(−2/3) on a double or on Lanes, to a few units in the last
+/// place. The compiler's own vector mathematics needs -ffast-math, which would switch off the checks for NaN.
 
 #include "kernels/simd/lanes.hpp"
 
@@ -43,24 +43,36 @@ inline V exponential(V x) {
   const V n = shifted - detail::kRoundMagic;
   const V r = (x - n * 0.693147180369123816490) - n * 1.90821492927058770002e-10;  // ln 2 in two parts
   V s = broadcast<V>(1.0 / 6227020800.0);
-  constexpr double inverse_factorial[] = {1.0 / 479001600.0, 1.0 / 39916800.0, 1.0 / 3628800.0, 1.0 / 362880.0,
-                                          1.0 / 40320.0,     1.0 / 5040.0,     1.0 / 720.0,     1.0 / 120.0,
-                                          1.0 / 24.0,        1.0 / 6.0,        0.5,             1.0,
+  constexpr double inverse_factorial[] = {1.0 / 479001600.0,
+                                          1.0 / 39916800.0,
+                                          1.0 / 3628800.0,
+                                          1.0 / 362880.0,
+                                          1.0 / 40320.0,
+                                          1.0 / 5040.0,
+                                          1.0 / 720.0,
+                                          1.0 / 120.0,
+                                          1.0 / 24.0,
+                                          1.0 / 6.0,
+                                          0.5,
+                                          1.0,
                                           1.0};
   for (double c : inverse_factorial) s = s * r + c;
   const auto exponent = (detail::bits_of(shifted) << 52) + detail::bits_of(broadcast<V>(1.0));
   return s * detail::from_bits(exponent);
 }
 
-/// ln x for normal positive x. x = m 2^e with m in [√½, √2); ln m = 2 atanh(s), s = (m − 1)/(m + 1), |s| ≤ 0.172.
+/// ln x for normal positive x. x = m 2^e with m in [√½, √2); ln m = 2 atanh(s), s = (m − 1)/(m + 1), |s| ≤
+/// 0.172.
 template <class V>
 inline V logarithm(V x) {
   constexpr std::int64_t sqrt_half = 0x3FE6A09E667F3BCD;
   const auto e = (detail::bits_of(x) - sqrt_half) >> 52;
   const auto m_bits = detail::bits_of(x) - (e << 52);
   const V m = detail::from_bits(m_bits);
-  // An int64 exponent becomes a double by the magic number's bits: no 64-bit conversion instruction is needed.
-  const V exponent = detail::from_bits(e + detail::bits_of(broadcast<V>(detail::kRoundMagic))) - detail::kRoundMagic;
+  // An int64 exponent becomes a double by the magic number's bits: no 64-bit conversion instruction is
+  // needed.
+  const V exponent =
+      detail::from_bits(e + detail::bits_of(broadcast<V>(detail::kRoundMagic))) - detail::kRoundMagic;
   const V s = (m - 1.0) / (m + 1.0), z = s * s;
   V t = broadcast<V>(1.0 / 23.0);
   for (int k = 21; k >= 3; k -= 2) t = t * z + 1.0 / k;

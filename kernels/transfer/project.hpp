@@ -23,45 +23,49 @@ template <int Dim, class Basis>
 bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.mass_momentum);
-  const bool inside = for_each_chunk<Dim, Basis, Wanted::values>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-    for (int k = 0; k < count; k += kLanes) {
-      const Lanes m = load_lanes(p.mass + begin + k);
-      store_lanes(&room.row[0][k], m);
-      for (int d = 0; d < Dim; ++d) store_lanes(&room.row[1 + d][k], m * load_lanes(p.velocity[d] + begin + k));
-    }
-    const double* row[1 + Dim];
-    for (int e = 0; e <= Dim; ++e) row[e] = room.row[e];
-    stack(row, count, room.record);
-    for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
-  });
+  const bool inside = for_each_chunk<Dim, Basis, Wanted::values>(
+      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; k += kLanes) {
+          const Lanes m = load_lanes(p.mass + begin + k);
+          store_lanes(&room.row[0][k], m);
+          for (int d = 0; d < Dim; ++d)
+            store_lanes(&room.row[1 + d][k], m * load_lanes(p.velocity[d] + begin + k));
+        }
+        const double* row[1 + Dim];
+        for (int e = 0; e <= Dim; ++e) row[e] = room.row[e];
+        stack(row, count, room.record);
+        for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
+      });
   if (inside) flush_window<Dim, 1 + Dim>(room.mass_momentum, c.tile->slot, out);
   return inside;
 }
 
-/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing out of the
-/// material: G_pi turns from the particle to the node), and m_i x_i = Σ S_pi M_p X_p with positions relative to the grid origin.
+/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing
+/// out of the material: G_pi turns from the particle to the node), and m_i x_i = Σ S_pi M_p X_p with
+/// positions relative to the grid origin.
 template <int Dim, class Basis>
 void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
                            const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.gradient_volume);
   clear(room.mass_position);
-  for_each_chunk<Dim, Basis, Wanted::both>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-    for (int k = 0; k < count; ++k) {
-      const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-      double f[Dim * Dim];
-      for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
-      const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
-      Record x{};
-      Record unit[Dim] = {};
-      for (int d = 0; d < Dim; ++d) {
-        x[d] = m * (p.position[d][q] - c.grid->origin[d]);
-        unit[d][d] = volume;
-      }
-      scatter_values(w, k, x, room.mass_position.at[0]);
-      scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
-    }
-  });
+  for_each_chunk<Dim, Basis, Wanted::both>(
+      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; ++k) {
+          const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+          double f[Dim * Dim];
+          for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
+          const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
+          Record x{};
+          Record unit[Dim] = {};
+          for (int d = 0; d < Dim; ++d) {
+            x[d] = m * (p.position[d][q] - c.grid->origin[d]);
+            unit[d][d] = volume;
+          }
+          scatter_values(w, k, x, room.mass_position.at[0]);
+          scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+        }
+      });
   flush_window<Dim, Dim>(room.gradient_volume, c.tile->slot, volume_gradient);
   flush_window<Dim, Dim>(room.mass_position, c.tile->slot, mass_position);
 }

@@ -12,8 +12,8 @@ template <int Dim, class Basis>
 struct StrainForceRoom {
   WeightRoom<Dim, Basis> weights;
   Window<Dim, 1> velocity, force;
-  Record gathered[Dim][kChunk<Dim>];                       ///< ∂v/∂x_d of a particle, components of v
-  alignas(64) double gradient[4 * Dim][kChunk<Dim>];       ///< the same, [4 d + component]
+  Record gathered[Dim][kChunk<Dim>];                  ///< ∂v/∂x_d of a particle, components of v
+  alignas(64) double gradient[4 * Dim][kChunk<Dim>];  ///< the same, [4 d + component]
   alignas(64) double deformation[Dim * Dim][kChunk<Dim>];
   alignas(64) double stress[kSymmetric<Dim>][kChunk<Dim>];
   alignas(64) double wave_speed[kChunk<Dim>];
@@ -26,12 +26,12 @@ constexpr int symmetric_index(int i, int j) {
   return i == j ? i : (Dim == 2 ? 3 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5);
 }
 
-/// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated exponential,
-/// τ and c by the material's law; all columns written back.
+/// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
+/// exponential, τ and c by the material's law; all columns written back.
 /// @return smallest J of the chunk
 template <int Dim, class Material, class Room>
-inline double strain_chunk(const ParticleView<Dim>& p, const Material& material, std::uint32_t begin, int count,
-                           double dt, int terms, Room& room) {
+inline double strain_chunk(const ParticleView<Dim>& p, const Material& material, std::uint32_t begin,
+                           int count, double dt, int terms, Room& room) {
   for (int k = 0; k < count; k += kLanes) {
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
     for (int i = 0; i < Dim; ++i)
@@ -59,7 +59,8 @@ inline double strain_chunk(const ParticleView<Dim>& p, const Material& material,
 
 /// Velocity gradients of a chunk, ∇v_p = Σ_i v_i ⊗ G_pi (N20 Eq. 28), staged in room.gradient.
 template <int Dim, int K, class Room>
-inline void gather_velocity_gradient(const ChunkWeights<Dim, K>& w, int count, const Record* velocity, Room& room) {
+inline void gather_velocity_gradient(const ChunkWeights<Dim, K>& w, int count, const Record* velocity,
+                                     Room& room) {
   for (int k = 0; k < count; ++k) {
     Record out[Dim];
     gather_gradients(w, k, velocity, out);
@@ -70,11 +71,12 @@ inline void gather_velocity_gradient(const ChunkWeights<Dim, K>& w, int count, c
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
 template <int Dim, int K, class Room>
-inline void scatter_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin, int count,
-                          Room& room) {
+inline void scatter_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
+                          int count, Room& room) {
   for (int s = 0; s < kSymmetric<Dim>; ++s)
     for (int k = 0; k < count; k += kLanes)
-      store_lanes(&room.stress[s][k], -load_lanes(p.volume + begin + k) * load_lanes(p.stress[s] + begin + k));
+      store_lanes(&room.stress[s][k],
+                  -load_lanes(p.volume + begin + k) * load_lanes(p.stress[s] + begin + k));
   for (int d = 0; d < Dim; ++d) {
     const double* row[Dim];
     for (int i = 0; i < Dim; ++i) row[i] = room.stress[symmetric_index<Dim>(i, d)];

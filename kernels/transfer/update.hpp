@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file Nodes to particles: velocities, positions, and (strain last) strains at the end of a step (theory §3).
+/// @file Nodes to particles: velocities, positions, and (strain last) strains at the end of a step (theory
+/// §3).
 
 #include "kernels/transfer/strain_force.hpp"
 
@@ -34,10 +35,10 @@ struct UpdateRoom : StrainForceRoom<Dim, Basis> {
 
 /// What an update reports of a tile.
 struct TileReport {
-  double fastest = 0;        ///< max_p (c_p + |v_p|), m/s
-  double speed = 0;          ///< max_p |V_p| and |mean velocity of its motion|, m/s
+  double fastest = 0;  ///< max_p (c_p + |v_p|), m/s
+  double speed = 0;    ///< max_p |V_p| and |mean velocity of its motion|, m/s
   double smallest_j = 1e300;
-  bool lost = false;         ///< a particle is not finite or outside the allowed box
+  bool lost = false;  ///< a particle is not finite or outside the allowed box
 };
 
 /// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41).
@@ -45,16 +46,19 @@ struct TileReport {
 /// @param nodes  v⁺, aΔt (and m(v − v*) when NV is 3)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>
-TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, const NodeColumns<NV * Dim>& nodes,
-                       const UpdateRule& rule, const double (&lower)[Dim], const double (&upper)[Dim],
-                       const VisitMaterial& visit_material) {
+TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
+                       const NodeColumns<NV * Dim>& nodes, const UpdateRule& rule, const double (&lower)[Dim],
+                       const double (&upper)[Dim], const VisitMaterial& visit_material) {
   constexpr int NR = records_for(NV * Dim);
   const ParticleView<Dim>& p = *c.particles;
   TileReport report;
   auto& window = [&]() -> auto& {
-    if constexpr (NV == 2) return room.two;
-    else return room.three;
-  }();
+    if constexpr (NV == 2)
+      return room.two;
+    else
+      return room.three;
+  }
+  ();
   load_window<Dim, NV * Dim>(nodes, c.tile->slot, window);
   for_each_chunk<Dim, Basis, Wanted::values>(
       c, room.weights, [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
@@ -111,7 +115,8 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room, 
           inside &= room.jacobian[k] < 1e300;  // false for NaN
         }
         for (int d = 0; d < Dim; ++d)
-          for (int k = 0; k < count; ++k) inside &= room.moved[d][k] > lower[d] && room.moved[d][k] < upper[d];
+          for (int k = 0; k < count; ++k)
+            inside &= room.moved[d][k] > lower[d] && room.moved[d][k] < upper[d];
         report.lost |= !inside;
       });
   return report;

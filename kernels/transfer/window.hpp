@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file The window: the nodes that one tile of particles can touch, as interleaved records in cache. Between the
-/// window and the nodal columns (structure of arrays over slots) rows of four nodes are transposed.
+/// @file The window: the nodes that one tile of particles can touch, as interleaved records in cache. Between
+/// the window and the nodal columns (structure of arrays over slots) rows of four nodes are transposed.
 
 #include <cstring>
 
@@ -112,7 +112,8 @@ inline void scatter_gradients(const ChunkWeights<Dim, K>& w, int k, const Record
 template <int Dim, int K>
 inline Record gather_values(const ChunkWeights<Dim, K>& w, int k, const Record* window) {
   const Record* source = window + w.first[k];
-  Record sum[K] = {};  // a chain of additions for each node of a row, so that they need not wait for each other
+  Record sum[K] =
+      {};  // a chain of additions for each node of a row, so that they need not wait for each other
 #pragma GCC unroll 64
   for (int n = 0; n < w.kNodes; ++n) sum[n % K] += w.value[n][k] * source[window_offset<Dim, K>(n)];
   for (int i = 1; i < K; ++i) sum[0] += sum[i];
@@ -131,8 +132,9 @@ inline void gather_gradients(const ChunkWeights<Dim, K>& w, int k, const Record*
   }
 }
 
-/// The reverse: record k holds entry k of each of N arrays, then zeros. The arrays must be readable a record further.
-/// (Built component by component, a record would be read back before its parts have left the store buffer.)
+/// The reverse: record k holds entry k of each of N arrays, then zeros. The arrays must be readable a record
+/// further. (Built component by component, a record would be read back before its parts have left the store
+/// buffer.)
 template <int N>
 inline void stack(const double* const (&in)[N], int count, Record* out) {
   static_assert(N <= 4);

@@ -13,21 +13,22 @@ struct XpicRoom {
   Window<Dim, records_for(NC)> in, out;
 };
 
-/// out_i += Σ_p S_pi M_p (Σ_j S_pj in_j) for NC nodal columns: v* alone (NC = Dim), or v* and Δv* fused (NC = 2 Dim).
-/// Divided by the nodal mass this is S⁺ S.
+/// out_i += Σ_p S_pi M_p (Σ_j S_pj in_j) for NC nodal columns: v* alone (NC = Dim), or v* and Δv* fused (NC =
+/// 2 Dim). Divided by the nodal mass this is S⁺ S.
 template <int Dim, class Basis, int NC>
 void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const NodeColumns<NC>& in,
                const NodeColumns<NC>& out) {
   const ParticleView<Dim>& p = *c.particles;
   load_window<Dim, NC>(in, c.tile->slot, room.in);
   clear(room.out);
-  for_each_chunk<Dim, Basis, Wanted::values>(c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-    for (int k = 0; k < count; ++k)
-      for (int r = 0; r < records_for(NC); ++r) {
-        const Record a = gather_values(w, k, room.in.at[r]);
-        scatter_values(w, k, p.mass[begin + static_cast<std::uint32_t>(k)] * a, room.out.at[r]);
-      }
-  });
+  for_each_chunk<Dim, Basis, Wanted::values>(
+      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; ++k)
+          for (int r = 0; r < records_for(NC); ++r) {
+            const Record a = gather_values(w, k, room.in.at[r]);
+            scatter_values(w, k, p.mass[begin + static_cast<std::uint32_t>(k)] * a, room.out.at[r]);
+          }
+      });
   flush_window<Dim, NC>(room.out, c.tile->slot, out);
 }
 

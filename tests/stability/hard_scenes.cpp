@@ -21,7 +21,7 @@ TEST_CASE("small ellipses: the compaction of a coarse packing reaches 75 % in ev
     const Scene scene = scene_file("ellipses.yaml", {{"grid.cell", cell}, {"output.frames", "0"}});
     const Outcome outcome = survive(scene, 0.05);
     const double stress = -outcome.history.at("all.mean_stress_yy_Pa").back();
-    CHECK(stress > 60e9);   // N20: 84 GPa interpenetrating, 105 GPa clean
+    CHECK(stress > 60e9);  // N20: 84 GPa interpenetrating, 105 GPa clean
     CHECK(stress < 140e9);
   }
 }

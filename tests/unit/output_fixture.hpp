@@ -64,7 +64,8 @@ inline Scene small_scene(Space space) {
   return scene;
 }
 
-/// Particles on a lattice; every value depends on the id alone. @param order the ids in the order of the columns
+/// Particles on a lattice; every value depends on the id alone. @param order the ids in the order of the
+/// columns
 template <int Dim>
 Particles<Dim> particles_in_order(const std::vector<std::uint32_t>& order) {
   Particles<Dim> particles;

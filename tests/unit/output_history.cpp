@@ -26,7 +26,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 bool same_bits(const HistoryRow& a, const HistoryRow& b) {
   const auto equal = [](const auto& x, const auto& y) { return std::memcmp(&x, &y, sizeof(x)) == 0; };
-  bool same = equal(a.kinetic, b.kinetic) && equal(a.momentum, b.momentum) && equal(a.mean_stress, b.mean_stress);
+  bool same =
+      equal(a.kinetic, b.kinetic) && equal(a.momentum, b.momentum) && equal(a.mean_stress, b.mean_stress);
   for (std::size_t k = 0; k < a.bodies.size(); ++k) same = same && equal(a.bodies[k], b.bodies[k]);
   return same;
 }
@@ -52,7 +53,8 @@ TEST_CASE("history columns come in the order that the output contract states") {
   const auto lines = lines_of(read_text(folder.path() / "history.csv"));
   REQUIRE(lines.size() == 2);
   const std::string body =
-      ",@.mean_stress_xx_Pa,@.mean_stress_yy_Pa,@.mean_stress_zz_Pa,@.mean_stress_xy_Pa,@.mass_kg,@.x_m,@.y_m,@.vx,@.vy";
+      ",@.mean_stress_xx_Pa,@.mean_stress_yy_Pa,@.mean_stress_zz_Pa,@.mean_stress_xy_Pa,@.mass_kg,@.x_m,@.y_"
+      "m,@.vx,@.vy";
   std::string expected =
       "step,time_s,dt_s,kinetic_J,stored_J,friction_J,boundary_work_J,momentum_x,momentum_y,momentum_z";
   for (const std::string name : {"left", "right", "punch"})
@@ -104,8 +106,8 @@ TEST_CASE("a body's name with a comma or a quote stays one cell of history.csv")
 
 TEST_CASE("a history that cannot be written is a file error that names the file") {
   const Scene scene = small_scene(Space::plane_strain);
-  CHECK_THROWS_WITH_AS(HistoryFile("/nonexistent-folder", scene), doctest::Contains("/nonexistent-folder/history.csv"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(HistoryFile("/nonexistent-folder", scene),
+                       doctest::Contains("/nonexistent-folder/history.csv"), FileError);
 }
 
 TEST_CASE_TEMPLATE("sums over particles do not depend on their order", D, std::integral_constant<int, 2>,

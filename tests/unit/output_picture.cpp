@@ -39,9 +39,9 @@ struct Png {
 /// A square lattice that fills [0, 1]² with two bodies side by side.
 Particles<2> lattice(int side) {
   Particles<2> particles;
-  particles.allocate(static_cast<std::size_t>(side * side), {Quantity::position, Quantity::velocity,
-                                                             Quantity::deformation_gradient, Quantity::initial_volume,
-                                                             Quantity::kirchhoff_stress});
+  particles.allocate(static_cast<std::size_t>(side * side),
+                     {Quantity::position, Quantity::velocity, Quantity::deformation_gradient,
+                      Quantity::initial_volume, Quantity::kirchhoff_stress});
   for (int i = 0; i < side * side; ++i) {
     const auto p = static_cast<std::size_t>(i);
     particles.id()[p] = static_cast<std::uint32_t>(i);
@@ -101,7 +101,8 @@ TEST_CASE("pictures of no particles, of NaN and of missing columns do not fail")
 TEST_CASE("a picture in 3-D shows the near bodies") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "x.png";
-  draw_particles(path, particles_in_order<3>(ascending(2000)), small_scene(Space::three_dimensional), "body", 1e-3);
+  draw_particles(path, particles_in_order<3>(ascending(2000)), small_scene(Space::three_dimensional), "body",
+                 1e-3);
   const Png png(path);
   CHECK(std::max(png.width, png.height) == 1000);
   CHECK(png.count(body_colour(0)) > 1000);
@@ -121,7 +122,8 @@ TEST_CASE("a few outliers do not stretch the colour range, and a constant field 
   CHECK(robust_range({}).width() > 0);
 }
 
-TEST_CASE("a field of both signs has a range symmetric about zero; a trace of the other sign does not count") {
+TEST_CASE(
+    "a field of both signs has a range symmetric about zero; a trace of the other sign does not count") {
   CHECK(ColourScale({-2, 5}).range().lower == -5);
   CHECK(ColourScale({-7, 5}).range().upper == 7);
   CHECK(ColourScale({-0.1, 5}).range().lower == -0.1);

@@ -18,8 +18,8 @@ TEST_CASE_TEMPLATE("the checksum does not depend on the order of the particles, 
   CHECK(before.size() == 32);
   CHECK(before.find_first_not_of("0123456789abcdef") == std::string::npos);
   CHECK(checksum(particles_in_order<Dim>(shuffled(500))) == before);
-  for (const Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient,
-                           Quantity::kirchhoff_stress}) {
+  for (const Quantity q :
+       {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress}) {
     double& value = particles.column(q, Particles<Dim>::components(q) - 1)[123];
     const double kept = value;
     value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
@@ -44,10 +44,32 @@ TEST_CASE("run.json has the keys of the output contract") {
   summary.resolved_yaml = "a";
   write_run_json(folder.path(), summary);
   const auto json = nlohmann::json::parse(read_text(folder.path() / "run.json"));
-  for (const char* key : {"version", "git", "compiler", "flags", "cpu", "threads", "scene", "status", "reason",
-                          "dimension", "particles", "fields", "nodes_active_peak", "steps", "time_s", "dt_min_s",
-                          "dt_max_s", "wall_s", "particle_steps_per_s", "peak_memory_bytes", "seconds", "contact",
-                          "energy_error", "checksum", "command", "overrides"})
+  for (const char* key : {"version",
+                          "git",
+                          "compiler",
+                          "flags",
+                          "cpu",
+                          "threads",
+                          "scene",
+                          "status",
+                          "reason",
+                          "dimension",
+                          "particles",
+                          "fields",
+                          "nodes_active_peak",
+                          "steps",
+                          "time_s",
+                          "dt_min_s",
+                          "dt_max_s",
+                          "wall_s",
+                          "particle_steps_per_s",
+                          "peak_memory_bytes",
+                          "seconds",
+                          "contact",
+                          "energy_error",
+                          "checksum",
+                          "command",
+                          "overrides"})
     CHECK_MESSAGE(json.contains(key), key);
   for (const char* key : {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged"})
     CHECK_MESSAGE(json["contact"].contains(key), key);
@@ -65,7 +87,8 @@ TEST_CASE("the peak of memory is that of a living process") {
   CHECK(peak_memory_bytes() < std::uint64_t{1} << 42);
 }
 
-TEST_CASE("an existing output folder is refused without force, and with it loses an earlier run and nothing else") {
+TEST_CASE(
+    "an existing output folder is refused without force, and with it loses an earlier run and nothing else") {
   const TemporaryFolder temporary;
   const auto folder = temporary.path() / "runs/new";
   const Scene scene = small_scene(Space::plane_strain);
@@ -74,12 +97,13 @@ TEST_CASE("an existing output folder is refused without force, and with it loses
   CHECK_THROWS_AS(prepare_folder(folder, scene, false), FileError);
 
   std::filesystem::create_directory(folder / "particles");
-  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png", "notes.txt", "mine.png",
-                           "particles/000012.vtu", "particles/000013.vtu.tmp", "particles/mine.vtu"})
+  for (const char* name :
+       {"history.csv", "run.json", "particles.pvd", "picture_body.png", "notes.txt", "mine.png",
+        "particles/000012.vtu", "particles/000013.vtu.tmp", "particles/mine.vtu"})
     std::ofstream(folder / name) << "x";
   prepare_folder(folder, scene, true);
-  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png", "particles/000012.vtu",
-                           "particles/000013.vtu.tmp"})
+  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png",
+                           "particles/000012.vtu", "particles/000013.vtu.tmp"})
     CHECK_MESSAGE(!std::filesystem::exists(folder / name), name);
   for (const char* name : {"notes.txt", "mine.png", "particles/mine.vtu", "scene.yaml"})
     CHECK_MESSAGE(std::filesystem::exists(folder / name), name);

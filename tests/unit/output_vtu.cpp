@@ -94,7 +94,8 @@ TEST_CASE("a VTU file read back holds the particles in the order of their ids (2
   REQUIRE(velocity.size() == 3 * n);
   REQUIRE(stress.size() == 6 * n);
   REQUIRE(f.size() == 9 * n);
-  for (const std::size_t n_points : {von_mises.size(), pressure.size(), volume.size(), id.size(), body.size()})
+  for (const std::size_t n_points :
+       {von_mises.size(), pressure.size(), volume.size(), id.size(), body.size()})
     REQUIRE(n_points == n);
   bool same = true;
   for (std::size_t p = 0; p < n; ++p) {
@@ -119,7 +120,8 @@ TEST_CASE("a VTU file read back holds the particles in the order of their ids (2
     same = same && f[9 * p + 3] == particles.column(Quantity::deformation_gradient, 2)[p];
   }
   CHECK(same);
-  const auto connectivity = file.array<std::int64_t>("connectivity"), offsets = file.array<std::int64_t>("offsets");
+  const auto connectivity = file.array<std::int64_t>("connectivity"),
+             offsets = file.array<std::int64_t>("offsets");
   CHECK(connectivity.back() == static_cast<std::int64_t>(n - 1));
   CHECK(offsets.front() == 1);
   CHECK(file.array<std::uint8_t>("types") == std::vector<std::uint8_t>(n, 1));
@@ -164,7 +166,8 @@ TEST_CASE("the PVD file lists every frame after each of them, and no temporary f
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
     names.insert(entry.path().filename().string());
-  CHECK(names == std::set<std::string>{"000000.vtu", "000001.vtu", "000002.vtu", "particles", "particles.pvd"});
+  CHECK(names ==
+        std::set<std::string>{"000000.vtu", "000001.vtu", "000002.vtu", "particles", "particles.pvd"});
 }
 
 TEST_CASE("a frame without particles is still a VTU file") {

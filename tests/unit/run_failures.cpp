@@ -44,29 +44,35 @@ Failed run_to_failure(const Scene& scene) {
 
 TEST_CASE("a particle that leaves the grid ends the run with step, time, particle, body, field and place") {
   const Failed failed = run_to_failure(scene_from(kThrown));
-  for (const char* part : {"step ", "time ", "particle ", "'missile'", "velocity field", "(0.011", "left the grid"}) {
+  for (const char* part :
+       {"step ", "time ", "particle ", "'missile'", "velocity field", "(0.011", "left the grid"}) {
     CAPTURE(std::string(part));
     CHECK(failed.message.find(part) != std::string::npos);
   }
   CHECK(failed.summary["status"] == "failed");
   CHECK(failed.summary["reason"] == failed.message);
   CHECK(failed.history.at("time_s").size() >= 2);
-  CHECK(failed.history.at("time_s").back() == doctest::Approx(7e-3 / 40).epsilon(0.1));  // 6 mm and a cell to go
+  CHECK(failed.history.at("time_s").back() ==
+        doctest::Approx(7e-3 / 40).epsilon(0.1));  // 6 mm and a cell to go
   CHECK(failed.pictures);
 }
 
 TEST_CASE("a particle that is turned inside out is named") {
-  const Scene scene = scene_from(kThrown, {{"boundaries", "{right: {piston: 4000 m/s, direction: left, position: 6 mm}}"},
-                                           {"time.cfl", "1"},
-                                           {"method.deformation_terms", "1"}});
+  const Scene scene =
+      scene_from(kThrown, {{"boundaries", "{right: {piston: 4000 m/s, direction: left, position: 6 mm}}"},
+                           {"time.cfl", "1"},
+                           {"method.deformation_terms", "1"}});
   const Failed failed = run_to_failure(scene);
   CHECK(failed.message.find("particle ") != std::string::npos);
   CHECK(failed.summary["status"] == "failed");
 }
 
 TEST_CASE("a body without particles, or one outside the grid, is a scene error before anything is written") {
-  CHECK_THROWS_AS(Step<2>(scene_from(kThrown, {{"bodies.0", "{name: dust, disk: {centre: [5.01 mm, 5.01 mm], radius: 0.001 mm}, material: m}"}})),
-                  SceneError);
+  CHECK_THROWS_AS(
+      Step<2>(scene_from(
+          kThrown,
+          {{"bodies.0", "{name: dust, disk: {centre: [5.01 mm, 5.01 mm], radius: 0.001 mm}, material: m}"}})),
+      SceneError);
 }
 
 }  // namespace

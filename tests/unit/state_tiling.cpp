@@ -19,8 +19,8 @@ materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 3
 bodies:
 )";
   for (int k = 0; k < 20; ++k)
-    yaml += fmt::format("  - {{name: c{}, box: {{from: [{} mm, 1 mm], to: [{} mm, 39 mm]}}, material: m}}\n", k, 10 * k,
-                        10 * k + 10);
+    yaml += fmt::format("  - {{name: c{}, box: {{from: [{} mm, 1 mm], to: [{} mm, 39 mm]}}, material: m}}\n",
+                        k, 10 * k, 10 * k + 10);
   return scene_from(yaml, {{"contact", contact}});
 }
 
@@ -31,7 +31,8 @@ TEST_CASE("20 fields over one grid take little more nodal memory than one") {
   advance(many, 1);
   CHECK(many.plan().fields.size() == 20);
   const auto slots_one = one.state().tiling.slots(), slots_many = many.state().tiling.slots();
-  // A column is 10 cells wide: its 11 to 12 nodes lie in 3 to 5 tiles of 4 nodes, against 2.5 without a border.
+  // A column is 10 cells wide: its 11 to 12 nodes lie in 3 to 5 tiles of 4 nodes, against 2.5 without a
+  // border.
   CHECK(slots_many < 2 * slots_one);
   CHECK(many.state().nodes.bytes() < 2 * one.state().nodes.bytes());
   // Nodes × fields would be nine times as many.
@@ -52,7 +53,8 @@ void check_tables(const Step<Dim>& step) {
         ++seen[p];
         REQUIRE(state.particles.body()[p] == run.body);
         for (int d = 0; d < Dim; ++d) {
-          const double cells = (state.particles.column(Quantity::position, d)[p] - state.grid.origin[d]) / state.grid.cell;
+          const double cells =
+              (state.particles.column(Quantity::position, d)[p] - state.grid.origin[d]) / state.grid.cell;
           REQUIRE(cells >= tile.window[d]);
           REQUIRE(cells <= tile.window[d] + kWindowSide - 1);
         }
@@ -67,7 +69,8 @@ void check_tables(const Step<Dim>& step) {
   for (const auto& colour : tiling.colours) {
     std::vector<int> owner(tiling.node_tiles.size(), 0);
     for (int t : colour)
-      for (int slot : tiling.tiles[static_cast<std::size_t>(t)].slot) REQUIRE(++owner[static_cast<std::size_t>(slot / kTileNodes<Dim>)] == 1);
+      for (int slot : tiling.tiles[static_cast<std::size_t>(t)].slot)
+        REQUIRE(++owner[static_cast<std::size_t>(slot / kTileNodes<Dim>)] == 1);
   }
 }
 

@@ -56,8 +56,12 @@ void check_all_momenta() {
       }
 }
 
-TEST_CASE("momentum is conserved to round-off through an impact of two fields (2-D)") { check_all_momenta<2>(); }
-TEST_CASE("momentum is conserved to round-off through an impact of two fields (3-D)") { check_all_momenta<3>(); }
+TEST_CASE("momentum is conserved to round-off through an impact of two fields (2-D)") {
+  check_all_momenta<2>();
+}
+TEST_CASE("momentum is conserved to round-off through an impact of two fields (3-D)") {
+  check_all_momenta<3>();
+}
 
 template <int Dim>
 void check_perfect(std::vector<Override> overrides, const std::string& more) {
@@ -73,7 +77,8 @@ void check_perfect(std::vector<Override> overrides, const std::string& more) {
   advance(two, 200);
   for (Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient})
     CHECK(relative_difference(by_id(two.state().particles, q), by_id(one.state().particles, q)) < 1e-12);
-  // A stress far below the modulus shows the round-off of F enlarged by their ratio: measure against the modulus.
+  // A stress far below the modulus shows the round-off of F enlarged by their ratio: measure against the
+  // modulus.
   const auto a = by_id(two.state().particles, Quantity::kirchhoff_stress);
   const auto b = by_id(one.state().particles, Quantity::kirchhoff_stress);
   double difference = 0;
@@ -98,7 +103,8 @@ TEST_CASE("a perfect interface reproduces one field to round-off over 200 steps 
   check_all_perfect<3>("");
 }
 TEST_CASE("a perfect interface reproduces one field to round-off between a floor and a piston") {
-  check_all_perfect<2>("boundaries: {left: {piston: 20 m/s, direction: right, position: 1 mm}, bottom: fixed}\n");
+  check_all_perfect<2>(
+      "boundaries: {left: {piston: 20 m/s, direction: right, position: 1 mm}, bottom: fixed}\n");
 }
 
 template <int Dim>
@@ -160,9 +166,11 @@ gravity: {acceleration: [0 m/s^2, -9810 m/s^2], ramp: 400 us}
   while (step.state().time < 0.9e-3) step.advance(2e-6);
   const double t = step.state().time, ramp = 400e-6, g = 9810;
   // v = g t²/(2r) on the ramp, then g (t − r/2); the midpoint rule is exact for both.
-  CHECK(step.state().particles.vector(Quantity::velocity, 0)[1] == doctest::Approx(-g * (t - ramp / 2)).epsilon(1e-10));
+  CHECK(step.state().particles.vector(Quantity::velocity, 0)[1] ==
+        doctest::Approx(-g * (t - ramp / 2)).epsilon(1e-10));
   const double fallen = g * (ramp * ramp / 6 + ramp / 2 * (t - ramp) + (t - ramp) * (t - ramp) / 2);
-  CHECK(y0 - step.state().particles.vector(Quantity::position, 0)[1] == doctest::Approx(fallen).epsilon(2e-6));
+  CHECK(y0 - step.state().particles.vector(Quantity::position, 0)[1] ==
+        doctest::Approx(fallen).epsilon(2e-6));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// An elastic bar held sideways (uniaxial strain): c = sqrt((λ + 2G)/ρ), against its wave speed and lowest frequency.
+// An elastic bar held sideways (uniaxial strain): c = sqrt((λ + 2G)/ρ), against its wave speed and lowest
+// frequency.
 
 #include <numbers>
 
@@ -32,10 +33,12 @@ double measured_period(const Scene& scene) {
   const auto mode = [&](std::size_t p) {
     return std::sin(std::numbers::pi * particles.column(Quantity::position, 0)[p] / (2 * length));
   };
-  for (std::size_t p = 0; p < particles.size(); ++p) particles.column(Quantity::velocity, 0)[p] = 0.01 * mode(p);
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    particles.column(Quantity::velocity, 0)[p] = 0.01 * mode(p);
   const auto amplitude = [&] {
     double sum = 0;
-    for (std::size_t p = 0; p < particles.size(); ++p) sum += mode(p) * particles.column(Quantity::velocity, 0)[p];
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      sum += mode(p) * particles.column(Quantity::velocity, 0)[p];
     return sum;
   };
   std::vector<double> zeros;
@@ -57,7 +60,8 @@ TEST_CASE("a standing wave in an elastic bar has the frequency c/4L within 1 %")
     for (const char* update : {"flip", "xpic(5)"}) {
       CAPTURE(std::string(basis));
       CAPTURE(std::string(update));
-      const double measured = measured_period(scene_from(kBar, {{"method.basis", basis}, {"method.update", update}}));
+      const double measured =
+          measured_period(scene_from(kBar, {{"method.basis", basis}, {"method.update", update}}));
       CHECK(measured == doctest::Approx(period).epsilon(0.01));
     }
 }
@@ -66,10 +70,13 @@ TEST_CASE("a standing wave keeps its frequency under every strain update and in 
   const double period = 4 * 0.1 / bar_speed();
   for (const char* strain : {"first", "last", "average"}) {
     CAPTURE(std::string(strain));
-    CHECK(measured_period(scene_from(kBar, {{"method.strain", strain}})) == doctest::Approx(period).epsilon(0.01));
+    CHECK(measured_period(scene_from(kBar, {{"method.strain", strain}})) ==
+          doctest::Approx(period).epsilon(0.01));
   }
-  const std::string same_modulus = "{m: {model: neo_hookean, density: 1000 kg/m^3, young: 10 MPa, poisson: 0.3}}";
-  CHECK(measured_period(scene_from(kBar, {{"materials", same_modulus}})) == doctest::Approx(period).epsilon(0.01));
+  const std::string same_modulus =
+      "{m: {model: neo_hookean, density: 1000 kg/m^3, young: 10 MPa, poisson: 0.3}}";
+  CHECK(measured_period(scene_from(kBar, {{"materials", same_modulus}})) ==
+        doctest::Approx(period).epsilon(0.01));
 }
 
 /// Where the velocity falls to half the piston's.
@@ -92,7 +99,8 @@ TEST_CASE("a pushed bar's front runs at the wave speed within 1 %, and the pisto
   const double speed = 0.01, c = bar_speed();
   for (const char* update : {"pic", "xpic(5)"}) {
     CAPTURE(std::string(update));
-    const Scene scene = scene_from(kBar, {{"method.update", update}, {"boundaries.left", "{piston: 0.01 m/s, direction: right}"}});
+    const Scene scene = scene_from(
+        kBar, {{"method.update", update}, {"boundaries.left", "{piston: 0.01 m/s, direction: right}"}});
     Step<2> step(scene);
     while (step.state().time < 0.3 * 0.1 / c) step.advance(step.stable_dt());
     const double early = front(step.state().particles, speed), early_time = step.state().time;

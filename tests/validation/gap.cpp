@@ -9,8 +9,8 @@ using namespace test;
 
 constexpr double kTheory = 7.5e-3 / 0.9622;  // s
 
-/// First time at which the mean axial stress passes 5 % of the first impact's ρcv/2 (0.93 MPa): noise is far below it,
-/// and it is reached within a few µs of the contact.
+/// First time at which the mean axial stress passes 5 % of the first impact's ρcv/2 (0.93 MPa): noise is far
+/// below it, and it is reached within a few µs of the contact.
 double contact_time(const Scene& scene) {
   const Outcome outcome = run(scene);
   REQUIRE(outcome.failure.empty());
@@ -21,7 +21,8 @@ double contact_time(const Scene& scene) {
   return 0;
 }
 
-const std::vector<Override> kMidCell{{"bodies.0.box.to", "[40 mm, 52.5 mm]"}, {"bodies.1.box.from", "[0 mm, 60 mm]"}};
+const std::vector<Override> kMidCell{{"bodies.0.box.to", "[40 mm, 52.5 mm]"},
+                                     {"bodies.1.box.from", "[0 mm, 60 mm]"}};
 
 std::vector<Override> with(std::vector<Override> a, const std::vector<Override>& b) {
   a.insert(a.end(), b.begin(), b.end());
@@ -38,9 +39,10 @@ TEST_CASE("gap: LR contact begins within 1 % of theory on a grid line and mid-ce
           CAPTURE(std::string(normal));
           CAPTURE(std::string(update));
           CAPTURE(std::string(basis));
-          const double t = contact_time(scene_file("gap.yaml", with(with(position, quiet), {{"contact.normal", normal},
-                                                                                              {"method.update", update},
-                                                                                              {"method.basis", basis}})));
+          const double t = contact_time(scene_file(
+              "gap.yaml",
+              with(with(position, quiet),
+                   {{"contact.normal", normal}, {"method.update", update}, {"method.basis", basis}})));
           CHECK(t == doctest::Approx(kTheory).epsilon(0.01));
         }
 }
@@ -49,7 +51,8 @@ TEST_CASE("gap: separation by position is early mid-cell, as N20 found") {
   const std::vector<Override> quiet{{"output.frames", "0"}, {"contact.normal", "average_gradient"}};
   for (const char* separation : {"position_offset", "position_power"}) {
     CAPTURE(std::string(separation));
-    const double t = contact_time(scene_file("gap.yaml", with(with(kMidCell, quiet), {{"contact.separation", separation}})));
+    const double t = contact_time(
+        scene_file("gap.yaml", with(with(kMidCell, quiet), {{"contact.separation", separation}})));
     CHECK(t > 0.5 * kTheory);
     CHECK(t < 0.99 * kTheory);
   }

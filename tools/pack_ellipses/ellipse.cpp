@@ -59,11 +59,11 @@ bool Ellipse::contains(double px, double py) const {
   return u * u + v * v <= 1;
 }
 
-/// Stretch the plane so that a is the unit circle about 0; then b is (z − d)ᵀ M (z − d) < 1. With the eigenvalues mᵢ
-/// of M and d along its axes, the two are apart iff some λ > 0 makes
+/// Stretch the plane so that a is the unit circle about 0; then b is (z − d)ᵀ M (z − d) < 1. With the
+/// eigenvalues mᵢ of M and d along its axes, the two are apart iff some λ > 0 makes
 ///   g(λ) = λ Σ mᵢ dᵢ² / (λ + mᵢ) − λ − 1
-/// positive (the pencil λA + B then has a degenerate member that separates them). g is concave and g′ convex, so
-/// Newton on g′ = 0 from λ = 0 climbs to the maximum from the left.
+/// positive (the pencil λA + B then has a degenerate member that separates them). g is concave and g′ convex,
+/// so Newton on g′ = 0 from λ = 0 climbs to the maximum from the left.
 bool disjoint(const Ellipse& a, const Ellipse& b) {
   const auto to_circle = [&](double x, double y) {
     return Point{(a.cosine * x + a.sine * y) / a.major, (a.cosine * y - a.sine * x) / a.minor};
@@ -78,8 +78,9 @@ bool disjoint(const Ellipse& a, const Ellipse& b) {
   const double length2 = d.x * d.x + d.y * d.y;
   // Share of d along the longer axis of M⁻¹, from its value dᵀ M⁻¹ d.
   const double form = xx * d.x * d.x + 2 * xy * d.x * d.y + yy * d.y * d.y;
-  const double first =
-      radius > 1e-12 * mean ? std::clamp((form - (mean - radius) * length2) / (2 * radius), 0.0, length2) : length2;
+  const double first = radius > 1e-12 * mean
+                           ? std::clamp((form - (mean - radius) * length2) / (2 * radius), 0.0, length2)
+                           : length2;
   const double w1 = m1 * first, w2 = m2 * (length2 - first);
 
   double lambda = 0;

@@ -38,7 +38,8 @@ void report(const mpmfast::Packing& packing, const std::vector<unsigned char>& p
 int main(int argc, char** argv) {
   mpmfast::PackingOptions options;
   std::string out = "ellipses.png";
-  CLI::App app{"Fills a box with ellipses that do not overlap: a grey level for each of 20 materials, void white."};
+  CLI::App app{
+      "Fills a box with ellipses that do not overlap: a grey level for each of 20 materials, void white."};
   app.add_option("--seed", options.seed, "Number that chooses the packing")->capture_default_str();
   app.add_option("--width", options.width, "Pixels")->check(CLI::Range(100, 10000))->capture_default_str();
   app.add_option("--height", options.height, "Pixels")->check(CLI::Range(100, 10000))->capture_default_str();

@@ -8,7 +8,7 @@
 namespace mpmfast {
 namespace {
 
-constexpr double kClearance = 0.2;                    // pixels between any two grains
+constexpr double kClearance = 0.2;                     // pixels between any two grains
 constexpr double kLeastRadius = 10, kMostRadius = 30;  // of the circle of equal area, at 280 × 560 pixels
 constexpr double kLeastMinor = 5.5;
 constexpr double kSown = 0.7;  // of its planned radius: as dense as random places allow
@@ -63,9 +63,9 @@ class Box {
   void sow_one(double radius) {
     for (int attempt = 0; attempt < 20000; ++attempt) {
       const double root = std::sqrt(random_.between(1, 2));
-      const Ellipse e = turned({random_.uniform() * width_, random_.uniform() * height_, radius * root,
-                                radius / root, 1, 0},
-                               random_.between(-1, 1), random_.uniform() < 0.5);
+      const Ellipse e = turned(
+          {random_.uniform() * width_, random_.uniform() * height_, radius * root, radius / root, 1, 0},
+          random_.between(-1, 1), random_.uniform() < 0.5);
       if (!allowed(e, grains_.size())) continue;
       grains_.push_back(e);
       area_ += e.area();
@@ -128,13 +128,15 @@ Packing pack(const PackingOptions& options) {
     if (box.fraction() >= options.fraction) break;
   }
   if (box.fraction() < options.fraction)
-    throw std::runtime_error("grains cover " + std::to_string(box.fraction()) + " of the box only; try another seed");
+    throw std::runtime_error("grains cover " + std::to_string(box.fraction()) +
+                             " of the box only; try another seed");
   return {options, box.grains(), choose_greys(box.grains(), options.seed)};
 }
 
 std::vector<unsigned char> paint(const Packing& packing) {
   const int width = packing.options.width, height = packing.options.height;
-  std::vector<unsigned char> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kVoid);
+  std::vector<unsigned char> pixels(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                                    kVoid);
   for (std::size_t g = 0; g < packing.grains.size(); ++g) {
     const Ellipse& e = packing.grains[g];
     const int left = std::max(0, static_cast<int>(e.x - e.half_width()));

@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file A box filled with ellipses of many sizes that do not overlap, as a picture with a grey for each material:
-/// a scene like that of N20, Fig. 6. The same options give the same picture on every machine.
+/// @file A box filled with ellipses of many sizes that do not overlap, as a picture with a grey for each
+/// material: a scene like that of N20, Fig. 6. The same options give the same picture on every machine.
 
 #include <cstdint>
 #include <random>
@@ -11,8 +11,8 @@
 
 namespace mpmfast {
 
-inline constexpr int kGreys = 20;             ///< materials
-inline constexpr int kGreyStep = 12;          ///< their levels are 0, 12, …, 228
+inline constexpr int kGreys = 20;     ///< materials
+inline constexpr int kGreyStep = 12;  ///< their levels are 0, 12, …, 228
 inline constexpr unsigned char kVoid = 255;
 
 struct PackingOptions {
@@ -23,8 +23,8 @@ struct PackingOptions {
 
 struct Packing {
   PackingOptions options;
-  std::vector<Ellipse> grains;    ///< pixels, wholly inside the box
-  std::vector<int> grey;          ///< 0 … kGreys − 1 for each grain
+  std::vector<Ellipse> grains;  ///< pixels, wholly inside the box
+  std::vector<int> grey;        ///< 0 … kGreys − 1 for each grain
 };
 
 /// Uniform numbers that are the same everywhere, which those of std::uniform_real_distribution need not be.
