@@ -47,7 +47,7 @@ for update in flip "xpic(2)" "xpic(5)"; do
         "bodies.1.box.from=[0,$(awk "BEGIN{print $plane/1000}")]"
       where="grid line"
       [ "$plane" = 50 ] || where="mid-cell"
-      echo "| $update | $contact | $where | $(compare two one) | $(value two wall_s) | $(value two energy_error) |"
+      echo "| $update | $contact | $where | $(compare two one) | $(printf "%.1f" "$(value two wall_s)") | $(printf "%.1e" "$(value two energy_error)") |"
     done
   done
 done
