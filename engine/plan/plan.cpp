@@ -84,6 +84,8 @@ Plan make_plan(const Scene& scene) {
   // Rigid bodies move the others even where these share one field.
   plan.contact = plan.fields.size() > 1 && scene.contact.law != LawKind::ignore;
   plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction;
+  plan.first_correction_stays = plan.update == ParticleUpdate::pic ||
+                                (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction);
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
   list_passes(scene, plan);

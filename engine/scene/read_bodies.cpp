@@ -248,9 +248,9 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     check_count(scene, body, places[b]);
   }
   check_rigid(scene, places);
-  constexpr std::size_t kMostFields = 65535;  // particles carry their field in 16 bits
-  if (fields.size() > kMostFields) {
-    places[0].entry.report(fmt::format("{} velocity fields (at most {})", fields.size(), kMostFields));
+  constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
+  if (scene.bodies.size() > kMostBodies) {
+    places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));
   }
 }
 

@@ -46,7 +46,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
 }};
 
-/// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiles.hpp).
+/// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).
 template <int Dim>
 class Particles {
  public:

@@ -1,5 +1,6 @@
 #include "engine/step/conditions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/scene/time_table.hpp"
@@ -107,32 +108,48 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
     }
 }
 
-/// Gram–Schmidt on (n, u): e ∝ n − Σ(n·e_k)e_k with the speed that v·n = u leaves along e. The unit e is used
-/// throughout (NN §2.3.2 prints it without its norm).
+/// Parallel conditions first add up their velocities. Then Gram–Schmidt on (n, u): e ∝ n − Σ(n·e_k)e_k with
+/// the speed that v·n = u leaves along e. The unit e is used throughout (NN §2.3.2 prints it without its
+/// norm).
 template <int Dim>
 void Conditions<Dim>::orthonormalise(Combination& c) const {
-  c.count = 0;
+  struct Prescribed {
+    Vec<Dim> direction;
+    double speed;
+    int boundary;
+  };
+  std::vector<Prescribed> distinct;
   for (int member : c.members) {
     const Component& component = components_[static_cast<std::size_t>(member)];
     const double speed = component.moving ? speed_[static_cast<std::size_t>(component.boundary)] : 0.0;
-    Vec<Dim> rest = component.direction;
-    double rest_speed = speed;
-    bool parallel = false;
+    const auto parallel = [&](const Prescribed& p) {
+      return std::abs(p.direction.dot(component.direction)) > 1 - 1e-12;
+    };
+    const auto twin = std::find_if(distinct.begin(), distinct.end(), parallel);
+    if (twin == distinct.end())
+      distinct.push_back({component.direction, speed, component.boundary});
+    else
+      twin->speed += twin->direction.dot(component.direction) * speed;
+  }
+  c.count = 0;
+  c.share.setZero();
+  for (const Prescribed& p : distinct) {
+    if (c.count == Dim) break;  // the velocity is fixed already
+    Vec<Dim> rest = p.direction;
+    double rest_speed = p.speed;
     for (int k = 0; k < c.count; ++k) {
-      const double along = component.direction.dot(c.direction[k]);
-      if (std::abs(along) > 1 - 1e-12) {
-        c.speed[k] += along * speed;  // parallel conditions superpose
-        parallel = true;
-        break;
-      }
+      const double along = p.direction.dot(c.direction[k]);
+      c.share(c.count, k) = along;
       rest -= along * c.direction[k];
       rest_speed -= along * c.speed[k];
     }
     const double length = rest.norm();
-    if (parallel || c.count == Dim || length < 1e-9) continue;
+    if (length < 1e-9) continue;
+    c.share(c.count, c.count) = length;
+    c.pushing[c.count] = p.direction;
     c.direction[c.count] = rest / length;
     c.speed[c.count] = rest_speed / length;
-    c.boundary[c.count++] = component.boundary;
+    c.boundary[c.count++] = p.boundary;
   }
 }
 
@@ -156,10 +173,17 @@ void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     const double mass = state.nodes.column(Nodal::mass)[slot];
     if (!(mass > 0)) continue;
+    double reaction[Dim];
     for (int k = 0; k < c.count; ++k) {
-      const double reaction = change(mass, slot, c.direction[k], c.speed[k]);
-      force_[static_cast<std::size_t>(c.boundary[k])] += reaction * c.direction[k];
-      work_ += reaction * c.speed[k] * dt;
+      reaction[k] = change(mass, slot, c.direction[k], c.speed[k]);
+      work_ += reaction[k] * c.speed[k] * dt;
+    }
+    // Each boundary pushes along its own direction only: R = Σ λ_k n_k with n_k = Σ_j share_kj e_j, from the
+    // last on.
+    for (int k = c.count - 1; k >= 0; --k) {
+      const double push = reaction[k] / c.share(k, k);
+      force_[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
+      for (int j = 0; j < k; ++j) reaction[j] -= push * c.share(k, j);
     }
   }
 }

@@ -50,7 +50,9 @@ class Conditions {
     int count = 0;             ///< orthonormal directions
     Vec<Dim> direction[Dim];
     double speed[Dim];
-    int boundary[Dim];  ///< which boundary a direction's reaction is booked on
+    Mat<Dim> share;         ///< prescribed directions by orthonormal ones, lower triangle
+    Vec<Dim> pushing[Dim];  ///< the prescribed directions
+    int boundary[Dim];      ///< which boundary a direction's reaction is booked on
   };
   /// One prescribed component: v·n = u on the nodes of a boundary.
   struct Component {

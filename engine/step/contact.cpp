@@ -46,8 +46,6 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
       const int slot = t * kTileNodes<Dim> + local;
       if (!(mass[slot] > 0)) continue;
       const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
-      if (state.field_rigid[static_cast<std::size_t>(field)] && node.rigid < 0)
-        node.rigid = static_cast<int>(list_.fields.size()) - node.field_begin;
       list_.fields.push_back({field, slot});
     }
     node.field_end = static_cast<int>(list_.fields.size());
@@ -55,7 +53,7 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
     node.local = local;
     node.node = state.tiling.node(stack, local);
     node.entry_begin = static_cast<int>(list_.entries.size());
-    if (node.field_end - node.field_begin > 1) add_entries(node, mass);
+    if (node.field_end - node.field_begin > 1) add_entries(state, node);
     node.entry_end = static_cast<int>(list_.entries.size());
     if (node.entry_begin == node.entry_end) {
       list_.fields.resize(static_cast<std::size_t>(node.field_begin));
@@ -68,21 +66,25 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
 }
 
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
-/// rest.
+/// rest. Of several rigid bodies on a node, the one with the most mass there counts.
 template <int Dim>
-void Contact<Dim>::add_entries(ContactNode<Dim>& node, const double* mass) {
+void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) {
   const int fields = node.field_end - node.field_begin;
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto field_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
+  const auto mass_of = [&](int k) { return mass[field_of(k).slot]; };
+  const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
   // Tied fields must move as one to the last node (the perfect interface is exact).
   const double screen = spec_.law == LawKind::perfect ? 0 : spec_.mass_screen;
-  const auto mass_of = [&](int k) {
-    return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
-  };
   double total = 0;
-  for (int k = 0; k < fields; ++k) total += mass_of(k);
+  for (int k = 0; k < fields; ++k) {
+    total += mass_of(k);
+    if (is_rigid(k) && (node.rigid < 0 || mass_of(k) > mass_of(node.rigid))) node.rigid = k;
+  }
   ContactEntry<Dim> entry;
   entry.normal = entry.impulse = Vec<Dim>::Zero();
   for (int k = 0; k < fields; ++k) {
-    if (k == node.rigid) continue;
+    if (is_rigid(k)) continue;
     if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) continue;
     entry.a = k;
     entry.b = fields == 2 ? 1 - k : -1;
@@ -140,10 +142,11 @@ void Contact<Dim>::grid_normals(const State<Dim>& state) {
       const int own = node.field_begin + entry.a,
                 other = own == node.field_begin ? own + 1 : node.field_begin;
       const auto field = [&](int f) { return list_.fields[static_cast<std::size_t>(f)].field; };
-      if (spec_.normal == NormalKind::specified) {
+      if (spec_.normal ==
+          NormalKind::specified) {  // into the rigid body, else from the lower field to the higher
+        const double sign = node.rigid >= 0 || field(own) < field(other) ? 1.0 : -1.0;
         for (int d = 0; d < Dim; ++d)
-          entry.normal[d] =
-              (field(own) < field(other) ? 1.0 : -1.0) * spec_.specified_normal[static_cast<std::size_t>(d)];
+          entry.normal[d] = sign * spec_.specified_normal[static_cast<std::size_t>(d)];
         continue;
       }
       // A volume gradient points out of its own material: from a to the rest is g_a − g_b (N20 Eq. 13).
@@ -203,17 +206,27 @@ void Contact<Dim>::resolve_law(State<Dim>& state, const Law& law, Correction cor
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
   for (std::int64_t k = 0; k < n; ++k)
     resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
-  friction_work_ = 0;
-  rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());
-  if (correction == Correction::initial) return;
+  if (correction == Correction::initial) {
+    friction_work_ = rigid_work_ = 0;
+    rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());
+    if (!first_correction_stays_) return;
+  }
+  book(state);
+}
+
+/// Adds up, in a fixed order, what the particles will keep of a correction.
+template <int Dim>
+void Contact<Dim>::book(const State<Dim>& state) {
+  const double* mass = state.nodes.column(Nodal::mass);
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       // In a lump, each touching pair is seen from both sides.
       friction_work_ += (entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5) * entry.friction_work;
       if (node.rigid < 0) continue;
-      const int field = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)].field;
+      const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
       rigid_impulse_[static_cast<std::size_t>(field)] -= entry.impulse;
+      rigid_work_ += entry.impulse.dot(state.nodes.vector(Nodal::momentum, slot)) / mass[slot];
     }
 }
 

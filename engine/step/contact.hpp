@@ -17,8 +17,12 @@ enum class Correction { initial, final };
 template <int Dim>
 class Contact {
  public:
-  Contact(const ContactSpec& spec, bool keep_velocity_change)
-      : spec_(spec), keep_velocity_change_(keep_velocity_change) {}
+  /// @param keep_velocity_change  XPIC wants Δv of the first correction
+  /// @param first_correction_stays  particles keep the impulse of the first correction: it is booked too
+  Contact(const ContactSpec& spec, bool keep_velocity_change, bool first_correction_stays)
+      : spec_(spec),
+        keep_velocity_change_(keep_velocity_change),
+        first_correction_stays_(first_correction_stays) {}
 
   /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
   void find_nodes(const State<Dim>& state);
@@ -32,13 +36,16 @@ class Contact {
 
   const ContactList<Dim>& list() const { return list_; }
   double friction_work() const { return friction_work_; }  ///< J, of the last step
+  /// Work that rigid bodies did on the others in the last step, J.
+  double rigid_work() const { return rigid_work_; }
   const std::vector<Vec<Dim>>& rigid_impulse() const {
     return rigid_impulse_;
   }  ///< N s, by field, of the last step
 
  private:
   void list_stack(const State<Dim>& state, int stack);
-  void add_entries(ContactNode<Dim>& node, const double* mass);
+  void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
+  void book(const State<Dim>& state);
   void remember_touching();
   void recall_touching(const State<Dim>& state);
   void grid_normals(const State<Dim>& state);
@@ -52,12 +59,12 @@ class Contact {
                           const ContactEntry<Dim>& entry) const;
 
   ContactSpec spec_;
-  bool keep_velocity_change_;
+  bool keep_velocity_change_, first_correction_stays_;
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;  ///< of the entries, kept for the hysteresis
   std::vector<std::uint64_t>
       touching_;  ///< keys of the entries in contact at the end of the last step, ascending
-  double friction_work_ = 0;
+  double friction_work_ = 0, rigid_work_ = 0;
   std::vector<Vec<Dim>> rigid_impulse_;
 };
 

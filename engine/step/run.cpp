@@ -76,13 +76,15 @@ class Run {
     last_report_ = start_;
     try {
       loop();
-    } catch (const RunFailure& failure) {
-      finish("failed", failure.what());
+    } catch (const std::exception& failure) {
+      keep_what_there_is(failure.what());
       throw;
     }
-    return finish(stopped_ ? "stopped" : "finished", stopped_                    ? "signal"
-                                                     : step_.state().time < end_ ? "steps"
-                                                                                 : "");
+    if (last_row_step_ != step_.state().step) write_row(dt_);
+    if (last_frame_step_ != step_.state().step) write_frame();
+    draw("last");
+    const bool ended = step_.state().time >= end_ * (1 - 1e-12);
+    return summarise(stopped_ ? "stopped" : "finished", stopped_ ? "signal" : ended ? "" : "steps");
   }
 
  private:
@@ -184,12 +186,24 @@ class Run {
     options_.progress(p);
   }
 
-  RunSummary finish(const std::string& status, const std::string& reason) {
+  /// After a failure: run.json first, then a last frame and pictures of the half-made step, if they can be
+  /// made. The history ends with the last whole row.
+  void keep_what_there_is(const std::string& reason) {
+    const auto attempt = [](auto f) {
+      try {
+        f();
+      } catch (const std::exception&) {  // the failure itself is what the user must hear of
+      }
+    };
+    attempt([&] { summarise("failed", reason); });
+    attempt([&] { write_frame(); });
+    attempt([&] { draw("last"); });
+  }
+
+  RunSummary summarise(const std::string& status, const std::string& reason) {
     const auto& state = step_.state();
-    if (last_row_step_ != state.step) write_row(dt_);
-    if (last_frame_step_ != state.step) write_frame();
-    draw("last");
     RunSummary s;
+    s.resolved_yaml = scene_.resolved_yaml;
     s.scene_name = scene_.file.filename().string();
     s.status = status;
     s.reason = reason;

@@ -22,7 +22,7 @@ Step<Dim>::Step(const Scene& scene)
       plan_(make_plan(scene)),
       passes_(make_passes<Dim>(scene.method.basis)),
       conditions_(scene),
-      contact_(scene.contact, plan_.paired) {
+      contact_(scene.contact, plan_.paired, plan_.first_correction_stays) {
   seed(scene, plan_, state_);
   // Below a thousand particles a thread, waiting for each other costs more than the work.
   state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
@@ -159,7 +159,14 @@ void Step<Dim>::start_velocities() {
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
 }
 
-/// f += m g(t), g ramped from zero. Its work is booked with v⁺ in end_velocities.
+template <int Dim>
+bool Step<Dim>::is_rigid_slot(std::int64_t slot) const {
+  const auto tile = static_cast<std::size_t>(slot / kTileNodes<Dim>);
+  return state_.field_rigid[static_cast<std::size_t>(state_.tiling.node_tiles[tile].field)];
+}
+
+/// f += m g(t), g ramped from zero; rigid bodies move as they are told. Its work is booked with v⁺ in
+/// end_velocities.
 template <int Dim>
 void Step<Dim>::add_body_force(double dt) {
   if (!plan_.gravity) return;
@@ -172,7 +179,8 @@ void Step<Dim>::add_body_force(double dt) {
     gravity_[d] = g;
     double* f = state_.nodes.column(Nodal::force, d);
     for_each_slot([&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i) f[i] += mass[i] * g;
+      for (std::int64_t i = begin; i < end; ++i)
+        if (!is_rigid_slot(i)) f[i] += mass[i] * g;
     });
   }
 }
@@ -312,6 +320,7 @@ void Step<Dim>::book(double dt) {
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) {
     sums_.friction_work += contact_.friction_work();
+    sums_.boundary_work += contact_.rigid_work();
     for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f)
       sums_.rigid_impulse[f] += contact_.rigid_impulse()[f];
   }
@@ -321,7 +330,8 @@ void Step<Dim>::book(double dt) {
     for (int d = 0; d < Dim; ++d) {
       const double *v = state_.nodes.column(Nodal::velocity, d), *jump = state_.nodes.column(Nodal::force, d);
       double sum = 0;
-      for (int i = 0; i < state_.tiling.slots(); ++i) sum += mass[i] * (v[i] - 0.5 * jump[i]);
+      for (int i = 0; i < state_.tiling.slots(); ++i)
+        if (!is_rigid_slot(i)) sum += mass[i] * (v[i] - 0.5 * jump[i]);
       power += gravity_[d] * sum;
     }
     sums_.body_force_work += power * dt;

@@ -51,6 +51,7 @@ class Step {
   void project();
   void find_contact();
   void start_velocities();
+  bool is_rigid_slot(std::int64_t slot) const;
   void add_body_force(double dt);
   void update_momenta(double dt);
   void end_velocities(double dt);

@@ -91,21 +91,24 @@ struct LcpdiBasis {
     return place_in_window<Dim, K>(first, g, out.first);
   }
 
-  /// 3 nodes a side while every domain of the chunk spans at most two cells, else 4.
+  /// 3 nodes a side while every domain of the chunk spans at most two cells, else 4. The lanes beyond the
+  /// chunk must not count: another thread may be moving those particles, and sums over 3 and over 4 nodes
+  /// round differently.
   static int chunk_support(const ChunkGeometry<Dim>& g) {
-    Lanes span = broadcast<Lanes>(0.0);
+    IntLanes lane;
+    for (int i = 0; i < kLanes; ++i) lane[i] = i;
+    IntLanes wide{};
     for (int k = 0; k < g.count; k += kLanes) {
       Lanes r[Dim], edge[Dim][Dim];
       centre_and_edges(g, k, r, edge);
+      const IntLanes counts = lane < static_cast<std::int64_t>(g.count - k);
       for (int d = 0; d < Dim; ++d) {
         Lanes extent = broadcast<Lanes>(0.0);
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
-        span = larger(span, floor_of(r[d] + extent) - floor_of(r[d] - extent));
+        wide |= counts & (floor_of(r[d] + extent) - floor_of(r[d] - extent) > 1.0);
       }
     }
-    for (int i = 0; i < kLanes; ++i)
-      if (span[i] > 1.0) return 4;
-    return 3;
+    return any_of(wide) ? 4 : 3;
   }
 
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {

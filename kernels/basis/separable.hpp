@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic B-spline.
-/// To add one: a struct with kSupport, first_node and weights, and a line in engine/step/dispatch.hpp.
+/// To add one: a struct with kSupport, first_node and weights, and a line in engine/step/passes.cpp.
 
 #include <cmath>
 

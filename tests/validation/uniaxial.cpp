@@ -22,13 +22,16 @@ double error(const History& history, const History& reference, double limit) {
   const auto &time = history.at("time_s"), &stress = history.at("all.mean_stress_yy_Pa");
   const auto &t = reference.at("time_s"), &s = reference.at("all.mean_stress_yy_Pa");
   double largest = 0;
+  int samples = 0;
   for (std::size_t k = 0; k < time.size(); ++k) {
     if (strain_of(time[k]) < 0.01 || strain_of(time[k]) > limit) continue;
     const auto at = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), time[k]) - t.begin());
     if (at == 0 || at == t.size()) continue;
     const double share = (time[k] - t[at - 1]) / (t[at] - t[at - 1]);
     largest = std::max(largest, std::abs(stress[k] / (s[at - 1] + share * (s[at] - s[at - 1])) - 1));
+    ++samples;
   }
+  REQUIRE(samples > 30);
   return largest;
 }
 

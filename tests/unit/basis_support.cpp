@@ -1,0 +1,30 @@
+// What a chunk's support depends on, and on what not.
+
+#include <doctest/doctest.h>
+
+#include "kernels/basis/lcpdi.hpp"
+
+namespace mpmfast {
+namespace {
+
+TEST_CASE(
+    "particles beyond the end of a chunk do not choose its support: another thread may be moving them") {
+  constexpr int kRoom = 4 * kLanes;
+  alignas(64) double x[2][kRoom], edge[4][kRoom];
+  for (int k = 0; k < kRoom; ++k) {
+    x[0][k] = x[1][k] = 2.5;
+    edge[0][k] = edge[3][k] = k < 3 ? 0.25 : 0.99;  // narrow in the chunk, wide after it
+    edge[1][k] = edge[2][k] = 0;
+  }
+  ChunkGeometry<2> g{};
+  for (int d = 0; d < 2; ++d) g.position[d] = x[d];
+  for (int e = 0; e < 4; ++e) g.edge[e] = edge[e];
+  g.inverse_cell = 1;
+  g.count = 3;
+  CHECK(LcpdiBasis<2>::chunk_support(g) == 3);
+  g.count = 4;
+  CHECK(LcpdiBasis<2>::chunk_support(g) == 4);
+}
+
+}  // namespace
+}  // namespace mpmfast
