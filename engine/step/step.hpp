@@ -28,6 +28,7 @@ class Step {
  public:
   /// Seeds the scene. Throws SceneError.
   explicit Step(const Scene& scene);
+  explicit Step(Scene&&) = delete;  ///< the scene must outlive the step
 
   /// The stable time step now: C Δx / max(c + |v|), s.
   double stable_dt() const;

@@ -57,7 +57,7 @@ class Vtu {
     }
     REQUIRE(bytes.size() % sizeof(T) == 0);
     std::vector<T> values(bytes.size() / sizeof(T));
-    std::memcpy(values.data(), bytes.data(), bytes.size());
+    if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
     return values;
   }
   const std::string& text() const { return text_; }

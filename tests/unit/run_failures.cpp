@@ -71,11 +71,13 @@ TEST_CASE("a particle that is turned inside out is named") {
 }
 
 TEST_CASE("a body without particles, or one outside the grid, is a scene error before anything is written") {
-  CHECK_THROWS_AS(
-      Step<2>(scene_from(
-          kThrown,
-          {{"bodies.0", "{name: dust, disk: {centre: [5.01 mm, 5.01 mm], radius: 0.001 mm}, material: m}"}})),
-      SceneError);
+  const auto dust = [](const std::string& centre) {
+    return scene_from(kThrown, {{"bodies.0", "{name: dust, disk: {centre: " + centre +
+                                                 ", radius: 0.001 mm}, material: m}"}});
+  };
+  const Scene empty = dust("[5.01 mm, 5.01 mm]");
+  CHECK_THROWS_AS(Step<2>{empty}, SceneError);
+  CHECK_THROWS_AS(dust("[15 mm, 5 mm]"), SceneError);
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ method: {update: flip}
 
 template <int Dim>
 void check_rigid_floor(const std::string& yaml, double weight) {
-  Step<Dim> step(scene_from(yaml));
+  const Scene scene = scene_from(yaml);
+  Step<Dim> step(scene);
   const auto floor_particles = by_id(step.state().particles, Quantity::position);
   // Two periods of the slowly loaded block's oscillation are averaged.
   while (step.state().time < 6e-3) step.advance(step.stable_dt());

@@ -32,7 +32,8 @@ bodies:
 
 template <int Dim>
 void check_momentum(const std::vector<Override>& overrides) {
-  Step<Dim> step(scene_from(impact(Dim), overrides));
+  const Scene scene = scene_from(impact(Dim), overrides);
+  Step<Dim> step(scene);
   const Vec<Dim> before = momentum(step.state().particles);
   double scale = 0;
   for (std::size_t p = 0; p < step.state().particles.size(); ++p)
