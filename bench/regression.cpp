@@ -58,7 +58,7 @@ void fit(benchmark::State& state) {
   std::size_t next = 0;
   std::int64_t steps = 0;
   for (auto _ : state) {
-    auto fitted = fit_normal<Dim>(clouds[next].view(), 1e-7);
+    auto fitted = fit_normal<Dim>(clouds[next].view(), {.penalty = 1e-7});
     benchmark::DoNotOptimize(fitted);
     steps += fitted.iterations;
     next = (next + 1) % draws;

@@ -33,6 +33,32 @@ void plan_fields(const Scene& scene, Plan& plan) {
   }
 }
 
+/// What normals, separations and screening take from the grid.
+void plan_contact_columns(const ContactSpec& contact, Plan& plan) {
+  const auto need = [&](Nodal q) {
+    plan.geometry = true;
+    plan.nodal_columns.push_back(q);
+  };
+  const bool gradients =
+      contact.normal == NormalKind::average_gradient || contact.normal == NormalKind::max_gradient ||
+      contact.normal == NormalKind::max_volume || contact.normal == NormalKind::own_gradient;
+  if (gradients || contact.rigid_bias > 0) need(Nodal::volume_gradient);
+  if (contact.normal == NormalKind::max_volume || contact.volume_screen > 0) need(Nodal::volume);
+  switch (contact.separation) {
+    case SeparationKind::position_offset:
+    case SeparationKind::position_power:
+    case SeparationKind::position_piecewise:
+      need(Nodal::mass_position);
+      break;
+    case SeparationKind::displacement:
+      need(Nodal::mass_displacement);
+      plan.particle_columns.push_back(Quantity::reference_position);
+      break;
+    default:
+      break;
+  }
+}
+
 void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
@@ -41,17 +67,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
-  const bool acts = scene.contact.law != LawKind::perfect;
-  if (plan.contact && acts && scene.contact.normal == NormalKind::average_gradient) {
-    plan.geometry = true;
-    plan.nodal_columns.push_back(Nodal::volume_gradient);
-  }
-  if (plan.contact && acts &&
-      (scene.contact.separation == SeparationKind::position_offset ||
-       scene.contact.separation == SeparationKind::position_power)) {
-    plan.geometry = true;
-    plan.nodal_columns.push_back(Nodal::mass_position);
-  }
+  if (plan.contact && scene.contact.law != LawKind::perfect) plan_contact_columns(scene.contact, plan);
 }
 
 void list_passes(const Scene& scene, Plan& plan) {

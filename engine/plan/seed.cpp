@@ -93,6 +93,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     for (const Vec3& x : seeds[b].position) {
       for (int d = 0; d < Dim; ++d) {
         particles.column(Quantity::position, d)[p] = x[static_cast<std::size_t>(d)];
+        if (particles.has(Quantity::reference_position))
+          particles.column(Quantity::reference_position, d)[p] = x[static_cast<std::size_t>(d)];
         particles.column(Quantity::velocity, d)[p] = scene.bodies[b].velocity[static_cast<std::size_t>(d)];
         particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
       }

@@ -39,8 +39,8 @@ std::vector<CatalogueEntry> boundaries() {
 }  // namespace
 
 std::vector<std::string> catalogue_topics() {
-  return {"materials",   "bases", "updates", "strains",    "positions", "normals",
-          "separations", "laws",  "shapes",  "boundaries", "pictures"};
+  return {"materials",   "bases",      "updates", "strains", "positions",  "normals",
+          "separations", "detections", "laws",    "shapes",  "boundaries", "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -51,6 +51,7 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "positions") return words_of(kPositions);
   if (topic == "normals") return words_of(kNormals);
   if (topic == "separations") return words_of(kSeparations);
+  if (topic == "detections") return words_of(kDetections);
   if (topic == "laws") return words_of(kLaws);
   if (topic == "shapes") return kinds_of(shape_kinds());
   if (topic == "boundaries") return boundaries();

@@ -48,22 +48,43 @@ inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
     {PositionKind::particle, "particle", "particles move with their new velocity"},
 }};
 
-inline constexpr std::array<Word<NormalKind>, 4> kNormals{{
+inline constexpr std::array<Word<NormalKind>, 9> kNormals{{
     {NormalKind::logistic_regression, "logistic_regression",
      "the plane that best parts the particles (default)"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
      "the same with penalty 1 and an advanced separation: normals vary slowly"},
+    {NormalKind::logistic_irls, "logistic_irls", "the same by maximum likelihood (reweighted least squares)"},
+    {NormalKind::linear_regression, "linear_regression", "the plane by linear regression alone"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},
+    {NormalKind::max_gradient, "max_gradient", "the steeper of the two volume gradients"},
+    {NormalKind::max_volume, "max_volume", "the volume gradient of the field with more volume on the node"},
+    {NormalKind::own_gradient, "own_gradient",
+     "each field by its own volume gradient; momentum is not conserved"},
     {NormalKind::specified, "specified", "specified_normal, from the lower-numbered field to the higher"},
 }};
 
-inline constexpr std::array<Word<SeparationKind>, 4> kSeparations{{
-    {SeparationKind::ellipsoid, "ellipsoid", "gap between the particles' domains along the normal"},
+inline constexpr std::array<Word<SeparationKind>, 8> kSeparations{{
+    {SeparationKind::ellipsoid, "ellipsoid",
+     "gap between the particles' ellipsoids, radii straight along the normal (default)"},
+    {SeparationKind::ellipsoid_support, "ellipsoid_support",
+     "the same with the ellipsoids' full extent along the normal"},
+    {SeparationKind::parallelogram_support, "parallelogram_support",
+     "the same with the extent of the deformed domains"},
+    {SeparationKind::displacement, "displacement",
+     "difference of extrapolated displacements: for bodies that touch at the start"},
     {SeparationKind::position_offset, "position_offset",
      "gap of extrapolated positions less position_offset cells"},
     {SeparationKind::position_power, "position_power",
      "the same with a power law fitted to an edge's position"},
+    {SeparationKind::position_piecewise, "position_piecewise",
+     "the same, linear where that is exact; for piecewise_particles = 1 or 2 a cell side"},
     {SeparationKind::none, "none", "fields that approach are in contact"},
+}};
+
+inline constexpr std::array<Word<DetectionKind>, 3> kDetections{{
+    {DetectionKind::both, "both", "surfaces that approach and overlap (default)"},
+    {DetectionKind::velocity, "velocity", "surfaces that approach, near or far"},
+    {DetectionKind::separation, "separation", "surfaces that overlap, also where they part: they stick"},
 }};
 
 inline constexpr std::array<Word<LawKind>, 5> kLaws{{

@@ -60,37 +60,4 @@ void read_method(MapReader& top, MethodSpec& method) {
   map.finish();
 }
 
-void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
-  const auto section = top.find("contact");
-  if (!section) return;
-  if (section->is_word("none")) {
-    contact.active = false;
-    return;
-  }
-  MapReader map(*section, "none or a map {law, friction, normal, separation, …}");
-  map.word("normal", kNormals, contact.normal);
-  if (contact.normal == NormalKind::smoothed_logistic_regression) {
-    contact.penalty = 1;
-    contact.advance_separation = true;
-  }
-  if (contact.normal == NormalKind::average_gradient) contact.separation = SeparationKind::position_offset;
-  const auto normal = contact.normal == NormalKind::specified ? map.need("specified_normal", "a vector")
-                                                              : map.find("specified_normal");
-  if (const auto vector = normal ? normal->vector(Measure::number, dimension) : std::nullopt) {
-    const auto unit = unit_vector(*vector);
-    if (!unit) normal->report("the zero vector has no direction");
-    contact.specified_normal = unit.value_or(Vec3{});
-  }
-  constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
-  map.word("separation", kSeparations, contact.separation);
-  map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
-  map.word("law", kLaws, contact.law);
-  map.quantity("friction", Measure::number, kNotNegative, contact.friction);
-  map.quantity("penalty", Measure::number, kNotNegative, contact.penalty);
-  map.boolean("advance_separation", contact.advance_separation);
-  map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
-  map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
-  map.finish();
-}
-
 }  // namespace mpmfast

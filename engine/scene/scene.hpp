@@ -24,8 +24,29 @@ enum class UpdateKind { flip, pic, xpic };
 enum class StrainKind { first, last, average };
 /// How XPIC and PIC move particles: with the grid's midpoint velocity, with ½(V_old + V_new), with V_new.
 enum class PositionKind { grid, trapezoid, particle };
-enum class NormalKind { logistic_regression, smoothed_logistic_regression, average_gradient, specified };
-enum class SeparationKind { ellipsoid, position_offset, position_power, none };
+enum class NormalKind {
+  logistic_regression,
+  smoothed_logistic_regression,
+  logistic_irls,
+  linear_regression,
+  average_gradient,
+  max_gradient,
+  max_volume,
+  own_gradient,
+  specified
+};
+enum class SeparationKind {
+  ellipsoid,
+  ellipsoid_support,
+  parallelogram_support,
+  displacement,
+  position_offset,
+  position_power,
+  position_piecewise,
+  none
+};
+/// What makes two fields of a node touch: both their approach and their separation, or one alone.
+enum class DetectionKind { both, velocity, separation };
 enum class LawKind { coulomb, frictionless, stick, perfect, ignore };
 
 /// A quantity tabulated in time: linear between the points, constant before the first and after the last.
@@ -144,9 +165,19 @@ struct ContactSpec {
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;
   double position_offset = 0.8;  ///< c of `position_offset`, in cells
+  int piecewise_particles = 2;   ///< particles a cell side that `position_piecewise` is made for: 1 or 2
+  DetectionKind detection = DetectionKind::both;
   LawKind law = LawKind::coulomb;
-  double friction = 0;              ///< Coulomb coefficient
-  double penalty = 1e-7;            ///< λ of the regression in cell units
+  double friction = 0;        ///< Coulomb coefficient
+  double penalty = 1e-7;      ///< λ of the regression in cell units
+  double offset_penalty = 0;  ///< the same on its offset (NN §3.4.5)
+  double tolerance = 1e-5;    ///< on 1 − n'·n, where the regression stops
+  int max_iterations = 15;    ///< of the regression
+  bool warm_start = false;    ///< regressions start from the last step's plane
+  /// Rigid bodies give the normal by their gradient unless it is this factor smaller than the other's; ≥ 10:
+  /// in place of a regression too (NN §3.5). 0: off.
+  double rigid_bias = 0;
+  double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
   double hysteresis = 0;            ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
@@ -178,6 +209,12 @@ struct Scene {
   std::string resolved_yaml;  ///< the scene with every default written out; reading it gives this scene again
   int dimension() const { return space == Space::three_dimensional ? 3 : 2; }
 };
+
+/// Volume of a grid cell, m³.
+inline double cell_volume(const Scene& scene) {
+  const double h = scene.grid.cell;
+  return scene.dimension() == 3 ? h * h * h : h * h * scene.thickness;
+}
 
 /// Is the body made of a rigid material?
 inline bool is_rigid(const Scene& scene, const BodySpec& body) {

@@ -236,12 +236,18 @@ std::string contact_text(const ContactSpec& contact, int d) {
   if (contact.specified_normal != Vec3{}) {
     out += fmt::format("  specified_normal: {}\n", vector_text(contact.specified_normal, Measure::number, d));
   }
+  out += fmt::format("  separation: {}\n  position_offset: {}\n  piecewise_particles: {}\n  detection: {}\n",
+                     name_of(kSeparations, contact.separation), contact.position_offset,
+                     contact.piecewise_particles, name_of(kDetections, contact.detection));
+  out += fmt::format("  law: {}\n  friction: {}\n", name_of(kLaws, contact.law), contact.friction);
+  out += fmt::format(
+      "  penalty: {}\n  offset_penalty: {}\n  tolerance: {}\n  max_iterations: {}\n  warm_start: {}\n",
+      contact.penalty, contact.offset_penalty, contact.tolerance, contact.max_iterations, contact.warm_start);
   return out + fmt::format(
-                   "  separation: {}\n  position_offset: {}\n  law: {}\n  friction: {}\n  penalty: {}\n"
-                   "  advance_separation: {}\n  hysteresis: {}\n  mass_screen: {}\n",
-                   name_of(kSeparations, contact.separation), contact.position_offset,
-                   name_of(kLaws, contact.law), contact.friction, contact.penalty, contact.advance_separation,
-                   contact.hysteresis, contact.mass_screen);
+                   "  rigid_bias: {}\n  advance_separation: {}\n  hysteresis: {}\n  mass_screen: {}\n"
+                   "  volume_screen: {}\n",
+                   contact.rigid_bias, contact.advance_separation, contact.hysteresis, contact.mass_screen,
+                   contact.volume_screen);
 }
 
 }  // namespace

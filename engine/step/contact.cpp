@@ -1,10 +1,9 @@
 #include "engine/step/contact.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <cstring>
 
 #include "kernels/contact/laws.hpp"
-#include "kernels/contact/separation.hpp"
 
 namespace mpmfast {
 
@@ -21,7 +20,8 @@ struct Side {
 
 template <int Dim>
 void Contact<Dim>::find_nodes(const State<Dim>& state) {
-  if (spec_.hysteresis > 0) remember_touching();
+  const bool memory = spec_.hysteresis > 0 || spec_.warm_start;
+  if (memory) remember();
   list_.nodes.clear();
   list_.fields.clear();
   list_.entries.clear();
@@ -31,7 +31,7 @@ void Contact<Dim>::find_nodes(const State<Dim>& state) {
     if (stack.end - stack.begin > 1) list_stack(state, s);
   }
   list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, list_.nodes.size());
-  if (spec_.hysteresis > 0) recall_touching(state);
+  if (memory) recall(state);
 }
 
 template <int Dim>
@@ -65,6 +65,16 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
   }
 }
 
+/// Is there too little material on the node for a normal to be trusted (DC)?
+template <int Dim>
+bool Contact<Dim>::is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const {
+  if (!state.nodes.has(Nodal::volume) || spec_.volume_screen <= 0) return false;
+  double volume = 0;
+  for (int f = node.field_begin; f < node.field_end; ++f)
+    volume += state.nodes.column(Nodal::volume)[list_.fields[static_cast<std::size_t>(f)].slot];
+  return volume < spec_.volume_screen * cell_volume_;
+}
+
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
 /// rest. Of several rigid bodies on a node, the one with the most mass there counts.
 template <int Dim>
@@ -76,6 +86,8 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
   // Tied fields must move as one to the last node (the perfect interface is exact).
   const double screen = spec_.law == LawKind::perfect ? 0 : spec_.mass_screen;
+  const bool own_normals = spec_.normal == NormalKind::own_gradient;
+  if (is_screened(state, node)) return;
   double total = 0;
   for (int k = 0; k < fields; ++k) {
     total += mass_of(k);
@@ -87,99 +99,37 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
     if (is_rigid(k)) continue;
     if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) continue;
     entry.a = k;
-    entry.b = fields == 2 ? 1 - k : -1;
+    entry.b = fields == 2 && !own_normals ? 1 - k : -1;
     list_.entries.push_back(entry);
-    if (fields == 2) return;
+    if (entry.b >= 0) return;
+  }
+}
+
+/// What the next step wants to know of this one's entries.
+template <int Dim>
+void Contact<Dim>::remember() {
+  memory_.clear();
+  for (std::size_t k = 0; k < list_.entries.size(); ++k) {
+    const auto& entry = list_.entries[k];
+    Memory m{keys_[k], entry.touching, {}};
+    std::memcpy(m.plane, entry.plane, sizeof m.plane);
+    memory_.push_back(m);
   }
 }
 
 template <int Dim>
-std::uint64_t Contact<Dim>::entry_key(const State<Dim>& state, const ContactNode<Dim>& node,
-                                      const ContactEntry<Dim>& entry) const {
-  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
-  const auto place =
-      static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
-  const int field = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
-  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) *
-             static_cast<std::uint64_t>(state.fields()) +
-         static_cast<std::uint64_t>(field);
-}
-
-template <int Dim>
-void Contact<Dim>::remember_touching() {
-  touching_.clear();
-  for (std::size_t k = 0; k < list_.entries.size(); ++k)
-    if (list_.entries[k].touching) touching_.push_back(keys_[k]);
-}
-
-template <int Dim>
-void Contact<Dim>::recall_touching(const State<Dim>& state) {
+void Contact<Dim>::recall(const State<Dim>& state) {
   keys_.clear();
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      keys_.push_back(entry_key(state, node, entry));
-      entry.touched = std::binary_search(touching_.begin(), touching_.end(), keys_.back());
-    }
-}
-
-template <int Dim>
-void Contact<Dim>::find_geometry(State<Dim>& state, Passes<Dim>& passes) {
-  if (list_.nodes.empty() || spec_.law == LawKind::perfect || spec_.law == LawKind::ignore) return;
-  if (spec_.normal == NormalKind::specified || spec_.normal == NormalKind::average_gradient)
-    grid_normals(state);
-  if (spec_.separation == SeparationKind::none)
-    for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
-  passes.fit_contact(state, spec_, list_);
-  if (state.nodes.has(Nodal::mass_position)) grid_separations(state);
-}
-
-template <int Dim>
-void Contact<Dim>::grid_normals(const State<Dim>& state) {
-  for (const auto& node : list_.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      const int own = node.field_begin + entry.a,
-                other = own == node.field_begin ? own + 1 : node.field_begin;
-      const auto field = [&](int f) { return list_.fields[static_cast<std::size_t>(f)].field; };
-      if (spec_.normal ==
-          NormalKind::specified) {  // into the rigid body, else from the lower field to the higher
-        const double sign = node.rigid >= 0 || field(own) < field(other) ? 1.0 : -1.0;
-        for (int d = 0; d < Dim; ++d)
-          entry.normal[d] = sign * spec_.specified_normal[static_cast<std::size_t>(d)];
-        continue;
-      }
-      // A volume gradient points out of its own material: from a to the rest is g_a − g_b (N20 Eq. 13).
-      Vec<Dim> sum = Vec<Dim>::Zero();
-      for (int f = node.field_begin; f < node.field_end; ++f)
-        sum += (f == own ? 1.0 : -1.0) *
-               state.nodes.vector(Nodal::volume_gradient, list_.fields[static_cast<std::size_t>(f)].slot);
-      const double length = sum.norm();
-      if (length > 0) entry.normal = sum / length;
-    }
-}
-
-template <int Dim>
-void Contact<Dim>::grid_separations(const State<Dim>& state) {
-  const double* mass = state.nodes.column(Nodal::mass);
-  for (const auto& node : list_.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      Side<Dim> own, rest;  // first moments in place of momenta
-      for (int f = node.field_begin; f < node.field_end; ++f) {
-        const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
-        Side<Dim>& side = f - node.field_begin == entry.a ? own : rest;
-        side.mass += mass[slot];
-        side.momentum += state.nodes.vector(Nodal::mass_position, slot);
-      }
-      const auto ahead = [&](const Side<Dim>& side) {  // e = (x − x_i)·n in cells
-        return (side.momentum / (side.mass * state.grid.cell) - node.node.template cast<double>())
-            .dot(entry.normal);
-      };
-      entry.separation =
-          state.grid.cell * (spec_.separation == SeparationKind::position_offset
-                                 ? position_offset(ahead(own), ahead(rest), spec_.position_offset)
-                                 : position_power(ahead(own), ahead(rest)));
+      const std::uint64_t key = entry_key(state, list_, node, entry);
+      keys_.push_back(key);
+      const auto last = std::lower_bound(memory_.begin(), memory_.end(), key,
+                                         [](const Memory& m, std::uint64_t k) { return m.key < k; });
+      if (last == memory_.end() || last->key != key) continue;
+      entry.touched = last->touching;
+      std::memcpy(entry.plane, last->plane, sizeof entry.plane);
     }
 }
 

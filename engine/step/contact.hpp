@@ -19,10 +19,12 @@ class Contact {
  public:
   /// @param keep_velocity_change  XPIC wants Δv of the first correction
   /// @param first_correction_stays  particles keep the impulse of the first correction: it is booked too
-  Contact(const ContactSpec& spec, bool keep_velocity_change, bool first_correction_stays)
+  /// @param cell_volume  m³
+  Contact(const ContactSpec& spec, bool keep_velocity_change, bool first_correction_stays, double cell_volume)
       : spec_(spec),
         keep_velocity_change_(keep_velocity_change),
-        first_correction_stays_(first_correction_stays) {}
+        first_correction_stays_(first_correction_stays),
+        cell_volume_(cell_volume) {}
 
   /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
   void find_nodes(const State<Dim>& state);
@@ -46,24 +48,30 @@ class Contact {
   void list_stack(const State<Dim>& state, int stack);
   void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
   void book(const State<Dim>& state);
-  void remember_touching();
-  void recall_touching(const State<Dim>& state);
+  bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  void remember();
+  void recall(const State<Dim>& state);
   void grid_normals(const State<Dim>& state);
+  void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   void grid_separations(const State<Dim>& state);
   template <class Law>
   void resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt);
   template <class Law>
   void resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt,
                     const ContactNode<Dim>& node);
-  std::uint64_t entry_key(const State<Dim>& state, const ContactNode<Dim>& node,
-                          const ContactEntry<Dim>& entry) const;
+  /// What is kept of an entry until the next step.
+  struct Memory {
+    std::uint64_t key;
+    bool touching;
+    double plane[Dim + 1];
+  };
 
   ContactSpec spec_;
   bool keep_velocity_change_, first_correction_stays_;
+  double cell_volume_;
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;  ///< of the entries, kept for the hysteresis
-  std::vector<std::uint64_t>
-      touching_;  ///< keys of the entries in contact at the end of the last step, ascending
+  std::vector<std::uint64_t> keys_;  ///< of the entries, ascending
+  std::vector<Memory> memory_;       ///< of the last step, in order of the keys
   double friction_work_ = 0, rigid_work_ = 0;
   std::vector<Vec<Dim>> rigid_impulse_;
 };

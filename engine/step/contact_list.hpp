@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/state/state.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -21,6 +22,8 @@ struct ContactEntry {
   int b;                     ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
   Vec<Dim> normal;           ///< unit, from a to the rest; zero: unknown, no contact
   double separation = 0;     ///< m, negative: overlap
+  double plane[Dim + 1]{};   ///< of the regression, cells; zero: none
+  bool settled = false;      ///< the normal is found: no regression
   bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
   bool touching = false;     ///< in contact at the last correction
   double friction_work = 0;  ///< J, of the last correction
@@ -48,5 +51,18 @@ struct ContactList {
   std::vector<int> node_at;  ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };
+
+/// Names an entry from step to step, in the order of the list: its node, then its field a.
+template <int Dim>
+std::uint64_t entry_key(const State<Dim>& state, const ContactList<Dim>& list, const ContactNode<Dim>& node,
+                        const ContactEntry<Dim>& entry) {
+  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
+  const auto place =
+      static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
+  const int field = list.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
+  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) *
+             static_cast<std::uint64_t>(state.fields()) +
+         static_cast<std::uint64_t>(field);
+}
 
 }  // namespace mpmfast

@@ -1,14 +1,17 @@
 #pragma once
 
-/// @file Normals by logistic regression and separations by deformed ellipsoids, for every contact entry.
+/// @file Normals by regression and separations by the particles' domains, for every contact entry.
 
 #include <omp.h>
 
 #include <algorithm>
+#include <cstring>
+#include <vector>
 
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
+#include "engine/step/smooth_normals.hpp"
 #include "kernels/contact/collect.hpp"
 #include "kernels/contact/regression.hpp"
 #include "kernels/contact/separation.hpp"
@@ -20,50 +23,129 @@ struct alignas(64) FitTally {
   std::uint64_t regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
 };
 
+/// What a scene's contact asks of the clouds.
+struct FitChoice {
+  bool regress, smooth, separate;
+  Extent extent;
+  RegressionRule rule;
+
+  explicit FitChoice(const ContactSpec& spec) {
+    smooth = spec.normal == NormalKind::smoothed_logistic_regression;
+    regress = smooth || spec.normal == NormalKind::logistic_regression ||
+              spec.normal == NormalKind::logistic_irls || spec.normal == NormalKind::linear_regression;
+    separate = spec.detection != DetectionKind::velocity &&
+               (spec.separation == SeparationKind::ellipsoid ||
+                spec.separation == SeparationKind::ellipsoid_support ||
+                spec.separation == SeparationKind::parallelogram_support);
+    extent = spec.separation == SeparationKind::ellipsoid_support       ? Extent::ellipsoid
+             : spec.separation == SeparationKind::parallelogram_support ? Extent::parallelepiped
+                                                                        : Extent::radial;
+    rule.fit = spec.normal == NormalKind::logistic_irls       ? Fit::likelihood
+               : spec.normal == NormalKind::linear_regression ? Fit::linear
+                                                              : Fit::least_squares;
+    rule.penalty = spec.penalty;
+    rule.offset_penalty = spec.offset_penalty;
+    rule.tolerance = spec.tolerance;
+    rule.max_iterations = spec.max_iterations;
+  }
+};
+
 template <int Dim, class Basis>
 class ContactFit {
  public:
-  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())), tally_(rooms_.size()) {
-    for (auto& room : rooms_) room.reserve(512);
-  }
+  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())), tally_(rooms_.size()) {}
 
   void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
-    ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
-    const bool smooth = spec.normal == NormalKind::smoothed_logistic_regression;
-    const bool regress = smooth || spec.normal == NormalKind::logistic_regression;
-    const bool ellipsoids = spec.separation == SeparationKind::ellipsoid;
+    const FitChoice choice(spec);
+    if (!choice.regress && !choice.separate) return;
+    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     std::fill(tally_.begin(), tally_.end(), FitTally{});
-    const auto n = static_cast<std::int64_t>(contact.nodes.size());
-    if (smooth) raw_.resize(contact.entries.size());
-    if (regress || ellipsoids) {
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
-      for (std::int64_t k = 0; k < n; ++k) {
-        const auto& node = contact.nodes[static_cast<std::size_t>(k)];
-        CloudRoom<Dim>& room = this_room();
-        collect(state, view, contact, node, room);
-        for (int e = node.entry_begin; e < node.entry_end; ++e) {
-          auto& entry = contact.entries[static_cast<std::size_t>(e)];
-          choose_sides(entry, room);
-          if (regress) fit(spec, room, entry);
-          if (smooth) raw_[static_cast<std::size_t>(e)] = entry.normal;
-          if (!smooth && ellipsoids) entry.separation = separation(state.grid.cell, room, entry.normal);
-        }
+    for (auto& room : rooms_) room.clouds.begin = 0;
+    if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
+    for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
+      collect(state, view, contact, node, room.clouds);
+      const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
+      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+        auto& entry = contact.entries[static_cast<std::size_t>(e)];
+        room.choose_sides(cloud, entry);
+        if (choice.regress && !entry.settled) fit(choice.rule, spec.warm_start, room.view(cloud), entry);
+        if (choice.smooth)
+          raw_[static_cast<std::size_t>(e)] = entry.normal;
+        else if (choice.separate)
+          entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
       }
-    }
-    if (smooth) smooth_normals(state, view, contact, ellipsoids);
-    for (const auto& t : tally_) {
-      contact.counters.regressions += t.regressions;
-      contact.counters.iterations += t.iterations;
-      contact.counters.fallbacks += t.fallbacks;
-      contact.counters.unconverged += t.unconverged;
-    }
+      if (!choice.smooth) return;
+      kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
+      room.clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
+    });
+    if (choice.smooth) smooth(state, choice, contact);
+    count(contact.counters);
   }
 
  private:
-  CloudRoom<Dim>& this_room() { return rooms_[static_cast<std::size_t>(omp_get_thread_num())]; }
+  /// What one thread works in.
+  struct Room {
+    CloudRoom<Dim> clouds;
+    std::vector<double> side, radius;  ///< class and half extent of the cloud in hand
 
-  void collect(const State<Dim>& state, ParticleView<Dim>& view, const ContactList<Dim>& contact,
-               const ContactNode<Dim>& node, CloudRoom<Dim>& room) const {
+    void choose_sides(const CloudColumns<Dim>& cloud, const ContactEntry<Dim>& entry) {
+      const auto needed = static_cast<std::size_t>(padded_count(cloud.count));
+      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
+      for (std::size_t k = 0; k < needed; ++k)
+        side[k] = cloud.owner[k] < 0 ? 0.0 : cloud.owner[k] == entry.a ? -1.0 : 1.0;
+    }
+
+    CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
+      CloudView<Dim> v;
+      for (int d = 0; d < Dim; ++d) v.xi[d] = cloud.xi[d];
+      v.side = side.data();
+      v.count = cloud.count;
+      return v;
+    }
+
+    /// N20 Eq. 24, cells.
+    double separation(Extent extent, const CloudColumns<Dim>& cloud, const Vec<Dim>& normal) {
+      switch (extent) {
+        case Extent::radial:
+          return separation<Extent::radial>(cloud, normal);
+        case Extent::ellipsoid:
+          return separation<Extent::ellipsoid>(cloud, normal);
+        case Extent::parallelepiped:
+          return separation<Extent::parallelepiped>(cloud, normal);
+      }
+      return 0;
+    }
+
+    template <Extent E>
+    double separation(const CloudColumns<Dim>& cloud, const Vec<Dim>& normal) {
+      for (int k = 0; k < cloud.count; k += kLanes) {
+        Lanes edge[Dim * Dim];
+        for (int e = 0; e < Dim * Dim; ++e) edge[e] = load_lanes(cloud.edge[e] + k);
+        store_lanes(&radius[static_cast<std::size_t>(k)], extent_along<E, Dim>(edge, normal));
+      }
+      return cloud_separation<Dim>(view(cloud), radius.data(), normal);
+    }
+  };
+
+  /// Where the cloud of a node was left.
+  struct Kept {
+    int thread, count;
+    std::size_t begin;
+  };
+
+  /// f(index, node, the thread's room), in parallel.
+  template <class F>
+  void for_each_node(const State<Dim>& state, const ContactList<Dim>& contact, F f) {
+    const auto n = static_cast<std::int64_t>(contact.nodes.size());
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
+    for (std::int64_t k = 0; k < n; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      f(at, contact.nodes[at], rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+    }
+  }
+
+  static void collect(const State<Dim>& state, const ParticleView<Dim>& view, const ContactList<Dim>& contact,
+                      const ContactNode<Dim>& node, CloudRoom<Dim>& room) {
     room.count = 0;
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const int slot = contact.fields[static_cast<std::size_t>(f)].slot;
@@ -75,29 +157,14 @@ class ContactFit {
         collect_tile<Dim, Basis>(c, node.node, f - node.field_begin, room);
       }
     }
-    room.reserve(room.count + kLanes);
-    for (int k = room.count; k < padded_count(room.count); ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      room.owner[at] = -1;
-      for (int d = 0; d < Dim; ++d) {
-        room.xi[d][at] = 0;
-        room.half_size[d][at] = 1;
-        for (int j = 0; j < Dim; ++j) room.deformation[Dim * d + j][at] = d == j ? 1 : 0;
-      }
-    }
+    room.pad();
   }
 
-  static void choose_sides(const ContactEntry<Dim>& entry, CloudRoom<Dim>& room) {
-    for (int k = 0; k < padded_count(room.count); ++k) {
-      const int owner = room.owner[static_cast<std::size_t>(k)];
-      room.side[static_cast<std::size_t>(k)] = owner < 0 ? 0.0 : owner == entry.a ? -1.0 : 1.0;
-    }
-  }
-
-  void fit(const ContactSpec& spec, const CloudRoom<Dim>& room, ContactEntry<Dim>& entry) {
-    const Regression<Dim> result = fit_normal<Dim>(room.view(), spec.penalty);
-    entry.normal = result.outcome == Regression<Dim>::Outcome::failed ? cloud_gradient(room) : result.normal;
+  void fit(const RegressionRule& rule, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
+    const Regression<Dim> result = fit_normal<Dim>(cloud, rule, warm ? entry.plane : nullptr);
     using Outcome = typename Regression<Dim>::Outcome;
+    entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
+    std::memcpy(entry.plane, result.plane, sizeof entry.plane);
     FitTally& tally = tally_[static_cast<std::size_t>(omp_get_thread_num())];
     ++tally.regressions;
     tally.iterations += static_cast<std::uint64_t>(result.iterations);
@@ -107,116 +174,45 @@ class ContactFit {
 
   /// The last resort, where one class is missing or the centroids coincide: the gradient normal with
   /// G_pi ∝ −ξ_p, the slope of a paraboloid over the support.
-  static Vec<Dim> cloud_gradient(const CloudRoom<Dim>& room) {
+  static Vec<Dim> cloud_gradient(const CloudView<Dim>& cloud) {
     Vec<Dim> sum = Vec<Dim>::Zero();
-    for (int k = 0; k < room.count; ++k)
-      for (int d = 0; d < Dim; ++d)
-        sum[d] += room.side[static_cast<std::size_t>(k)] * room.xi[d][static_cast<std::size_t>(k)];
+    for (int k = 0; k < cloud.count; ++k)
+      for (int d = 0; d < Dim; ++d) sum[d] += cloud.side[k] * cloud.xi[d][k];
     const double length = sum.norm();
     return length > 0 ? Vec<Dim>(sum / length) : Vec<Dim>::Zero();
   }
 
-  /// N20 Eq. 24, m.
-  static double separation(double cell, CloudRoom<Dim>& room, const Vec<Dim>& normal) {
-    for (int k = 0; k < room.count; k += kLanes) {
-      const auto at = static_cast<std::size_t>(k);
-      Lanes f[Dim * Dim], inverse[Dim * Dim], half_size[Dim];
-      for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(&room.deformation[e][at]);
-      for (int d = 0; d < Dim; ++d) half_size[d] = load_lanes(&room.half_size[d][at]);
-      inverse_deformation<Dim>(f, inverse);
-      store_lanes(&room.radius[at], ellipsoid_radius<Dim>(inverse, half_size, normal));
-    }
-    return cell * cloud_separation<Dim>(room.view(), room.radius.data(), normal);
-  }
-
-  /// The mean of the regression normals of the same contact on the 3^Dim nodes around, weighted by the
-  /// smaller of the two masses: single normals are poor where a cloud holds few particles of one field.
-  void smooth_normals(const State<Dim>& state, ParticleView<Dim>& view, ContactList<Dim>& contact,
-                      bool ellipsoids) {
-    const auto n = static_cast<std::int64_t>(contact.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
-    for (std::int64_t k = 0; k < n; ++k) {
-      const auto& node = contact.nodes[static_cast<std::size_t>(k)];
-      CloudRoom<Dim>& room = this_room();
-      if (ellipsoids) collect(state, view, contact, node, room);
+  /// Mean normals of the nodes around, and the separations along them.
+  void smooth(const State<Dim>& state, const FitChoice& choice, ContactList<Dim>& contact) {
+    const NormalMean<Dim> mean(state, contact, raw_);
+    for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
+      const Kept& kept = kept_[k];
+      const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        Vec<Dim> sum = Vec<Dim>::Zero();
-        for (int m = 0; m < power(3, Dim); ++m) {
-          const int other = neighbour(state.tiling, contact, node, m);
-          if (other >= 0)
-            add_normals(state, contact, node, entry, contact.nodes[static_cast<std::size_t>(other)], sum);
-        }
+        const Vec<Dim> sum = mean(node, entry);
         const double length = sum.norm();
-        if (length > 0) entry.normal = sum / length;
-        if (!ellipsoids) continue;
-        choose_sides(entry, room);
-        entry.separation = separation(state.grid.cell, room, entry.normal);
+        if (length > 0 && !entry.settled) entry.normal = sum / length;
+        if (!choice.separate) continue;
+        room.choose_sides(cloud, entry);
+        entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
       }
+    });
+  }
+
+  void count(ContactCounters& counters) const {
+    for (const auto& t : tally_) {
+      counters.regressions += t.regressions;
+      counters.iterations += t.iterations;
+      counters.fallbacks += t.fallbacks;
+      counters.unconverged += t.unconverged;
     }
   }
 
-  /// The contact node at one of the 3^Dim places around a node (itself in the middle), or −1.
-  static int neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact,
-                       const ContactNode<Dim>& node, int m) {
-    int stack_digit = 0, stride3 = 1, local = 0, stride4 = 1, rest = node.local;
-    for (int d = 0; d < Dim; ++d) {
-      int at = rest % kTileSide + m % 3 - 1;
-      int step = 1;
-      if (at < 0) at += kTileSide, step = 0;
-      if (at >= kTileSide) at -= kTileSide, step = 2;
-      stack_digit += step * stride3;
-      local += at * stride4;
-      stride3 *= 3;
-      stride4 *= kTileSide;
-      rest /= kTileSide;
-      m /= 3;
-    }
-    const int stack = tiling.stacks[static_cast<std::size_t>(node.stack)].neighbour[stack_digit];
-    return stack < 0 ? -1
-                     : contact.node_at[static_cast<std::size_t>(stack) * kTileNodes<Dim> +
-                                       static_cast<std::size_t>(local)];
-  }
-
-  /// Adds the other node's normals of field a against any of the fields that a meets here, and of such a
-  /// field against a, turned round.
-  void add_normals(const State<Dim>& state, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
-                   const ContactEntry<Dim>& entry, const ContactNode<Dim>& other, Vec<Dim>& sum) const {
-    const auto field = [&](const ContactNode<Dim>& n, int k) {
-      return contact.fields[static_cast<std::size_t>(n.field_begin + k)].field;
-    };
-    const int a = field(node, entry.a);
-    const auto meets_a = [&](int f) {
-      if (f == a) return false;
-      for (int k = 0; k < node.field_end - node.field_begin; ++k)
-        if (field(node, k) == f) return true;
-      return false;
-    };
-    const auto has = [&](auto wanted, int except) {
-      for (int k = 0; k < other.field_end - other.field_begin; ++k)
-        if (k != except && wanted(field(other, k))) return true;
-      return false;
-    };
-    const double* mass = state.nodes.column(Nodal::mass);
-    for (int e = other.entry_begin; e < other.entry_end; ++e) {
-      const auto& theirs = contact.entries[static_cast<std::size_t>(e)];
-      const int f = field(other, theirs.a);
-      const bool same = f == a && has(meets_a, theirs.a);
-      const bool turned = meets_a(f) && has([&](int g) { return g == a; }, theirs.a);
-      if (!same && !turned) continue;
-      double own = 0, total = 0;
-      for (int k = 0; k < other.field_end - other.field_begin; ++k) {
-        const double m = mass[contact.fields[static_cast<std::size_t>(other.field_begin + k)].slot];
-        total += m;
-        if (k == theirs.a) own = m;
-      }
-      sum += (same ? 1.0 : -1.0) * std::min(own, total - own) * raw_[static_cast<std::size_t>(e)];
-    }
-  }
-
-  std::vector<CloudRoom<Dim>> rooms_;
+  std::vector<Room> rooms_;
   std::vector<FitTally> tally_;
   std::vector<Vec<Dim>> raw_;
+  std::vector<Kept> kept_;
 };
 
 }  // namespace mpmfast

@@ -24,7 +24,7 @@ class Passes {
   /// Mass and momentum of every slot (N20 Eq. 5); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again
   virtual bool project(State<Dim>& state) = 0;
-  /// Volume gradients and mean positions of the slots.
+  /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
   virtual void project_geometry(State<Dim>& state) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
   /// @return smallest J that was met
@@ -34,7 +34,7 @@ class Passes {
   /// New particle velocities, positions, (strain last) strains, domains.
   virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
                             const Vec<Dim>& upper) = 0;
-  /// Normals by regression and separations by ellipsoids of the listed contact entries.
+  /// Normals by regression and separations by the particles' domains, of the listed contact entries.
   virtual void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) = 0;
 };
 

@@ -22,7 +22,7 @@ Step<Dim>::Step(const Scene& scene)
       plan_(make_plan(scene)),
       passes_(make_passes<Dim>(scene.method.basis)),
       conditions_(scene),
-      contact_(scene.contact, plan_.paired, plan_.first_correction_stays) {
+      contact_(scene.contact, plan_.paired, plan_.first_correction_stays, cell_volume(scene)) {
   seed(scene, plan_, state_);
   // Below a thousand particles a thread, waiting for each other costs more than the work.
   state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
@@ -115,8 +115,9 @@ void Step<Dim>::project() {
           if (!nodes.has(q)) return;
           for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
         };
-        clear(Nodal::mass, 1);
-        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position})
+        for (Nodal q : {Nodal::mass, Nodal::volume}) clear(q, 1);
+        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position,
+                        Nodal::mass_displacement})
           clear(q, Dim);
         if (plan_.paired)
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);

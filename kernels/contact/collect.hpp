@@ -10,35 +10,54 @@
 
 namespace mpmfast {
 
-/// Room for the cloud of one node; one per thread, grown only by clouds larger than any before.
+/// Columns of one cloud in its room, valid until the room grows.
+template <int Dim>
+struct CloudColumns {
+  const double* xi[Dim];
+  const double* edge[Dim * Dim];
+  const int* owner;
+  int count;
+};
+
+/// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudRoom {
-  std::vector<double> xi[Dim];  ///< relative to the node, cells
-  std::vector<double> side;
-  std::vector<double> radius;  ///< ellipsoid radius along the normal, cells
-  std::vector<double> deformation[Dim * Dim];
-  std::vector<double> half_size[Dim];  ///< cells
-  std::vector<int> owner;              ///< which of the node's fields
-  int count = 0;
+  std::vector<double> xi[Dim];          ///< relative to the node, cells
+  std::vector<double> edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
+  std::vector<int> owner;               ///< which of the node's fields; −1 in the padding
+  std::size_t begin = 0;                ///< where the cloud in hand begins
+  int count = 0;                        ///< its particles
 
-  /// Room for n particles and a vector beyond.
+  /// Room for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
-    const auto needed = static_cast<std::size_t>(padded_count(n) + kLanes);
-    if (side.size() >= needed) return;
+    const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
+    if (owner.size() >= needed) return;
     const auto grow = [&](auto& column) { column.resize(2 * needed); };
     for (auto& c : xi) grow(c);
-    for (auto& c : deformation) grow(c);
-    for (auto& c : half_size) grow(c);
-    grow(side);
-    grow(radius);
+    for (auto& c : edge) grow(c);
     grow(owner);
   }
-  CloudView<Dim> view() const {
-    CloudView<Dim> v;
-    for (int d = 0; d < Dim; ++d) v.xi[d] = xi[d].data();
-    v.side = side.data();
-    v.count = count;
-    return v;
+
+  /// Fills what is read beyond the last particle with entries that do not count.
+  void pad() {
+    reserve(count + kLanes);
+    for (int k = count; k < padded_count(count); ++k) {
+      const std::size_t at = begin + static_cast<std::size_t>(k);
+      owner[at] = -1;
+      for (int d = 0; d < Dim; ++d) {
+        xi[d][at] = 0;
+        for (int j = 0; j < Dim; ++j) edge[Dim * d + j][at] = d == j ? 1 : 0;
+      }
+    }
+  }
+
+  CloudColumns<Dim> columns(std::size_t first, int particles) const {
+    CloudColumns<Dim> c;
+    for (int d = 0; d < Dim; ++d) c.xi[d] = xi[d].data() + first;
+    for (int e = 0; e < Dim * Dim; ++e) c.edge[e] = edge[e].data() + first;
+    c.owner = owner.data() + first;
+    c.count = particles;
+    return c;
   }
 };
 
@@ -73,12 +92,11 @@ inline void collect_tile(const TileContext<Dim>& c, const NodeIndex<Dim>& node, 
           for (int lane = 0; lane < kLanes && k + lane < g.count; ++lane) {
             if (!(margin[lane] > 0)) continue;
             const std::uint32_t q = begin + static_cast<std::uint32_t>(k + lane);
-            const auto at = static_cast<std::size_t>(room.count++);
-            for (int d = 0; d < Dim; ++d) {
+            const std::size_t at = room.begin + static_cast<std::size_t>(room.count++);
+            for (int d = 0; d < Dim; ++d)
               room.xi[d][at] = (p.position[d][q] - c.grid->origin[d]) * c.grid->inverse_cell - node[d];
-              room.half_size[d][at] = half_size[d] * c.grid->inverse_cell;
-            }
-            for (int e = 0; e < Dim * Dim; ++e) room.deformation[e][at] = p.deformation[e][q];
+            for (int e = 0; e < Dim * Dim; ++e)
+              room.edge[e][at] = p.deformation[e][q] * (half_size[e % Dim] * c.grid->inverse_cell);
             room.owner[at] = owner;
           }
         }

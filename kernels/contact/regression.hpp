@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file The contact normal by logistic regression (N20 §3.1 and its appendix): the plane that most probably
+/// @file The contact normal by regression (N20 §3.1 and its appendix, NN §3.4): the plane that most probably
 /// parts the two classes of a cloud.
 
 #include <cmath>
@@ -12,9 +12,19 @@
 
 namespace mpmfast {
 
-/// When the iteration ends. The defaults are N20's.
+/// What is minimised over the plane φ, with s = ξ·φ and m = (c + 1)/2.
+enum class Fit {
+  least_squares,  ///< Σ (f(s) − c)², f = 2/(1 + e^−s) − 1 (N20 Eq. 20)
+  likelihood,     ///< Σ log(1 + e^−s) + (1 − m) s (NN Eq. 3.36), by reweighted least squares
+  linear,         ///< Σ (s − c)² (NN Eq. 3.17): one solution, no iteration
+};
+
+/// What to fit and when to end. The defaults are N20's.
 struct RegressionRule {
-  double tolerance = 1e-5;  ///< on 1 − n'·n of two successive normals
+  Fit fit = Fit::least_squares;
+  double penalty = 1e-7;      ///< λ of the normal's components, cell units
+  double offset_penalty = 0;  ///< λ of the offset (NN §3.4.5)
+  double tolerance = 1e-5;    ///< on 1 − n'·n of two successive normals
   int max_iterations = 15;
 };
 
@@ -27,7 +37,8 @@ struct Regression {
     failed              ///< a class is empty or the centroids coincide: the normal is zero
   };
   Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit, from a to b
-  int iterations = 0;                  ///< logistic steps after the linear start
+  double plane[Dim + 1] = {};          ///< φ, to start from in the next step; zero after a fallback
+  int iterations = 0;                  ///< logistic steps after the start
   Outcome outcome = Outcome::failed;
 };
 
@@ -96,11 +107,11 @@ template <int N>
 struct NormalEquations {
   double matrix[packed_size(N)];  ///< JᵀJ, packed
   double right[N];                ///< Jᵀ(c − f)
-  double error;                   ///< Σ (f − c)², plus a constant
+  double error;                   ///< Σ (f − c)² or Σ log(1 + e^−s), plus a constant
 };
 
-/// One pass over the cloud: for each point its weight ψ and residual r, given as functions of s = c ξ·φ, and
-/// the sums of ψ² ηηᵀ, ψ r η and r² with η = c (ξ, 1).
+/// One pass over the cloud: for each point its weight ψ, residual r and error, given as functions of
+/// s = c ξ·φ, and the sums of ψ² ηηᵀ, ψ r η and of the errors, with η = c (ξ, 1).
 ///
 /// f is odd and ψ is even, so that with c = ±1: c − f(ξ·φ) = c (1 − f(s)), ψ(ξ·φ) = ψ(s). Working with η in
 /// place of ξ needs no c elsewhere and drops the padding (η = 0) by itself; it adds a constant to the error
@@ -119,9 +130,9 @@ inline NormalEquations<Dim + 1> sum_cloud(const CloudView<Dim>& cloud, const dou
       eta[d] = eta[Dim] * load_lanes(cloud.xi[d] + k);
       s += eta[d] * phi[d];
     }
-    Lanes weight, residual;
-    evaluate(s, weight, residual);
-    sum[kError] += residual * residual;
+    Lanes weight, residual, error;
+    evaluate(s, weight, residual, error);
+    sum[kError] += error;
 #pragma GCC unroll 16
     for (int i = 0; i < N; ++i) {
       const Lanes row = weight * eta[i];
@@ -143,17 +154,33 @@ inline NormalEquations<Dim + 1> sum_cloud(const CloudView<Dim>& cloud, const dou
 
 /// ψ and 1 − f of the logistic function: with e = exp(−s) and q = 1/(1 + e), f = 2q − 1, thus 1 − f = 2 e q
 /// and ψ = 2 e q² (N20 Eq. 53). exponential() clamps its argument, so that nothing overflows.
-struct Logistic {
-  void operator()(Lanes s, Lanes& weight, Lanes& residual) const {
+struct LeastSquares {
+  static constexpr double kPenaltyShare = 1;  ///< objective: error + share · λ φ²
+  void operator()(Lanes s, Lanes& weight, Lanes& residual, Lanes& error) const {
     const Lanes e = exponential(-s), q = 1.0 / (1.0 + e);
     residual = 2.0 * e * q;
     weight = residual * q;
+    error = residual * residual;
+  }
+};
+
+/// NN Eq. 3.38 to 3.42: the matrix has f(1 − f) = ψ² and the vector 1 − f = ψ r. With h = exp(−s/2) these are
+/// ψ = h/(1 + h²) and r = h.
+struct Likelihood {
+  static constexpr double kPenaltyShare = 0.5;
+  void operator()(Lanes s, Lanes& weight, Lanes& residual, Lanes& error) const {
+    const Lanes h = exponential(-0.5 * s), sum = 1.0 + h * h;
+    residual = h;
+    weight = h / sum;
+    error = logarithm(sum);
   }
 };
 
 /// Linear regression: ψ = 1, f = 0.
 struct Linear {
-  void operator()(Lanes, Lanes& weight, Lanes& residual) const { weight = residual = broadcast<Lanes>(1.0); }
+  void operator()(Lanes, Lanes& weight, Lanes& residual, Lanes& error) const {
+    weight = residual = error = broadcast<Lanes>(1.0);
+  }
 };
 
 template <int Dim>
@@ -210,25 +237,28 @@ struct Centroids {
 /// Logistic steps from `plane`, which becomes the best plane seen. A step that raises the objective is
 /// halved.
 /// @return how many passes over the cloud it took; @param converged two successive normals agree
-template <int Dim>
-inline int minimise(const CloudView<Dim>& cloud, double penalty, const RegressionRule& rule,
-                    double (&plane)[Dim + 1], bool& converged) {
+template <int Dim, class Objective>
+inline int minimise(const CloudView<Dim>& cloud, const RegressionRule& rule, double (&plane)[Dim + 1],
+                    bool& converged) {
   constexpr int N = Dim + 1;
   double phi[N], best_objective = std::numeric_limits<double>::infinity();
   std::memcpy(phi, plane, sizeof phi);
   converged = false;
   for (int iteration = 1; iteration <= rule.max_iterations; ++iteration) {
-    NormalEquations<N> sums = sum_cloud<Dim>(cloud, phi, Logistic{});
-    const double objective = sums.error + penalty * squared_length<Dim>(phi);
+    NormalEquations<N> sums = sum_cloud<Dim>(cloud, phi, Objective{});
+    const double objective =
+        sums.error + Objective::kPenaltyShare * (rule.penalty * squared_length<Dim>(phi) +
+                                                 rule.offset_penalty * phi[Dim] * phi[Dim]);
     if (!(objective <= best_objective)) {
       for (int i = 0; i < N; ++i) phi[i] = 0.5 * (phi[i] + plane[i]);
       continue;
     }
     best_objective = objective;
     std::memcpy(plane, phi, sizeof phi);
-    for (int d = 0; d < Dim; ++d) {
-      sums.matrix[packed(d, d)] += penalty;
-      sums.right[d] -= penalty * phi[d];
+    for (int i = 0; i < N; ++i) {
+      const double penalty = i < Dim ? rule.penalty : rule.offset_penalty;
+      sums.matrix[packed(i, i)] += penalty;
+      sums.right[i] -= penalty * phi[i];
     }
     if (!solve_symmetric<N>(sums.matrix, sums.right)) return iteration;
     for (int i = 0; i < N; ++i) phi[i] += sums.right[i];
@@ -241,37 +271,69 @@ inline int minimise(const CloudView<Dim>& cloud, double penalty, const Regressio
   return rule.max_iterations;
 }
 
+/// The linear regression. @return false if its matrix is singular
+template <int Dim>
+inline bool solve_linear(NormalEquations<Dim + 1>& linear, const RegressionRule& rule,
+                         double (&plane)[Dim + 1]) {
+  for (int d = 0; d < Dim; ++d) linear.matrix[packed(d, d)] += rule.penalty;
+  linear.matrix[packed(Dim, Dim)] += rule.offset_penalty;
+  if (!solve_symmetric<Dim + 1>(linear.matrix, linear.right)) return false;
+  std::memcpy(plane, linear.right, sizeof plane);
+  return true;
+}
+
+/// The plane with its normal as the result. @return false if it has no direction
+template <int Dim>
+inline bool accept(const double (&plane)[Dim + 1], bool converged, Regression<Dim>& result) {
+  if (!has_direction(squared_length<Dim>(plane))) return false;
+  std::memcpy(result.plane, plane, sizeof plane);
+  result.normal = direction<Dim>(plane);
+  result.outcome = converged ? Regression<Dim>::Outcome::converged : Regression<Dim>::Outcome::unconverged;
+  return true;
+}
+
+template <int Dim>
+inline int minimise(const CloudView<Dim>& cloud, const RegressionRule& rule, double (&plane)[Dim + 1],
+                    bool& converged) {
+  return rule.fit == Fit::likelihood ? minimise<Dim, Likelihood>(cloud, rule, plane, converged)
+                                     : minimise<Dim, LeastSquares>(cloud, rule, plane, converged);
+}
+
 }  // namespace detail
 
-/// The normal of one contact node: minimises Σ (f(ξ·φ) − c)² + λ Σ_j φ_j² over the plane φ (λ not on the
-/// offset), with f(s) = 2/(1 + e^−s) − 1 (N20 Eq. 20), by φ ← φ + (JᵀJ + Λ)⁻¹(Jᵀ(c − f) − Λφ) (Eq. 21) from
-/// twice the linear regression. Beyond the paper: a step that raises the objective is halved back towards the
-/// best plane seen; a singular first matrix, or a normal against the centroids, falls back to the centroids'
-/// difference.
-/// @param penalty λ in cell units
+/// The normal of one contact node: minimises the rule's objective + Σ_j λ_j φ_j² over the plane φ, by
+/// φ ← φ + (JᵀJ + Λ)⁻¹(Jᵀ(c − f) − Λφ) (N20 Eq. 21) from twice the linear regression. Beyond the paper: a
+/// step that raises the objective is halved back towards the best plane seen; a singular first matrix, or a
+/// normal against the centroids, falls back to the centroids' difference.
+/// @param start  plane to begin with in place of the linear regression, which is then done only if the
+///               iteration from there does not converge; null or without direction: none
 template <int Dim>
-inline Regression<Dim> fit_normal(const CloudView<Dim>& cloud, double penalty,
-                                  const RegressionRule& rule = {}) {
+inline Regression<Dim> fit_normal(const CloudView<Dim>& cloud, const RegressionRule& rule = {},
+                                  const double* start = nullptr) {
   using Outcome = typename Regression<Dim>::Outcome;
   constexpr int N = Dim + 1;
   Regression<Dim> result;
   double plane[N] = {};
+  if (start && rule.fit != Fit::linear) {
+    std::memcpy(plane, start, sizeof plane);
+    bool converged = false;
+    if (detail::has_direction(detail::squared_length<Dim>(plane)))
+      result.iterations = detail::minimise<Dim>(cloud, rule, plane, converged);
+    if (converged && detail::accept<Dim>(plane, true, result)) return result;
+    std::memset(plane, 0, sizeof plane);
+  }
   detail::NormalEquations<N> linear = detail::sum_cloud<Dim>(cloud, plane, detail::Linear{});
   const detail::Centroids<Dim> centroids(linear);
   if (!centroids.both) return result;
-
-  for (int d = 0; d < Dim; ++d) linear.matrix[detail::packed(d, d)] += penalty;
-  if (detail::solve_symmetric<N>(linear.matrix, linear.right)) {
-    for (int i = 0; i < N; ++i) plane[i] = 2.0 * linear.right[i];
-    bool converged;
-    result.iterations = detail::minimise<Dim>(cloud, penalty, rule, plane, converged);
+  if (detail::solve_linear<Dim>(linear, rule, plane)) {
+    bool converged = rule.fit == Fit::linear;
+    if (!converged) {
+      for (double& v : plane) v *= 2.0;
+      result.iterations += detail::minimise<Dim>(cloud, rule, plane, converged);
+    }
     double forward = 0;
     for (int d = 0; d < Dim; ++d) forward += plane[d] * centroids.difference[d];
-    if (detail::has_direction(detail::squared_length<Dim>(plane)) && forward >= 0) {
-      result.normal = detail::direction<Dim>(plane);
-      result.outcome = converged ? Outcome::converged : Outcome::unconverged;
-      return result;
-    }
+    if (forward >= 0 && detail::accept<Dim>(plane, converged, result)) return result;
   }
   if (centroids.apart) {
     result.normal = detail::direction<Dim>(centroids.difference);

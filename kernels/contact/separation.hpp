@@ -12,7 +12,7 @@
 
 namespace mpmfast {
 
-/// Row-major inverse of a deformation gradient.
+/// Row-major inverse of a matrix.
 template <int Dim, class V>
 inline void inverse_deformation(const V (&f)[Dim * Dim], V (&inverse)[Dim * Dim]) {
   const V scale = 1.0 / determinant<Dim>(f);
@@ -30,23 +30,38 @@ inline void inverse_deformation(const V (&f)[Dim * Dim], V (&inverse)[Dim * Dim]
   }
 }
 
-/// Radius of a particle along n (N20 Eq. 25): R_p = 1/sqrt(Σ_k (n0_k/R0_k)²), n0 = F⁻¹ n.
+/// How far a particle reaches along n. Its deformed domain has half-edge vectors E = F diag(R0).
+enum class Extent {
+  radial,         ///< of the ellipsoid E S (S the unit sphere): the point straight ahead (N20 Eq. 25)
+  ellipsoid,      ///< of the same ellipsoid: the furthest of its points, the support function |Eᵀn|
+  parallelepiped  ///< of the domain itself (2-D: parallelogram): Σ_k |E_k·n|
+};
+
+/// Half the extent of a particle along the unit vector n.
 ///
-/// The undeformed particle is the ellipsoid Σ_k (X_k/R0_k)² = 1 about its centre; F carries X to x = F X. The
-/// point x = R n of the deformed surface, straight ahead along n, comes from X = R F⁻¹n = R n0, hence R² Σ
-/// (n0_k/R0_k)² = 1. This is the radial distance; the ellipsoid's extent along n, sqrt(Σ_k R0_k² (Fᵀn)_k²),
-/// is larger unless n is one of its axes.
-/// @param inverse_f row-major F⁻¹; @param half_size R0 in any unit of length, that of the result
-template <int Dim, class V, class H>
-inline V ellipsoid_radius(const V (&inverse_f)[Dim * Dim], const H (&half_size)[Dim], const Vec<Dim>& n) {
+/// Radial: x = R n is E ζ with |ζ| = 1, so R = 1/|E⁻¹ n|; with E = F diag(R0) this is N20 Eq. 25,
+/// 1/sqrt(Σ_k (n0_k/R0_k)²), n0 = F⁻¹ n. The furthest point along n is max_ζ n·Eζ = |Eᵀn|, which is larger
+/// unless n is one of the ellipsoid's axes; over the domain's corners it is Σ_k |(Eᵀn)_k|.
+/// @param edges row-major E in any unit of length, that of the result
+template <Extent E, int Dim, class V>
+inline V extent_along(const V (&edges)[Dim * Dim], const Vec<Dim>& n) {
   V sum = broadcast<V>(0.0);
-  for (int k = 0; k < Dim; ++k) {
-    V n0 = inverse_f[Dim * k] * n[0];
-    for (int j = 1; j < Dim; ++j) n0 += inverse_f[Dim * k + j] * n[j];
-    n0 = n0 / half_size[k];
-    sum += n0 * n0;
+  if constexpr (E == Extent::radial) {
+    V inverse[Dim * Dim];
+    inverse_deformation<Dim>(edges, inverse);
+    for (int k = 0; k < Dim; ++k) {
+      V ahead = inverse[Dim * k] * n[0];
+      for (int j = 1; j < Dim; ++j) ahead += inverse[Dim * k + j] * n[j];
+      sum += ahead * ahead;
+    }
+    return 1.0 / square_root(sum);
   }
-  return 1.0 / square_root(sum);
+  for (int k = 0; k < Dim; ++k) {
+    V along = edges[k] * n[0];
+    for (int j = 1; j < Dim; ++j) along += edges[Dim * j + k] * n[j];
+    sum += E == Extent::parallelepiped ? magnitude(along) : along * along;
+  }
+  return E == Extent::parallelepiped ? sum : square_root(sum);
 }
 
 /// d = min_{p∈b}(ξ_p·n − R_p) − max_{p∈a}(ξ_p·n + R_p) in cells (N20 Eq. 24); infinite if a class is empty.
@@ -82,6 +97,19 @@ inline double position_offset(double e_a, double e_b, double c) { return e_b - e
 inline double position_power(double e_a, double e_b) {
   const auto odd_power = [](double e) { return std::copysign(std::pow(std::abs(e) / 1.25, 0.58), e); };
   return 2.0 * odd_power(e_b) - 1.0 - (1.0 - 2.0 * odd_power(-e_a));
+}
+
+/// The same by the piecewise fits that are exact where the means are far (NN Eq. 3.52, 3.55), for two or one
+/// particles a cell side: with u = −e_a or e_b, a surface lies u − ¼ (or u − ½) from the node beyond u = ¾
+/// (½), and 3/2 (4u/3)^0.5546 − 1 (or (2u)^0.5387 − 1) below, continued as an odd function.
+inline double position_piecewise(double e_a, double e_b, int particles_a_side) {
+  const auto distance = [particles_a_side](double u) {
+    const double joint = particles_a_side == 1 ? 0.5 : 0.75,
+                 exponent = particles_a_side == 1 ? 0.5387 : 0.5546;
+    if (u > joint) return u - (particles_a_side == 1 ? 0.5 : 0.25);
+    return 2.0 * joint * std::copysign(std::pow(std::abs(u) / joint, exponent), u) - 1.0;
+  };
+  return distance(e_b) + distance(-e_a);
 }
 
 }  // namespace mpmfast

@@ -11,7 +11,7 @@ namespace mpmfast {
 template <int Dim, class Basis>
 struct ProjectRoom {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, 1> mass_momentum, gradient_volume, mass_position;
+  Window<Dim, 1> mass_momentum, gradient_volume, mass_position, mass_displacement;
   alignas(64) double row[1 + Dim][kChunk<Dim>];  ///< mass and momentum of the particles
   Record record[kChunk<Dim>];
 };
@@ -40,15 +40,26 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   return inside;
 }
 
-/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing
-/// out of the material: G_pi turns from the particle to the node), and m_i x_i = Σ S_pi M_p X_p with
-/// positions relative to the grid origin.
+/// What grid-based contact asks for; null columns are not projected, except that all four are computed once
+/// one is asked for.
+template <int Dim>
+struct GeometryColumns {
+  NodeColumns<Dim> volume_gradient;    ///< g_i = Σ G_pi V_p: out of the material (G_pi turns from p to i)
+  NodeColumns<Dim> mass_position;      ///< Σ S_pi M_p X_p, relative to the grid's origin
+  NodeColumns<Dim> mass_displacement;  ///< Σ S_pi M_p (X_p − X_p0)
+  NodeColumns<1> volume;               ///< Σ S_pi V_p
+};
+
+/// The sums that gradient normals, volume screening and grid-based separations are made of (theory §2).
 template <int Dim, class Basis>
 void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
-                           const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position) {
+                           const GeometryColumns<Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.gradient_volume);
   clear(room.mass_position);
+  clear(room.mass_displacement);
+  clear(room.mass_momentum);
+  const bool displaced = p.reference_position[0] != nullptr;
   for_each_chunk<Dim, Basis, Wanted::both>(
       c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
@@ -56,18 +67,28 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
           double f[Dim * Dim];
           for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
           const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
-          Record x{};
+          Record x{}, u{}, omega{};
           Record unit[Dim] = {};
+          omega[0] = volume;
           for (int d = 0; d < Dim; ++d) {
             x[d] = m * (p.position[d][q] - c.grid->origin[d]);
+            if (displaced) u[d] = m * (p.position[d][q] - p.reference_position[d][q]);
             unit[d][d] = volume;
           }
           scatter_values(w, k, x, room.mass_position.at[0]);
+          scatter_values(w, k, omega, room.mass_momentum.at[0]);
+          if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
           scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
         }
       });
-  flush_window<Dim, Dim>(room.gradient_volume, c.tile->slot, volume_gradient);
-  flush_window<Dim, Dim>(room.mass_position, c.tile->slot, mass_position);
+  const auto flush = [&](auto& window, const auto& columns) {
+    constexpr int N = sizeof(columns.column) / sizeof(double*);
+    if (columns.column[0]) flush_window<Dim, N>(window, c.tile->slot, columns);
+  };
+  flush(room.gradient_volume, out.volume_gradient);
+  flush(room.mass_position, out.mass_position);
+  flush(room.mass_displacement, out.mass_displacement);
+  flush(room.mass_momentum, out.volume);
 }
 
 }  // namespace mpmfast

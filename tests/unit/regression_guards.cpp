@@ -17,7 +17,7 @@ using ThreeD = std::integral_constant<int, 3>;
 /// Fits, and checks what holds for any cloud.
 template <int Dim>
 Regression<Dim> fit(const Cloud<Dim>& cloud, double penalty = 1e-7) {
-  const auto found = fit_normal<Dim>(cloud.view(), penalty);
+  const auto found = fit_normal<Dim>(cloud.view(), {.penalty = penalty});
   if (found.outcome == Regression<Dim>::Outcome::failed) {
     CHECK(found.normal == Vec<Dim>::Zero());
   } else {

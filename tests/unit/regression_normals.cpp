@@ -35,7 +35,7 @@ double mean_error(double reach, double penalty, int draws) {
   for (int k = 0; k < draws; ++k) {
     const Mat<Dim> r = rotation_to<Dim>(random_direction<Dim>(draw), draw);
     const auto cloud = touching_blocks<Dim>(r, uniform(draw, -0.25, 0.25), 0.2, reach, draw);
-    const auto found = fit_normal<Dim>(cloud.view(), penalty);
+    const auto found = fit_normal<Dim>(cloud.view(), {.penalty = penalty});
     sum += angle_between<Dim>(found.normal, r.col(0));
     poor += found.outcome == Regression<Dim>::Outcome::centroid_fallback ||
             found.outcome == Regression<Dim>::Outcome::failed;
@@ -81,7 +81,7 @@ TEST_CASE_TEMPLATE("clouds that mirror each other give the mirror plane", D, Two
     for (int k = 0; k < 30; ++k) {
       Vec<Dim> n = random_direction<Dim>(draw);
       if (k < 2 * Dim) n = (k < Dim ? 1.0 : -1.0) * Vec<Dim>::Unit(k % Dim);
-      const auto found = fit_normal<Dim>(mirrored<Dim>(n, 12, draw).view(), penalty);
+      const auto found = fit_normal<Dim>(mirrored<Dim>(n, 12, draw).view(), {.penalty = penalty});
       CHECK(angle_between<Dim>(found.normal, n) < 1e-6);
       CHECK(found.normal.norm() == doctest::Approx(1).epsilon(1e-14));
     }
@@ -115,7 +115,8 @@ TEST_CASE_TEMPLATE("the normal does not depend on the unit of length", D, TwoD, 
       millimetres.add(mm, cells.side[p]);
       kilometres.add(km, cells.side[p]);
     }
-    const auto a = fit_normal<Dim>(millimetres.view(), 1e-7), b = fit_normal<Dim>(kilometres.view(), 1e-7);
+    const auto a = fit_normal<Dim>(millimetres.view(), {.penalty = 1e-7}),
+               b = fit_normal<Dim>(kilometres.view(), {.penalty = 1e-7});
     CHECK((a.normal - b.normal).norm() < 1e-10);
     CHECK(a.iterations == b.iterations);
   }
@@ -125,8 +126,8 @@ TEST_CASE("the normal is that of the least objective") {
   Draw draw(4);
   for (int k = 0; k < 20; ++k) {
     const auto cloud = overlapping(draw);
-    const RegressionRule to_the_end{1e-15, 200};
-    const auto found = fit_normal<2>(cloud.view(), 1e-2, to_the_end);
+    const RegressionRule to_the_end{.penalty = 1e-2, .tolerance = 1e-15, .max_iterations = 200};
+    const auto found = fit_normal<2>(cloud.view(), to_the_end);
     REQUIRE(found.outcome == Regression<2>::Outcome::converged);
     // Least objective among the planes with a given normal, by a scan that refines itself.
     const auto least = [&](double angle) {
@@ -160,10 +161,10 @@ TEST_CASE_TEMPLATE("the normal points from a to b, and turns round when the clas
   for (int k = 0; k < 100; ++k) {
     const Mat<Dim> r = rotation_to<Dim>(random_direction<Dim>(draw), draw);
     auto cloud = touching_blocks<Dim>(r, uniform(draw, -0.5, 0.5), 0.2, 1.25, draw);
-    const auto forward = fit_normal<Dim>(cloud.view(), 1e-7);
+    const auto forward = fit_normal<Dim>(cloud.view(), {.penalty = 1e-7});
     CHECK(forward.normal.dot(r.col(0)) > 0.9);
     for (auto& c : cloud.side) c = -c;
-    CHECK((fit_normal<Dim>(cloud.view(), 1e-7).normal + forward.normal).norm() < 1e-12);
+    CHECK((fit_normal<Dim>(cloud.view(), {.penalty = 1e-7}).normal + forward.normal).norm() < 1e-12);
   }
 }
 
@@ -172,9 +173,9 @@ TEST_CASE_TEMPLATE("entries of side 0 do not count", D, TwoD, ThreeD) {
   Draw draw(6);
   const Mat<Dim> r = rotation_to<Dim>(random_direction<Dim>(draw), draw);
   auto cloud = touching_blocks<Dim>(r, 0.1, 0.2, 1.25, draw);
-  const auto alone = fit_normal<Dim>(cloud.view(), 1e-7);
+  const auto alone = fit_normal<Dim>(cloud.view(), {.penalty = 1e-7});
   for (int k = 0; k < 3 * kLanes; ++k) cloud.add(random_direction<Dim>(draw), 0.0);
-  const auto padded = fit_normal<Dim>(cloud.view(), 1e-7);
+  const auto padded = fit_normal<Dim>(cloud.view(), {.penalty = 1e-7});
   CHECK((alone.normal - padded.normal).norm() < 1e-12);
   CHECK(alone.iterations == padded.iterations);
 }

@@ -1,0 +1,69 @@
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// What follows from the choice of normals, before the scene's other words.
+void set_defaults(ContactSpec& contact) {
+  switch (contact.normal) {
+    case NormalKind::smoothed_logistic_regression:
+      contact.penalty = 1;
+      contact.advance_separation = true;
+      break;
+    case NormalKind::average_gradient:
+    case NormalKind::max_gradient:
+    case NormalKind::max_volume:
+    case NormalKind::own_gradient:
+      contact.separation = SeparationKind::position_offset;
+      break;
+    default:
+      break;
+  }
+}
+
+void read_regression(MapReader& map, ContactSpec& contact) {
+  constexpr Limit kTolerance{"in (0, 1)", 0, 1, true, true};
+  map.quantity("penalty", Measure::number, kNotNegative, contact.penalty);
+  map.quantity("offset_penalty", Measure::number, kNotNegative, contact.offset_penalty);
+  map.quantity("tolerance", Measure::number, kTolerance, contact.tolerance);
+  map.integer("max_iterations", 1, 1000, contact.max_iterations);
+  map.boolean("warm_start", contact.warm_start);
+}
+
+}  // namespace
+
+void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
+  const auto section = top.find("contact");
+  if (!section) return;
+  if (section->is_word("none")) {
+    contact.active = false;
+    return;
+  }
+  MapReader map(*section, "none or a map {law, friction, normal, separation, …}");
+  map.word("normal", kNormals, contact.normal);
+  set_defaults(contact);
+  const auto normal = contact.normal == NormalKind::specified ? map.need("specified_normal", "a vector")
+                                                              : map.find("specified_normal");
+  if (const auto vector = normal ? normal->vector(Measure::number, dimension) : std::nullopt) {
+    const auto unit = unit_vector(*vector);
+    if (!unit) normal->report("the zero vector has no direction");
+    contact.specified_normal = unit.value_or(Vec3{});
+  }
+  constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
+  map.word("separation", kSeparations, contact.separation);
+  map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
+  map.integer("piecewise_particles", 1, 2, contact.piecewise_particles);
+  map.word("detection", kDetections, contact.detection);
+  map.word("law", kLaws, contact.law);
+  map.quantity("friction", Measure::number, kNotNegative, contact.friction);
+  read_regression(map, contact);
+  map.quantity("rigid_bias", Measure::number, kNotNegative, contact.rigid_bias);
+  map.boolean("advance_separation", contact.advance_separation);
+  map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
+  map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
+  map.quantity("volume_screen", Measure::number, kNotNegative, contact.volume_screen);
+  map.finish();
+}
+
+}  // namespace mpmfast
