@@ -99,9 +99,10 @@ Plan make_plan(const Scene& scene) {
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
   plan.contact = plan.fields.size() > 1 && scene.contact.law != LawKind::ignore;
-  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction;
+  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction && !scene.method.own_filter;
+  plan.own_filter = scene.method.own_filter;
   plan.first_correction_stays = plan.update == ParticleUpdate::pic ||
-                                (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction);
+                                (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction && !scene.method.own_filter);
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
   list_passes(scene, plan);

@@ -21,6 +21,7 @@ struct Plan {
   double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
   int deformation_terms = 2;
   bool contact = false;                 ///< more than one velocity field, and a law that acts
+  bool own_filter = false;
   bool paired = false;                  ///< XPIC carries Δv* beside v*
   bool first_correction_stays = false;  ///< particles keep its impulse: PIC, and XPIC without the Δv terms
   bool geometry = false;                ///< volume gradients and mean positions are projected

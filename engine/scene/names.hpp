@@ -52,7 +52,7 @@ inline constexpr std::array<Word<NormalKind>, 9> kNormals{{
     {NormalKind::logistic_regression, "logistic_regression",
      "the plane that best parts the particles (default)"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
-     "the same with penalty 1 and an advanced separation: normals vary slowly"},
+     "its mean over the nodes around, with penalty 0.01, warm starts and an advanced separation"},
     {NormalKind::logistic_irls, "logistic_irls", "the same by maximum likelihood (reweighted least squares)"},
     {NormalKind::linear_regression, "linear_regression", "the plane by linear regression alone"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},

@@ -8,8 +8,9 @@ namespace {
 void set_defaults(ContactSpec& contact) {
   switch (contact.normal) {
     case NormalKind::smoothed_logistic_regression:
-      contact.penalty = 1;
+      contact.penalty = 1e-2;
       contact.advance_separation = true;
+      contact.warm_start = true;
       break;
     case NormalKind::average_gradient:
     case NormalKind::max_gradient:
@@ -60,6 +61,7 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   read_regression(map, contact);
   map.quantity("rigid_bias", Measure::number, kNotNegative, contact.rigid_bias);
   map.boolean("advance_separation", contact.advance_separation);
+  map.integer("persistent", 0, 2, contact.persistent);
   map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
   map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
   map.quantity("volume_screen", Measure::number, kNotNegative, contact.volume_screen);

@@ -56,6 +56,7 @@ void read_method(MapReader& top, MethodSpec& method) {
     method.position = *chosen;
   }
   map.boolean("contact_correction", method.contact_correction);
+  map.boolean("own_filter", method.own_filter);
   map.integer("deformation_terms", 1, 2, method.deformation_terms);
   map.finish();
 }

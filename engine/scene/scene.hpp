@@ -72,6 +72,7 @@ struct MethodSpec {
   UpdateKind update = UpdateKind::flip;
   int xpic_order = 1;              ///< m of XPIC(m), 2..20 when update is xpic
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
+  bool own_filter = false;
   StrainKind strain = StrainKind::average;
   PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid
   int deformation_terms = 2;                   ///< terms of exp(Δt ∇v) kept after the identity: 1 or 2
@@ -179,6 +180,7 @@ struct ContactSpec {
   double rigid_bias = 0;
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
+  int persistent = 0;
   double hysteresis = 0;            ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

@@ -20,7 +20,7 @@ struct Side {
 
 template <int Dim>
 void Contact<Dim>::find_nodes(const State<Dim>& state) {
-  const bool memory = spec_.hysteresis > 0 || spec_.warm_start;
+  const bool memory = spec_.hysteresis > 0 || spec_.warm_start || spec_.persistent;
   if (memory) remember();
   list_.nodes.clear();
   list_.fields.clear();
@@ -111,7 +111,7 @@ void Contact<Dim>::remember() {
   memory_.clear();
   for (std::size_t k = 0; k < list_.entries.size(); ++k) {
     const auto& entry = list_.entries[k];
-    Memory m{keys_[k], entry.touching, {}};
+    Memory m{keys_[k], entry.touching, entry.sticking, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
     memory_.push_back(m);
   }
@@ -129,6 +129,7 @@ void Contact<Dim>::recall(const State<Dim>& state) {
                                          [](const Memory& m, std::uint64_t k) { return m.key < k; });
       if (last == memory_.end() || last->key != key) continue;
       entry.touched = last->touching;
+      entry.stuck = last->sticking;
       std::memcpy(entry.plane, last->plane, sizeof entry.plane);
     }
 }
@@ -211,7 +212,11 @@ void Contact<Dim>::resolve_node(State<Dim>& state, const Law& law, Correction co
     if (correction == Correction::final && spec_.advance_separation)
       separation += stick.dot(entry.normal) * dt / reduced;  // NN Eq. 3.56
     entry.impulse = resolve_pair<Dim>(stick, entry.normal, separation, law);
+    if (correction == Correction::initial && spec_.persistent && entry.touched && separation < 0 &&
+        stick.dot(entry.normal) > 0)
+      entry.impulse = entry.stuck && spec_.persistent > 1 ? stick : Vec<Dim>(stick.dot(entry.normal) * entry.normal);
     entry.touching = !entry.impulse.isZero(0);
+    entry.sticking = (entry.impulse - stick).isZero(0);
     const Vec<Dim> tangential = entry.impulse - entry.impulse.dot(entry.normal) * entry.normal;
     entry.friction_work =
         Law::scope == LawScope::contact ? tangential.dot(stick - entry.impulse) / reduced : 0.0;

@@ -62,7 +62,7 @@ class Contact {
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
-    bool touching;
+    bool touching, sticking;
     double plane[Dim + 1];
   };
 

@@ -26,6 +26,7 @@ struct ContactEntry {
   bool settled = false;      ///< the normal is found: no regression
   bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
   bool touching = false;     ///< in contact at the last correction
+  bool stuck = false, sticking = false;
   double friction_work = 0;  ///< J, of the last correction
   Vec<Dim> impulse;          ///< Δp_a of the last correction
 };

@@ -61,6 +61,15 @@ void Step<Dim>::advance(double dt) {
   project();  // N20 Eq. 5
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
   find_contact();
+  if (plan_.own_filter && plan_.order > 1)
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      const double* mass = state_.nodes.column(Nodal::mass);
+      for (int d = 0; d < Dim; ++d) {
+        const double* p = state_.nodes.column(Nodal::momentum, d);
+        double* v = state_.nodes.column(Nodal::star, d);
+        for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
+      }
+    });
   clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::initial, dt); });  // Eq. 26
   start_velocities();
   const double smallest_j = clock_.time(Pass::strain_force, [&] {  // Eq. 28, 29
@@ -153,7 +162,7 @@ void Step<Dim>::start_velocities() {
         const double* p = nodes.column(Nodal::momentum, d);
         double* v = nodes.column(Nodal::velocity, d);
         for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
-        if (xpic) std::copy(v + begin, v + end, nodes.column(Nodal::star, d) + begin);
+        if (xpic && !plan_.own_filter) std::copy(v + begin, v + end, nodes.column(Nodal::star, d) + begin);
       }
     });
   });

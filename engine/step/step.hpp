@@ -43,6 +43,8 @@ class Step {
   Sums<Dim>& sums() { return sums_; }
   const PassClock& clock() const { return clock_; }
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
+  /// Contact nodes, normals and separations of the last step.
+  const ContactList<Dim>& contact_list() const { return contact_.list(); }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
   double stored_energy() const;
 

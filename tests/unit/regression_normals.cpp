@@ -179,3 +179,74 @@ TEST_CASE_TEMPLATE("entries of side 0 do not count", D, TwoD, ThreeD) {
   CHECK((alone.normal - padded.normal).norm() < 1e-12);
   CHECK(alone.iterations == padded.iterations);
 }
+
+// A least-squares or likelihood fit with the same penalty differs in size, hardly in direction.
+TEST_CASE_TEMPLATE("maximum likelihood and linear regression give the mirror plane of mirrored clouds", D,
+                   TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(11);
+  for (const Fit fit : {Fit::likelihood, Fit::linear})
+    for (int k = 0; k < 50; ++k) {
+      const Vec<Dim> n = random_direction<Dim>(draw);
+      const auto found = fit_normal<Dim>(mirrored<Dim>(n, 12, draw).view(), {.fit = fit, .penalty = 1e-3});
+      CHECK(angle_between<Dim>(found.normal, n) < 1e-6);
+      CHECK(found.outcome == Regression<Dim>::Outcome::converged);
+      CHECK((found.iterations == 0) == (fit == Fit::linear));
+    }
+}
+
+TEST_CASE("the likelihood fit ends where the gradient of NN Eq. 3.37 vanishes") {
+  Draw draw(12);
+  for (int k = 0; k < 20; ++k) {
+    const auto cloud = overlapping(draw);
+    const RegressionRule rule{.fit = Fit::likelihood,
+                              .penalty = 1e-2,
+                              .offset_penalty = 1e-3,
+                              .tolerance = 1e-15,
+                              .max_iterations = 200};
+    const auto found = fit_normal<2>(cloud.view(), rule);
+    double gradient[3] = {rule.penalty * found.plane[0], rule.penalty * found.plane[1],
+                          rule.offset_penalty * found.plane[2]};
+    for (std::size_t p = 0; p < static_cast<std::size_t>(cloud.count); ++p) {
+      const double x[3] = {cloud.xi[0][p], cloud.xi[1][p], 1};
+      const double s = x[0] * found.plane[0] + x[1] * found.plane[1] + found.plane[2];
+      const double excess = 1 / (1 + std::exp(-s)) - 0.5 * (cloud.side[p] + 1);
+      for (int j = 0; j < 3; ++j) gradient[j] += excess * x[j];
+    }
+    for (double g : gradient) CHECK(std::abs(g) < 1e-6);
+  }
+}
+
+// Particles drift by up to a hundredth of a cell between two fits, more than in any step. Both fits stop
+// where 1 − n'·n of two steps falls below 1e-5; measured against the least objective, over 4000 clouds each:
+// cold 3e-6 at worst, warm 3e-6.
+TEST_CASE_TEMPLATE("a warm start gives the normal of a cold one, to the tolerance, in fewer iterations", D,
+                   TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  Draw draw(13);
+  const RegressionRule rule{.penalty = 1e-2},
+      to_the_end{.penalty = 1e-2, .tolerance = 1e-15, .max_iterations = 400};
+  double worst_cold = 0, worst_warm = 0;
+  int cold_iterations = 0, warm_iterations = 0;
+  for (int k = 0; k < 40; ++k) {
+    const Mat<Dim> r = rotation_to<Dim>(random_direction<Dim>(draw), draw);
+    auto cloud = touching_blocks<Dim>(r, uniform(draw, -0.25, 0.25), 0.2, 1.25, draw);
+    auto warm = fit_normal<Dim>(cloud.view(), rule);
+    for (int step = 0; step < 100; ++step) {
+      for (auto& column : cloud.xi)
+        for (std::size_t p = 0; p < static_cast<std::size_t>(cloud.count); ++p)
+          column[p] += uniform(draw, -0.01, 0.01);
+      const auto start = warm;
+      warm = fit_normal<Dim>(cloud.view(), rule, start.plane);
+      const auto cold = fit_normal<Dim>(cloud.view(), rule), best = fit_normal<Dim>(cloud.view(), to_the_end);
+      worst_cold = std::max(worst_cold, 1 - cold.normal.dot(best.normal));
+      worst_warm = std::max(worst_warm, 1 - warm.normal.dot(best.normal));
+      cold_iterations += cold.iterations;
+      warm_iterations += warm.iterations;
+    }
+  }
+  MESSAGE(worst_cold, " ", worst_warm, " ", cold_iterations, " ", warm_iterations);
+  CHECK(worst_cold < 2e-5);
+  CHECK(worst_warm < 2e-5);
+  CHECK(warm_iterations < 0.8 * cold_iterations);
+}

@@ -47,7 +47,9 @@ TEST_CASE("the defaults of contact follow the normal") {
     return parse(plain_scene() + "contact: " + keys + "\n").contact;
   };
   CHECK_FALSE(contact("none").active);
-  CHECK(contact("{normal: smoothed_logistic_regression}").penalty == 1);
+  CHECK(contact("{normal: smoothed_logistic_regression}").penalty == 1e-2);
+  CHECK(contact("{normal: smoothed_logistic_regression}").warm_start);
+  CHECK_FALSE(contact("{law: stick}").warm_start);
   CHECK(contact("{normal: smoothed_logistic_regression}").advance_separation);
   CHECK(contact("{normal: smoothed_logistic_regression, penalty: 0.5}").penalty == 0.5);
   CHECK(contact("{normal: average_gradient}").separation == SeparationKind::position_offset);
@@ -55,6 +57,14 @@ TEST_CASE("the defaults of contact follow the normal") {
   CHECK(contact("{normal: specified, specified_normal: [0, 4]}").specified_normal == Vec3{0, 1, 0});
   CHECK(holds(fault(plain_scene() + "contact: {normal: specified}\n"), "contact.specified_normal: missing"));
   CHECK(holds(fault(plain_scene() + "contact: {friction: -0.1}\n"), "must be zero or more"));
+  for (const char* normal : {"max_gradient", "max_volume", "own_gradient"})
+    CHECK(contact(std::string("{normal: ") + normal + "}").separation == SeparationKind::position_offset);
+  CHECK(contact("{separation: position_piecewise, piecewise_particles: 1}").piecewise_particles == 1);
+  CHECK(contact("{detection: velocity}").detection == DetectionKind::velocity);
+  CHECK(contact("{tolerance: 1e-7, max_iterations: 40, offset_penalty: 5e-4}").max_iterations == 40);
+  CHECK(holds(fault(plain_scene() + "contact: {piecewise_particles: 3}\n"), "contact.piecewise_particles"));
+  CHECK(holds(fault(plain_scene() + "contact: {tolerance: 0}\n"), "contact.tolerance"));
+  CHECK(holds(fault(plain_scene() + "contact: {detection: either}\n"), "contact.detection"));
 }
 
 TEST_CASE("elastic constants convert: E = 9KG/(3K + G), and both pairs at once are an error") {

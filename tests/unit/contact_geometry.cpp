@@ -1,0 +1,175 @@
+// Normals and separations of whole scenes, by every method, where geometry alone says what they are.
+
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// Two blocks of 8 × 4 cells that touch at y = `plane` cells and press on each other.
+std::string stacked(double plane) {
+  const auto y = [&](double v) { return std::to_string(v) + " m"; };
+  return "space: plane_strain\n"
+         "grid: {origin: [-4 m, -8 m], size: [20 m, 20 m], cell: 1 m}\n"
+         "time: {end: 1 s}\n"
+         "materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}\n"
+         "bodies:\n"
+         "  - {name: low, box: {from: [0 m, " +
+         y(plane - 4) + "], to: [8 m, " + y(plane) +
+         "]}, material: m, velocity: [0 m/s, 1 m/s]}\n"
+         "  - {name: high, box: {from: [0 m, " +
+         y(plane) + "], to: [8 m, " + y(plane + 4) + "]}, material: m, velocity: [0 m/s, -1 m/s]}\n";
+}
+
+Scene contact_scene(double plane, const std::string& contact) {
+  return scene_from(stacked(plane) + "contact: " + contact + "\n");
+}
+
+/// Calls f(node, entry, sign) for the entries between x = 1 and 7 cells; sign: +1 where a is the lower block.
+template <class F>
+int for_inner_entries(const Step<2>& step, F f) {
+  int count = 0;
+  const auto& list = step.contact_list();
+  for (const auto& node : list.nodes) {
+    if (node.node[0] < 5 || node.node[0] > 11) continue;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list.entries[static_cast<std::size_t>(e)];
+      const int field = list.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
+      f(node, entry, field == 0 ? 1.0 : -1.0);
+      ++count;
+    }
+  }
+  return count;
+}
+
+TEST_CASE("on a flat interface every method finds its normal, from a to b") {
+  for (const char* normal :
+       {"logistic_regression", "smoothed_logistic_regression", "logistic_irls", "linear_regression",
+        "average_gradient", "max_gradient", "max_volume", "own_gradient", "specified"})
+    for (const double plane : {0.0, 0.5}) {
+      CAPTURE(std::string(normal));
+      CAPTURE(plane);
+      const Scene scene =
+          contact_scene(plane, std::string("{specified_normal: [0, 1], normal: ") + normal + "}");
+      Step<2> step(scene);
+      step.advance(step.stable_dt());
+      const int entries = for_inner_entries(step, [&](const auto&, const auto& entry, double sign) {
+        CHECK(entry.normal[1] == doctest::Approx(sign).epsilon(1e-9));
+        CHECK(std::abs(entry.normal[0]) < 1e-6);
+      });
+      CHECK(entries > 6);
+    }
+}
+
+TEST_CASE("own gradients give each field an entry of its own, all others one a pair") {
+  const Scene own = contact_scene(0, "{normal: own_gradient}"),
+              pair = contact_scene(0, "{normal: average_gradient}");
+  Step<2> a(own), b(pair);
+  a.advance(a.stable_dt());
+  b.advance(b.stable_dt());
+  CHECK(a.contact_list().nodes.size() == b.contact_list().nodes.size());
+  CHECK(a.contact_list().entries.size() == 2 * b.contact_list().entries.size());
+}
+
+TEST_CASE("touching surfaces: separations by domains and by displacement vanish, by position nearly") {
+  struct Known {
+    const char* separation;
+    double tolerance;  // cells
+  };
+  for (const auto& [separation, tolerance] :
+       {Known{"ellipsoid", 1e-9}, Known{"ellipsoid_support", 1e-9}, Known{"parallelogram_support", 1e-9},
+        Known{"displacement", 1e-12}, Known{"position_offset", 0.3}, Known{"position_power", 0.05},
+        Known{"position_piecewise", 0.06}}) {
+    CAPTURE(std::string(separation));
+    const Scene scene = contact_scene(
+        0.25, std::string("{normal: specified, specified_normal: [0, 1], separation: ") + separation + "}");
+    Step<2> step(scene);
+    step.advance(step.stable_dt());
+    const int entries = for_inner_entries(step, [&](const auto& node, const auto& entry, double) {
+      if (node.node[1] != 8) return;  // the row nearest to the interface: others see one side whole
+      CHECK(std::abs(entry.separation) < tolerance);
+    });
+    CHECK(entries > 6);
+  }
+}
+
+TEST_CASE("displacements measure how far the surfaces have come") {
+  const Scene scene = contact_scene(0, "{law: ignore}");
+  const Scene seen = contact_scene(
+      0, "{normal: specified, specified_normal: [0, 1], separation: displacement, friction: 0}");
+  Step<2> step(seen);
+  const double dt = step.stable_dt();
+  step.advance(dt);
+  step.advance(dt);
+  // After one step the blocks have approached as their interface allows: compare with the particles
+  // themselves.
+  const auto& particles = step.state().particles;
+  for_inner_entries(step, [&](const auto&, const auto& entry, double) {
+    CHECK(std::abs(entry.separation) <= 2 * dt);
+    CHECK(entry.separation <= 1e-12);
+  });
+  CHECK(particles.has(Quantity::reference_position));
+  Step<2> other(scene);
+  CHECK_FALSE(other.state().particles.has(Quantity::reference_position));
+}
+
+TEST_CASE("a volume screen drops the edge nodes, and contact without one keeps them") {
+  const Scene open = contact_scene(0, "{volume_screen: 0}"),
+              screened = contact_scene(0, "{volume_screen: 0.9}");
+  Step<2> a(open), b(screened);
+  a.advance(a.stable_dt());
+  b.advance(b.stable_dt());
+  CHECK(b.contact_list().nodes.size() < a.contact_list().nodes.size());
+  CHECK(b.contact_list().nodes.size() >= 7);
+  CHECK_FALSE(a.state().nodes.has(Nodal::volume));
+}
+
+TEST_CASE(
+    "with rigid bias the normal against a rigid body is its own gradient's, at the block's corner too") {
+  const std::string scene = R"(
+space: plane_strain
+grid: {origin: [-4 m, -8 m], size: [20 m, 20 m], cell: 1 m}
+time: {end: 1 s}
+materials:
+  m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}
+  r: {model: rigid}
+bodies:
+  - {name: block, box: {from: [0 m, -4 m], to: [7.3 m, 0 m]}, material: m, velocity: [0 m/s, 1 m/s]}
+  - {name: plate, box: {from: [-3 m, 0 m], to: [12 m, 2 m]}, material: r}
+)";
+  const auto worst_tilt = [&](const std::string& contact) {
+    const Scene read = scene_from(scene + "contact: {" + contact + "}\n");
+    Step<2> step(read);
+    step.advance(step.stable_dt());
+    double worst = 0;
+    for (const auto& entry : step.contact_list().entries) worst = std::max(worst, std::abs(entry.normal[0]));
+    return worst;
+  };
+  CHECK(worst_tilt("normal: average_gradient") > 0.05);
+  CHECK(worst_tilt("normal: average_gradient, rigid_bias: 1000") < 1e-12);
+  CHECK(worst_tilt("normal: linear_regression") > 0.05);
+  CHECK(worst_tilt("normal: linear_regression, rigid_bias: 5") > 0.05);  // below 10: gradients alone
+  CHECK(worst_tilt("normal: linear_regression, rigid_bias: 1000") < 1e-12);
+}
+
+TEST_CASE("a scene with warm starts keeps the normals and the motion of one with cold starts") {
+  const std::string contact = "{friction: 0.2, normal: smoothed_logistic_regression, warm_start: ";
+  const Scene warm_scene = contact_scene(0.2, contact + "true}"),
+              cold_scene = contact_scene(0.2, contact + "false}");
+  Step<2> warm(warm_scene), cold(cold_scene);
+  for (int k = 0; k < 100; ++k) {
+    const double dt = cold.stable_dt();
+    warm.advance(dt);
+    cold.advance(dt);
+  }
+  REQUIRE(warm.contact_list().entries.size() == cold.contact_list().entries.size());
+  for (std::size_t e = 0; e < cold.contact_list().entries.size(); ++e)
+    CHECK(1 - warm.contact_list().entries[e].normal.dot(cold.contact_list().entries[e].normal) < 2e-5);
+  CHECK(relative_difference(by_id(warm.state().particles, Quantity::position),
+                            by_id(cold.state().particles, Quantity::position)) < 1e-6);
+  CHECK(warm.contact_counters().iterations < cold.contact_counters().iterations);
+}
+
+}  // namespace
+}  // namespace mpmfast
