@@ -23,8 +23,9 @@ enum class Nodal {
   series,           ///< m (v − v*) of XPIC
   volume_gradient,  ///< Σ G_pi V_p
   mass_position,    ///< Σ S_pi M_p X_p
+  volume,           ///< Σ S_pi V_p
 };
-inline constexpr int kNodalQuantities = 9;
+inline constexpr int kNodalQuantities = 10;
 
 struct NodalInfo {
   Nodal quantity;
@@ -43,6 +44,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::series, "series", true, false, "XPIC"},
     {Nodal::volume_gradient, "volume_gradient", true, false, "gradient normals"},
     {Nodal::mass_position, "mass_position", true, false, "separation by position"},
+    {Nodal::volume, "volume", false, false, "nodal volume"},
 }};
 
 /// Columns over all slots of all velocity fields.
@@ -88,11 +90,11 @@ class Nodes {
     for (int d = 0; d < Dim; ++d) column(q, d)[slot] = v[d];
   }
 
-  /// N columns of q for a kernel.
+  /// N columns of q for a kernel; null where the plan has none.
   template <int N = Dim>
   NodeColumns<N> columns(Nodal q) {
     NodeColumns<N> view;
-    for (int k = 0; k < N; ++k) view.column[k] = column(q, k);
+    for (int k = 0; k < N; ++k) view.column[k] = has(q) ? column(q, k) : nullptr;
     return view;
   }
 

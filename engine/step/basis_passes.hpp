@@ -72,8 +72,9 @@ class BasisPasses final : public Passes<Dim> {
   void project_geometry(State<Dim>& state) override {
     const auto gradient = state.nodes.columns(Nodal::volume_gradient);
     const auto position = state.nodes.columns(Nodal::mass_position);
+    const auto volume = state.nodes.template columns<1>(Nodal::volume);
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      project_geometry_tile<Dim, Basis>(c, room.project, gradient, position);
+      project_geometry_tile<Dim, Basis>(c, room.project, gradient, position, volume);
     });
   }
 

@@ -115,7 +115,7 @@ void Step<Dim>::project() {
           if (!nodes.has(q)) return;
           for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
         };
-        clear(Nodal::mass, 1);
+        for (Nodal q : {Nodal::mass, Nodal::volume}) clear(q, 1);
         for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position})
           clear(q, Dim);
         if (plan_.paired)

@@ -11,7 +11,7 @@ namespace mpmfast {
 template <int Dim, class Basis>
 struct ProjectRoom {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, 1> mass_momentum, gradient_volume, mass_position;
+  Window<Dim, 1> mass_momentum, gradient_volume, mass_position, volume;
   alignas(64) double row[1 + Dim][kChunk<Dim>];  ///< mass and momentum of the particles
   Record record[kChunk<Dim>];
 };
@@ -40,15 +40,20 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   return inside;
 }
 
-/// For gradient normals and grid-based separation (theory §2): the volume gradient g_i = Σ G_pi V_p (pointing
-/// out of the material: G_pi turns from the particle to the node), and m_i x_i = Σ S_pi M_p X_p with
-/// positions relative to the grid origin.
+/// For gradient normals, grid-based separation and contact areas (theory §2): the volume gradient g_i = Σ
+/// G_pi V_p (pointing out of the material: G_pi turns from the particle to the node), m_i x_i = Σ S_pi M_p
+/// X_p with positions relative to the grid origin, and the nodal volume Ω_i = Σ S_pi V_p. Columns that are
+/// null are not wanted.
 template <int Dim, class Basis>
 void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
-                           const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position) {
+                           const NodeColumns<Dim>& volume_gradient, const NodeColumns<Dim>& mass_position,
+                           const NodeColumns<1>& nodal_volume) {
   const ParticleView<Dim>& p = *c.particles;
+  const bool gradients = volume_gradient.column[0], positions = mass_position.column[0],
+             volumes = nodal_volume.column[0];
   clear(room.gradient_volume);
   clear(room.mass_position);
+  clear(room.volume);
   for_each_chunk<Dim, Basis, Wanted::both>(
       c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
@@ -62,12 +67,14 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
             x[d] = m * (p.position[d][q] - c.grid->origin[d]);
             unit[d][d] = volume;
           }
-          scatter_values(w, k, x, room.mass_position.at[0]);
-          scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+          if (positions) scatter_values(w, k, x, room.mass_position.at[0]);
+          if (volumes) scatter_values(w, k, Record{volume}, room.volume.at[0]);
+          if (gradients) scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
         }
       });
-  flush_window<Dim, Dim>(room.gradient_volume, c.tile->slot, volume_gradient);
-  flush_window<Dim, Dim>(room.mass_position, c.tile->slot, mass_position);
+  if (gradients) flush_window<Dim, Dim>(room.gradient_volume, c.tile->slot, volume_gradient);
+  if (positions) flush_window<Dim, Dim>(room.mass_position, c.tile->slot, mass_position);
+  if (volumes) flush_window<Dim, 1>(room.volume, c.tile->slot, nodal_volume);
 }
 
 }  // namespace mpmfast
