@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/plan/contact_law.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -33,6 +35,20 @@ void plan_fields(const Scene& scene, Plan& plan) {
   }
 }
 
+/// Contact areas for the laws that ask for one; nodal volumes also where the lump of several fields takes the
+/// law of the largest.
+void plan_areas(const Scene& scene, Plan& plan) {
+  if (!plan.contact) return;
+  const auto need = [&](Nodal q) {
+    plan.geometry = true;
+    auto& columns = plan.nodal_columns;
+    if (std::find(columns.begin(), columns.end(), q) == columns.end()) columns.push_back(q);
+  };
+  if (any_law(scene.contact, uses_area))
+    need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
+  if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
+}
+
 void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
@@ -41,7 +57,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
-  const bool acts = scene.contact.law != LawKind::perfect;
+  const bool acts = plan.contact_geometry;
   if (plan.contact && acts && scene.contact.normal == NormalKind::average_gradient) {
     plan.geometry = true;
     plan.nodal_columns.push_back(Nodal::volume_gradient);
@@ -52,16 +68,17 @@ void plan_columns(const Scene& scene, Plan& plan) {
     plan.geometry = true;
     plan.nodal_columns.push_back(Nodal::mass_position);
   }
+  plan_areas(scene, plan);
 }
 
-void list_passes(const Scene& scene, Plan& plan) {
+void list_passes(Plan& plan) {
   auto& p = plan.passes;
   p.push_back("project mass and momentum");
-  if (plan.geometry) p.push_back("project volume gradients and positions");
+  if (plan.geometry) p.push_back("project volumes, their gradients and positions");
   if (plan.contact) {
     p.push_back("find contact nodes");
-    if (scene.contact.law != LawKind::perfect) p.push_back("contact normals and separations");
-    p.push_back("first contact correction");
+    if (plan.contact_geometry) p.push_back("contact normals and separations");
+    if (plan.first_correction) p.push_back("first contact correction");
   }
   p.push_back(plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
   if (plan.gravity) p.push_back("body force");
@@ -82,13 +99,19 @@ Plan make_plan(const Scene& scene) {
   plan_method(scene.method, plan);
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
-  plan.contact = plan.fields.size() > 1 && scene.contact.law != LawKind::ignore;
-  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction;
+  const auto acts = [](const LawSpec& law) { return law.law != LawKind::ignore; };
+  plan.contact = plan.fields.size() > 1 && any_law(scene.contact, acts);
+  plan.contact_geometry = any_law(scene.contact, uses_geometry);
+  plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
+  plan.first_correction = scene.contact.corrections == 2;
+  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction && plan.first_correction;
+  if (plan.contact)
+    plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
   plan.first_correction_stays = plan.update == ParticleUpdate::pic ||
                                 (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction);
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
-  list_passes(scene, plan);
+  list_passes(plan);
   return plan;
 }
 

@@ -26,7 +26,11 @@ enum class StrainKind { first, last, average };
 enum class PositionKind { grid, trapezoid, particle };
 enum class NormalKind { logistic_regression, smoothed_logistic_regression, average_gradient, specified };
 enum class SeparationKind { ellipsoid, position_offset, position_power, none };
-enum class LawKind { coulomb, frictionless, stick, perfect, ignore };
+enum class LawKind { coulomb, frictionless, stick, perfect, ignore, adhesion, velocity_friction, viscous };
+/// How the contact area of a node is found, for the laws that need it.
+enum class AreaKind { volume_gradient, nodal_volume };
+/// Nodes of three or more fields: each against the lump of the others, or pair by pair (N20 §3.4).
+enum class ManyFields { lump, pairs };
 
 /// A quantity tabulated in time: linear between the points, constant before the first and after the last.
 struct TimeTable {
@@ -103,6 +107,13 @@ struct BitmapShape {
 
 using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape>;
 
+/// Of a rigid body: about an axis through a point that moves with the body's velocity.
+struct RotationSpec {
+  Vec3 about{};        ///< m, at time 0
+  Vec3 axis{0, 0, 1};  ///< unit; z in 2-D
+  TimeTable speed;     ///< rad/s, right-handed about the axis
+};
+
 struct BodySpec {
   std::string name;
   Shape shape;
@@ -111,6 +122,7 @@ struct BodySpec {
   std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
+  std::optional<RotationSpec> rotation;                    ///< rigid bodies
 };
 
 /// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
@@ -138,14 +150,33 @@ struct GravitySpec {
   double ramp = 0;             ///< s, linear from 0 to full
 };
 
-struct ContactSpec {
+/// The law of a pair of surfaces, with the parameters that it has.
+struct LawSpec {
+  LawKind law = LawKind::coulomb;
+  double friction = 0;         ///< coefficient of friction while sliding
+  double static_friction = 0;  ///< before sliding; 0: as `friction`
+  double decay_speed = 1;      ///< m/s, over which friction falls from static to sliding
+  double normal_strength = 0;  ///< Pa, of adhesion
+  double shear_strength = 0;   ///< Pa, of adhesion
+  double reach = 0.05;         ///< cells: adhesion acts up to this gap
+  double viscosity = 0;        ///< Pa s, of a film between the surfaces
+  double film = 1;             ///< m, its thickness
+};
+
+/// A pair of bodies (that is, of their velocity fields) or of materials with a law of its own.
+struct ContactPair {
+  bool materials = false;  ///< `between` counts Scene::materials; else Scene::bodies
+  std::array<int, 2> between{0, 0};
+  LawSpec law;
+};
+
+/// The law is that of all pairs but those in `pairs`.
+struct ContactSpec : LawSpec {
   bool active = true;  ///< false: every body shares one velocity field
   NormalKind normal = NormalKind::logistic_regression;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;
-  double position_offset = 0.8;  ///< c of `position_offset`, in cells
-  LawKind law = LawKind::coulomb;
-  double friction = 0;              ///< Coulomb coefficient
+  double position_offset = 0.8;     ///< c of `position_offset`, in cells
   double penalty = 1e-7;            ///< λ of the regression in cell units
   bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
   double hysteresis = 0;            ///< cells; a node in contact stays so up to this gap
@@ -153,6 +184,10 @@ struct ContactSpec {
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen
   /// round-off only.
   double mass_screen = 1e-12;
+  int corrections = 2;  ///< a step; 1: only after the momentum update ('LR once' of N20 Fig. 5)
+  ManyFields fields = ManyFields::lump;
+  AreaKind area = AreaKind::volume_gradient;
+  std::vector<ContactPair> pairs;
 };
 
 struct OutputSpec {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "kernels/contact/laws.hpp"
 #include "kernels/contact/separation.hpp"
 
 namespace mpmfast {
@@ -54,6 +53,8 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
     node.node = state.tiling.node(stack, local);
     node.entry_begin = static_cast<int>(list_.entries.size());
     if (node.field_end - node.field_begin > 1) add_entries(state, node);
+    node.pair_begin = static_cast<int>(list_.entries.size());
+    if (spec_.fields == ManyFields::pairs && node.rigid < 0) add_pairs(node);
     node.entry_end = static_cast<int>(list_.entries.size());
     if (node.entry_begin == node.entry_end) {
       list_.fields.resize(static_cast<std::size_t>(node.field_begin));
@@ -75,7 +76,7 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   const auto mass_of = [&](int k) { return mass[field_of(k).slot]; };
   const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
   // Tied fields must move as one to the last node (the perfect interface is exact).
-  const double screen = spec_.law == LawKind::perfect ? 0 : spec_.mass_screen;
+  const double screen = exact_fields_ ? 0 : spec_.mass_screen;
   double total = 0;
   for (int k = 0; k < fields; ++k) {
     total += mass_of(k);
@@ -100,9 +101,13 @@ std::uint64_t Contact<Dim>::entry_key(const State<Dim>& state, const ContactNode
   const auto place =
       static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
   const int field = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
-  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) *
-             static_cast<std::uint64_t>(state.fields()) +
-         static_cast<std::uint64_t>(field);
+  const auto fields = static_cast<std::uint64_t>(state.fields());
+  const std::uint64_t key = (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) * fields +
+                            static_cast<std::uint64_t>(field);
+  if (spec_.fields == ManyFields::lump) return key;
+  const bool pair = entry.b >= 0 && node.field_end - node.field_begin > 2;
+  const int other = pair ? list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field + 1 : 0;
+  return key * (fields + 1) + static_cast<std::uint64_t>(other);
 }
 
 template <int Dim>
@@ -110,6 +115,7 @@ void Contact<Dim>::remember_touching() {
   touching_.clear();
   for (std::size_t k = 0; k < list_.entries.size(); ++k)
     if (list_.entries[k].touching) touching_.push_back(keys_[k]);
+  if (spec_.fields == ManyFields::pairs) std::sort(touching_.begin(), touching_.end());
 }
 
 template <int Dim>
@@ -125,7 +131,7 @@ void Contact<Dim>::recall_touching(const State<Dim>& state) {
 
 template <int Dim>
 void Contact<Dim>::find_geometry(State<Dim>& state, Passes<Dim>& passes) {
-  if (list_.nodes.empty() || spec_.law == LawKind::perfect || spec_.law == LawKind::ignore) return;
+  if (list_.nodes.empty() || !geometry_) return;
   if (spec_.normal == NormalKind::specified || spec_.normal == NormalKind::average_gradient)
     grid_normals(state);
   if (spec_.separation == SeparationKind::none)
@@ -181,104 +187,6 @@ void Contact<Dim>::grid_separations(const State<Dim>& state) {
                                  ? position_offset(ahead(own), ahead(rest), spec_.position_offset)
                                  : position_power(ahead(own), ahead(rest)));
     }
-}
-
-template <int Dim>
-void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
-  switch (spec_.law) {
-    case LawKind::coulomb:
-      return resolve_law(state, Coulomb{spec_.friction}, correction, dt);
-    case LawKind::frictionless:
-      return resolve_law(state, Frictionless{}, correction, dt);
-    case LawKind::stick:
-      return resolve_law(state, Stick{}, correction, dt);
-    case LawKind::perfect:
-      return resolve_law(state, Perfect{}, correction, dt);
-    case LawKind::ignore:
-      return resolve_law(state, Ignore{}, correction, dt);
-  }
-}
-
-template <int Dim>
-template <class Law>
-void Contact<Dim>::resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt) {
-  const auto n = static_cast<std::int64_t>(list_.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k)
-    resolve_node(state, law, correction, dt, list_.nodes[static_cast<std::size_t>(k)]);
-  if (correction == Correction::initial) {
-    friction_work_ = rigid_work_ = 0;
-    rigid_impulse_.assign(static_cast<std::size_t>(state.fields()), Vec<Dim>::Zero());
-    if (!first_correction_stays_) return;
-  }
-  book(state);
-}
-
-/// Adds up, in a fixed order, what the particles will keep of a correction.
-template <int Dim>
-void Contact<Dim>::book(const State<Dim>& state) {
-  const double* mass = state.nodes.column(Nodal::mass);
-  for (const auto& node : list_.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      // In a lump, each touching pair is seen from both sides.
-      friction_work_ += (entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5) * entry.friction_work;
-      if (node.rigid < 0) continue;
-      const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
-      rigid_impulse_[static_cast<std::size_t>(field)] -= entry.impulse;
-      rigid_work_ += entry.impulse.dot(state.nodes.vector(Nodal::momentum, slot)) / mass[slot];
-    }
-}
-
-/// All entries of a node, from the momenta before any of them changes.
-template <int Dim>
-template <class Law>
-void Contact<Dim>::resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt,
-                                const ContactNode<Dim>& node) {
-  auto& nodes = state.nodes;
-  const double* mass = nodes.column(Nodal::mass);
-  const auto slot_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-  };
-  Side<Dim> all;
-  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
-    all.mass += mass[slot_of(k)];
-    all.momentum += nodes.vector(Nodal::momentum, slot_of(k));
-  }
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const double m_a = mass[slot_of(entry.a)];
-    const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(entry.a));
-    double reduced = m_a * (all.mass - m_a) / all.mass;
-    Vec<Dim> stick = (m_a / all.mass) * all.momentum - p_a;
-    if (node.rigid >= 0) {  // m_b → ∞: b keeps its velocity
-      const int r = slot_of(node.rigid);
-      stick = (m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a;
-      reduced = m_a;
-    }
-    double separation = entry.separation;
-    if (entry.touched) separation -= spec_.hysteresis * state.grid.cell;
-    if (correction == Correction::final && spec_.advance_separation)
-      separation += stick.dot(entry.normal) * dt / reduced;  // NN Eq. 3.56
-    entry.impulse = resolve_pair<Dim>(stick, entry.normal, separation, law);
-    entry.touching = !entry.impulse.isZero(0);
-    const Vec<Dim> tangential = entry.impulse - entry.impulse.dot(entry.normal) * entry.normal;
-    entry.friction_work =
-        Law::scope == LawScope::contact ? tangential.dot(stick - entry.impulse) / reduced : 0.0;
-  }
-  const auto apply = [&](int slot, const Vec<Dim>& impulse) {
-    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
-    if (correction == Correction::final)
-      nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
-    else if (keep_velocity_change_)
-      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] = impulse[d] / mass[slot];
-  };
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    if (!entry.touching) continue;
-    apply(slot_of(entry.a), entry.impulse);
-    if (entry.b >= 0 && entry.b != node.rigid) apply(slot_of(entry.b), -entry.impulse);
-  }
 }
 
 template class Contact<2>;

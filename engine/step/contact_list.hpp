@@ -14,11 +14,11 @@ struct ContactField {
   int field, slot;
 };
 
-/// One field against the rest of a node.
+/// One field against another or against the rest of a node.
 template <int Dim>
 struct ContactEntry {
   int a;                     ///< which of the node's fields
-  int b;                     ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
+  int b;                     ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
   Vec<Dim> normal;           ///< unit, from a to the rest; zero: unknown, no contact
   double separation = 0;     ///< m, negative: overlap
   bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
@@ -33,11 +33,13 @@ struct ContactNode {
   NodeIndex<Dim> node;         ///< coordinates
   int field_begin, field_end;  ///< into ContactList::fields
   int entry_begin, entry_end;  ///< into ContactList::entries
-  int rigid;                   ///< which of its fields is the rigid one; −1: none
+  int pair_begin;  ///< entries from here on are the explicit pairs of a node of three or more fields
+  int rigid;       ///< which of its fields is the rigid one; −1: none
 };
 
 struct ContactCounters {
   std::uint64_t nodes_peak = 0, regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
+  std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< explicit pairs solved, and left to the lump
 };
 
 template <int Dim>

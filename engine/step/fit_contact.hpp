@@ -90,7 +90,8 @@ class ContactFit {
   static void choose_sides(const ContactEntry<Dim>& entry, CloudRoom<Dim>& room) {
     for (int k = 0; k < padded_count(room.count); ++k) {
       const int owner = room.owner[static_cast<std::size_t>(k)];
-      room.side[static_cast<std::size_t>(k)] = owner < 0 ? 0.0 : owner == entry.a ? -1.0 : 1.0;
+      const bool other = owner >= 0 && (entry.b < 0 || owner == entry.b);
+      room.side[static_cast<std::size_t>(k)] = owner == entry.a ? -1.0 : other ? 1.0 : 0.0;
     }
   }
 

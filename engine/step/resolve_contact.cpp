@@ -1,0 +1,301 @@
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+#include "engine/plan/contact_law.hpp"
+#include "engine/step/contact.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// One law for every pair: nothing is looked up.
+template <class Law>
+struct OneLaw {
+  const Law& law;
+  static constexpr bool by_pair = false;
+  template <class F>
+  void with(int, int, F f) const {
+    f(law);
+  }
+};
+
+/// The law of each pair from the table.
+struct LawsByPair {
+  const PairTable& table;
+  const std::vector<AnyLaw>& laws;
+  static constexpr bool by_pair = true;
+  template <class F>
+  void with(int field_a, int field_b, F f) const {
+    std::visit(f, laws[static_cast<std::size_t>(table.pair[table.at(field_a, field_b)] + 1)]);
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
+    : spec_(scene.contact),
+      pairs_(plan.pairs),
+      cell_(scene.grid.cell),
+      keep_velocity_change_(plan.paired),
+      first_correction_stays_(plan.first_correction_stays),
+      geometry_(plan.contact_geometry),
+      exact_fields_(plan.exact_fields) {
+  laws_.push_back(make_law(spec_, cell_));
+  for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
+}
+
+template <int Dim>
+void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
+  pivots_ = pivots;
+  books_.friction_work = books_.rigid_work = 0;
+  books_.rigid_impulse.assign(pivots.size(), Vec<Dim>::Zero());
+  books_.rigid_moment.assign(pivots.size(), Vec<3>::Zero());
+  books_.pair_impulse.assign(spec_.pairs.size(), Vec<Dim>::Zero());
+  books_.pair_friction_work.assign(spec_.pairs.size(), 0);
+}
+
+template <int Dim>
+void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
+  if (pairs_.empty())
+    std::visit(
+        [&](const auto& law) {
+          resolve_all(state, OneLaw<std::decay_t<decltype(law)>>{law}, correction, dt);
+        },
+        laws_.front());
+  else
+    resolve_all(state, LawsByPair{pairs_, laws_}, correction, dt);
+}
+
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+  std::uint64_t solved = 0, lumped = 0;
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    auto outcome = PairOutcome::lump;
+    if (node.pair_begin < node.entry_end) {
+      outcome = resolve_pairs(state, correction, dt, node);
+      solved += outcome == PairOutcome::solved;
+      lumped += outcome == PairOutcome::lump;
+    }
+    if (outcome == PairOutcome::lump) resolve_each(state, laws, correction, dt, node);
+    apply(state, correction, dt, node);
+  }
+  if (correction == Correction::final) {
+    list_.counters.pair_nodes += solved;
+    list_.counters.pair_fallbacks += lumped;
+  }
+  if (correction == Correction::final || first_correction_stays_) book(state);
+}
+
+/// The other field of an entry; of a lump the one with the largest volume, whose law then holds for the whole
+/// (N20 after Eq. 50).
+template <int Dim>
+int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  if (entry.b >= 0) return entry.b;
+  if (node.rigid >= 0) return node.rigid;
+  const double* volume = state.nodes.column(Nodal::volume);
+  int largest = -1;
+  double most = -1;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    const double v = volume[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+    if (k != entry.a && v > most) largest = k, most = v;
+  }
+  return largest;
+}
+
+/// Field a against b, or against the lump of all others; a rigid body has m_b → ∞ and keeps its velocity.
+template <int Dim>
+typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                  const ContactEntry<Dim>& entry) const {
+  const auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  Meeting out;
+  out.mass = mass[slot_of(entry.a)];
+  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(entry.a));
+  if (node.rigid >= 0) {
+    const int r = slot_of(node.rigid);
+    out.stick = (out.mass / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a;
+    out.reduced = out.mass;
+    return out;
+  }
+  double total = 0;
+  Vec<Dim> momentum = Vec<Dim>::Zero();
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
+    total += mass[slot_of(k)];
+    momentum += nodes.vector(Nodal::momentum, slot_of(k));
+  }
+  out.stick = (out.mass / total) * momentum - p_a;
+  out.reduced = out.mass * (total - out.mass) / total;
+  return out;
+}
+
+template <int Dim>
+double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                   Correction correction, double dt) const {
+  double separation = entry.separation;
+  if (entry.touched) separation -= spec_.hysteresis * cell_;
+  if (correction == Correction::final && spec_.advance_separation)
+    separation += meeting.stick.dot(entry.normal) * dt / meeting.reduced;  // NN Eq. 3.56
+  return separation;
+}
+
+/// Contact area of an entry, m² (of the scene's thickness in 2-D).
+///
+/// volume_gradient: g = Σ G_pi V_p = ∫ N_i n dS over the surface of a field, so that g_a·n and −g_b·n are
+/// each the node's share of a surface; over a flat interface they add up to its area exactly, since Σ N_i
+/// = 1. The smaller one leaves out what the other has beyond the edge of this one. nodal_volume: sqrt(2 Ω_min
+/// Ω_tot)/h (theory §4), exact for linear functions and an interface along the grid.
+template <int Dim>
+double Contact<Dim>::area(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  const bool by_volume = spec_.area == AreaKind::nodal_volume;
+  double own = 0, rest = 0;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    const double sign = k == entry.a ? 1 : -1;
+    (k == entry.a ? own : rest) +=
+        by_volume ? state.nodes.column(Nodal::volume)[slot]
+                  : sign * state.nodes.vector(Nodal::volume_gradient, slot).dot(entry.normal);
+  }
+  if (by_volume) return std::sqrt(2 * std::min(own, rest) * (own + rest)) / cell_;
+  return std::max(0.0, std::min(own, rest));
+}
+
+/// Impulses of all entries but the explicit pairs, from the momenta before any of them changes.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                                const ContactNode<Dim>& node) {
+  const auto field_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  for (int e = node.entry_begin; e < node.pair_begin; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const Meeting meeting = meet(state, node, entry);
+    const double separation = separation_of(entry, meeting, correction, dt);
+    const auto act = [&](const auto& law) {
+      using Law = std::decay_t<decltype(law)>;
+      double area_time = 0;
+      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
+      entry.impulse =
+          resolve_pair<Dim>(meeting.stick, entry.normal, separation, law, meeting.reduced, area_time);
+      const Vec<Dim> tangential = entry.impulse - entry.impulse.dot(entry.normal) * entry.normal;
+      constexpr bool rubs = Law::scope == LawScope::contact || Law::scope == LawScope::bonded;
+      entry.friction_work = rubs ? tangential.dot(meeting.stick - entry.impulse) / meeting.reduced : 0.0;
+    };
+    if constexpr (Laws::by_pair)
+      laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
+    else
+      laws.with(0, 0, act);
+    entry.touching = !entry.impulse.isZero(0);
+  }
+  rest(node.pair_begin, node.entry_end);
+}
+
+/// No contact at the entries [begin, end).
+template <int Dim>
+void Contact<Dim>::rest(int begin, int end) {
+  for (int e = begin; e < end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.touching = false;
+    entry.friction_work = 0;
+    entry.impulse.setZero();
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
+                         const ContactNode<Dim>& node) const {
+  auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto change = [&](int k, const Vec<Dim>& impulse) {
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
+    if (correction == Correction::final)
+      nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
+    else if (keep_velocity_change_)
+      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
+  };
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (!entry.touching) continue;
+    change(entry.a, entry.impulse);
+    if (entry.b >= 0 && entry.b != node.rigid) change(entry.b, -entry.impulse);
+  }
+}
+
+/// Adds up, in a fixed order, what the particles will keep of a correction.
+template <int Dim>
+void Contact<Dim>::book(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      // In a lump, each touching pair is seen from both sides.
+      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+      books_.friction_work += share * entry.friction_work;
+      if (node.rigid >= 0) book_rigid(state, node, entry);
+      if (!pairs_.empty() && entry.touching) book_pair(state, node, entry, share);
+    }
+}
+
+template <int Dim>
+void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) {
+  const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
+  const auto f = static_cast<std::size_t>(field);
+  books_.rigid_impulse[f] -= entry.impulse;
+  books_.rigid_work +=
+      entry.impulse.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
+  Vec<3> arm = Vec<3>::Zero(), impulse = Vec<3>::Zero();
+  for (int d = 0; d < Dim; ++d) {
+    arm[d] = state.grid.origin[d] + node.node[d] * state.grid.cell - pivots_[f][d];
+    impulse[d] = entry.impulse[d];
+  }
+  books_.rigid_moment[f] -= arm.cross(impulse);
+}
+
+template <int Dim>
+void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                             const ContactEntry<Dim>& entry, double share) {
+  const auto field_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  const std::size_t at = pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
+  if (pairs_.pair[at] < 0) return;
+  const auto k = static_cast<std::size_t>(pairs_.pair[at]);
+  books_.pair_impulse[k] += (pairs_.forward[at] ? share : -share) * entry.impulse;
+  books_.pair_friction_work[k] += share * entry.friction_work;
+}
+
+// The members of this file; the others are in contact.cpp and explicit_pairs.cpp.
+#define MPMFAST_MEMBERS(D)                                                                                \
+  template Contact<D>::Contact(const Scene&, const Plan&);                                                \
+  template void Contact<D>::open_books(const std::vector<Vec<D>>&);                                       \
+  template void Contact<D>::resolve(State<D>&, Correction, double);                                       \
+  template void Contact<D>::rest(int, int);                                                               \
+  template int Contact<D>::partner(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const; \
+  template Contact<D>::Meeting Contact<D>::meet(const State<D>&, const ContactNode<D>&,                   \
+                                                const ContactEntry<D>&) const;                            \
+  template double Contact<D>::separation_of(const ContactEntry<D>&, const Meeting&, Correction, double)   \
+      const;                                                                                              \
+  template double Contact<D>::area(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const; \
+  template void Contact<D>::apply(State<D>&, Correction, double, const ContactNode<D>&) const;            \
+  template void Contact<D>::book(const State<D>&);                                                        \
+  template void Contact<D>::book_rigid(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&);   \
+  template void Contact<D>::book_pair(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&, double)
+MPMFAST_MEMBERS(2);
+MPMFAST_MEMBERS(3);
+#undef MPMFAST_MEMBERS
+
+}  // namespace mpmfast
