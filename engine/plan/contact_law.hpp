@@ -2,6 +2,8 @@
 
 /// @file From the law that a scene names to the function object that acts.
 
+#include <algorithm>
+
 #include "engine/scene/scene.hpp"
 #include "kernels/contact/laws.hpp"
 
@@ -22,7 +24,7 @@ inline AnyLaw make_law(const LawSpec& spec, double cell) {
     case LawKind::adhesion:
       return Adhesion{spec.friction, spec.normal_strength, spec.shear_strength, spec.reach * cell};
     case LawKind::velocity_friction:
-      return VelocityFriction{spec.friction, spec.static_friction, spec.decay_speed};
+      return VelocityFriction{spec.friction, std::max(spec.friction, spec.static_friction), spec.decay_speed};
     case LawKind::viscous:
       return Viscous{spec.viscosity / spec.film};
   }

@@ -66,12 +66,27 @@ inline constexpr std::array<Word<SeparationKind>, 4> kSeparations{{
     {SeparationKind::none, "none", "fields that approach are in contact"},
 }};
 
-inline constexpr std::array<Word<LawKind>, 5> kLaws{{
+/// Their keys are in law_parameters (sections.hpp).
+inline constexpr std::array<Word<LawKind>, 8> kLaws{{
     {LawKind::coulomb, "coulomb", "slides when friction × normal force is reached (default, friction 0)"},
     {LawKind::frictionless, "frictionless", "slides freely"},
     {LawKind::stick, "stick", "never slides while in contact"},
     {LawKind::perfect, "perfect", "always tied, also in tension"},
     {LawKind::ignore, "ignore", "bodies pass through each other"},
+    {LawKind::adhesion, "adhesion", "bonded up to a tensile and a shear strength, then coulomb"},
+    {LawKind::velocity_friction, "velocity_friction",
+     "friction + (static_friction - friction) exp(-v/decay_speed)"},
+    {LawKind::viscous, "viscous", "a liquid film: shear traction viscosity × v/film, no dry friction"},
+}};
+
+inline constexpr std::array<Word<ManyFields>, 2> kManyFields{{
+    {ManyFields::lump, "lump", "each field against all others of the node together (default)"},
+    {ManyFields::pairs, "pairs", "one or two touching pairs are solved by themselves, more are lumped"},
+}};
+
+inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
+    {AreaKind::volume_gradient, "volume_gradient", "the node's share of the surface itself (default)"},
+    {AreaKind::nodal_volume, "nodal_volume", "from the nodal volumes of the two fields"},
 }};
 
 /// Fields that output.picture can show.

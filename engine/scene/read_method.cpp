@@ -84,12 +84,23 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
   map.word("separation", kSeparations, contact.separation);
   map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
-  map.word("law", kLaws, contact.law);
-  map.quantity("friction", Measure::number, kNotNegative, contact.friction);
+  read_law(map, contact);
   map.quantity("penalty", Measure::number, kNotNegative, contact.penalty);
   map.boolean("advance_separation", contact.advance_separation);
   map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
   map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
+  map.integer("corrections", 1, 2, contact.corrections);
+  map.word("area", kAreas, contact.area);
+  map.word("fields", kManyFields, contact.fields);
+  const bool clouds = (contact.normal == NormalKind::logistic_regression ||
+                       contact.normal == NormalKind::smoothed_logistic_regression) &&
+                      contact.separation == SeparationKind::ellipsoid;
+  if (contact.fields == ManyFields::pairs && !clouds) {
+    map.find("fields")->report(
+        "explicit pairs are found from the particles of each pair (normal: logistic_regression, separation: "
+        "ellipsoid)");
+  }
+  map.find("pairs");  // known here, read when there are bodies
   map.finish();
 }
 

@@ -55,12 +55,12 @@ double extent_between(double lower, double upper) {
 }
 
 /// A table that is one value at time zero is written as that value.
-std::string table_text(const TimeTable& table) {
-  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], Measure::velocity);
+std::string table_text(const TimeTable& table, Measure kind = Measure::velocity) {
+  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], kind);
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < table.time.size(); ++k) {
     parts.push_back(fmt::format("[{}, {}]", quantity_text(table.time[k], Measure::time),
-                                quantity_text(table.value[k], Measure::velocity)));
+                                quantity_text(table.value[k], kind)));
   }
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
@@ -194,8 +194,14 @@ std::string entry_text(const Scene& scene, std::size_t first, std::size_t last) 
                        name_text(body.field));
   }
   const std::vector<int> counts(body.particles_per_cell.begin(), body.particles_per_cell.begin() + d);
-  return out + fmt::format("    particles_per_cell: [{}]\n    velocity: {}\n", fmt::join(counts, ", "),
-                           velocity_text(body, d));
+  out += fmt::format("    particles_per_cell: [{}]\n    velocity: {}\n", fmt::join(counts, ", "),
+                     velocity_text(body, d));
+  if (!body.rotation) return out;
+  const std::string axis =
+      d == 3 ? fmt::format(", axis: {}", vector_text(body.rotation->axis, Measure::number, d)) : "";
+  return out + fmt::format("    rotation: {{about: {}{}, speed: {}}}\n",
+                           vector_text(body.rotation->about, Measure::length, d), axis,
+                           table_text(body.rotation->speed, Measure::angular_velocity));
 }
 
 struct BoundaryText {
@@ -230,18 +236,47 @@ std::string boundaries_text(const Scene& scene) {
   return out;
 }
 
-std::string contact_text(const ContactSpec& contact, int d) {
+/// The law and the parameters that it has; friction always, so that another law can be set from outside.
+std::vector<std::string> law_lines(const LawSpec& law) {
+  std::vector<std::string> lines{fmt::format("law: {}", name_of(kLaws, law.law))};
+  for (const LawParameter& parameter : law_parameters()) {
+    if (!has_parameter(law.law, parameter) && parameter.value != &LawSpec::friction) continue;
+    lines.push_back(
+        fmt::format("{}: {}", parameter.name, quantity_text(law.*parameter.value, parameter.measure)));
+  }
+  return lines;
+}
+
+std::string pairs_text(const Scene& scene) {
+  if (scene.contact.pairs.empty()) return "";
+  std::string out = "  pairs:\n";
+  for (const ContactPair& pair : scene.contact.pairs) {
+    const auto name = [&](int index) {
+      const auto k = static_cast<std::size_t>(index);
+      return name_text(pair.materials ? scene.materials[k].name : scene.bodies[k].name);
+    };
+    out += fmt::format("    - {{{}: [{}, {}], {}}}\n", pair.materials ? "materials" : "between",
+                       name(pair.between[0]), name(pair.between[1]), fmt::join(law_lines(pair.law), ", "));
+  }
+  return out;
+}
+
+std::string contact_text(const Scene& scene) {
+  const ContactSpec& contact = scene.contact;
   if (!contact.active) return "contact: none\n";
   std::string out = fmt::format("contact:\n  normal: {}\n", name_of(kNormals, contact.normal));
   if (contact.specified_normal != Vec3{}) {
-    out += fmt::format("  specified_normal: {}\n", vector_text(contact.specified_normal, Measure::number, d));
+    out += fmt::format("  specified_normal: {}\n",
+                       vector_text(contact.specified_normal, Measure::number, scene.dimension()));
   }
-  return out + fmt::format(
-                   "  separation: {}\n  position_offset: {}\n  law: {}\n  friction: {}\n  penalty: {}\n"
-                   "  advance_separation: {}\n  hysteresis: {}\n  mass_screen: {}\n",
-                   name_of(kSeparations, contact.separation), contact.position_offset,
-                   name_of(kLaws, contact.law), contact.friction, contact.penalty, contact.advance_separation,
-                   contact.hysteresis, contact.mass_screen);
+  out += fmt::format("  separation: {}\n  position_offset: {}\n  {}\n  penalty: {}\n",
+                     name_of(kSeparations, contact.separation), contact.position_offset,
+                     fmt::join(law_lines(contact), "\n  "), contact.penalty);
+  out += fmt::format("  advance_separation: {}\n  hysteresis: {}\n  mass_screen: {}\n",
+                     contact.advance_separation, contact.hysteresis, contact.mass_screen);
+  out += fmt::format("  corrections: {}\n  area: {}\n  fields: {}\n", contact.corrections,
+                     name_of(kAreas, contact.area), name_of(kManyFields, contact.fields));
+  return out + pairs_text(scene);
 }
 
 }  // namespace
@@ -262,7 +297,7 @@ std::string write_scene(const Scene& scene) {
   out += fmt::format("gravity:\n  acceleration: {}\n  ramp: {}\n",
                      vector_text(scene.gravity.acceleration, Measure::acceleration, d),
                      quantity_text(scene.gravity.ramp, Measure::time));
-  out += contact_text(scene.contact, d);
+  out += contact_text(scene);
   out += fmt::format("output:\n  frames: {}\n  history: {}\n  picture: {}\n", scene.output.frames,
                      scene.output.history, scene.output.picture);
   return out;
