@@ -77,12 +77,17 @@ class Contact {
                      Touching& out);
   void rest(int begin, int end);
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
-  /// Field a of an entry and what it meets.
-  struct Meeting {
-    double mass, reduced;  ///< m_a, m_red, kg
-    Vec<Dim> stick;        ///< Δp_a(0), N s
+  struct Total {
+    double mass = 0;
+    Vec<Dim> momentum = Vec<Dim>::Zero();
   };
-  Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  /// What field a needs to stick to the others: Δp_a(0), N s, and m_red, kg.
+  struct Meeting {
+    Vec<Dim> stick;
+    double reduced;
+  };
+  Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
+  Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
   double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, Correction correction,
                        double dt) const;
   double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;

@@ -43,7 +43,7 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, Correction correction,
     const AnyLaw& law = laws_[static_cast<std::size_t>(own)];
     const LawScope scope = std::visit([](const auto& l) { return l.scope; }, law);
     if (scope == LawScope::bonded) return false;
-    const Meeting meeting = meet(state, node, entry);
+    const Meeting meeting = meet(state, node, entry.a, together(state, node, entry.a, entry.b));
     const bool overlap = separation_of(entry, meeting, correction, dt) < 0;
     if (!(scope == LawScope::everywhere || (scope == LawScope::contact && overlap))) continue;
     if (out.count == 2) return false;

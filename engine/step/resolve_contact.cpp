@@ -1,5 +1,3 @@
-#include <Eigen/Geometry>
-
 #include <algorithm>
 
 #include "engine/plan/contact_law.hpp"
@@ -44,16 +42,6 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       exact_fields_(plan.exact_fields) {
   laws_.push_back(make_law(spec_, cell_));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
-}
-
-template <int Dim>
-void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
-  pivots_ = pivots;
-  books_.friction_work = books_.rigid_work = 0;
-  books_.rigid_impulse.assign(pivots.size(), Vec<Dim>::Zero());
-  books_.rigid_moment.assign(pivots.size(), Vec<3>::Zero());
-  books_.pair_impulse.assign(spec_.pairs.size(), Vec<Dim>::Zero());
-  books_.pair_friction_work.assign(spec_.pairs.size(), 0);
 }
 
 template <int Dim>
@@ -109,34 +97,36 @@ int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
   return largest;
 }
 
-/// Field a against b, or against the lump of all others; a rigid body has m_b → ∞ and keeps its velocity.
+/// All fields of a node, or the two of a pair.
+template <int Dim>
+typename Contact<Dim>::Total Contact<Dim>::together(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                    int a, int b) const {
+  Total sum;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (b >= 0 && k != a && k != b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    sum.mass += state.nodes.column(Nodal::mass)[slot];
+    sum.momentum += state.nodes.vector(Nodal::momentum, slot);
+  }
+  return sum;
+}
+
+/// Field a against the others of `all`; a rigid body has m_b → ∞ and keeps its velocity.
 template <int Dim>
 typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const ContactNode<Dim>& node,
-                                                  const ContactEntry<Dim>& entry) const {
+                                                  int a, const Total& all) const {
   const auto& nodes = state.nodes;
   const double* mass = nodes.column(Nodal::mass);
   const auto slot_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
   };
-  Meeting out;
-  out.mass = mass[slot_of(entry.a)];
-  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(entry.a));
+  const double m_a = mass[slot_of(a)];
+  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(a));
   if (node.rigid >= 0) {
     const int r = slot_of(node.rigid);
-    out.stick = (out.mass / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a;
-    out.reduced = out.mass;
-    return out;
+    return {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
   }
-  double total = 0;
-  Vec<Dim> momentum = Vec<Dim>::Zero();
-  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
-    if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
-    total += mass[slot_of(k)];
-    momentum += nodes.vector(Nodal::momentum, slot_of(k));
-  }
-  out.stick = (out.mass / total) * momentum - p_a;
-  out.reduced = out.mass * (total - out.mass) / total;
-  return out;
+  return {(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
 }
 
 template <int Dim>
@@ -180,9 +170,10 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
   const auto field_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
+  const Total all = together(state, node);
   for (int e = node.entry_begin; e < node.pair_begin; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const Meeting meeting = meet(state, node, entry);
+    const Meeting meeting = meet(state, node, entry.a, all);
     const double separation = separation_of(entry, meeting, correction, dt);
     const auto act = [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
@@ -235,65 +226,19 @@ void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
   }
 }
 
-/// Adds up, in a fixed order, what the particles will keep of a correction.
-template <int Dim>
-void Contact<Dim>::book(const State<Dim>& state) {
-  for (const auto& node : list_.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      // In a lump, each touching pair is seen from both sides.
-      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-      books_.friction_work += share * entry.friction_work;
-      if (node.rigid >= 0) book_rigid(state, node, entry);
-      if (!pairs_.empty() && entry.touching) book_pair(state, node, entry, share);
-    }
-}
-
-template <int Dim>
-void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& node,
-                              const ContactEntry<Dim>& entry) {
-  const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
-  const auto f = static_cast<std::size_t>(field);
-  books_.rigid_impulse[f] -= entry.impulse;
-  books_.rigid_work +=
-      entry.impulse.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
-  Vec<3> arm = Vec<3>::Zero(), impulse = Vec<3>::Zero();
-  for (int d = 0; d < Dim; ++d) {
-    arm[d] = state.grid.origin[d] + node.node[d] * state.grid.cell - pivots_[f][d];
-    impulse[d] = entry.impulse[d];
-  }
-  books_.rigid_moment[f] -= arm.cross(impulse);
-}
-
-template <int Dim>
-void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
-                             const ContactEntry<Dim>& entry, double share) {
-  const auto field_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
-  };
-  const std::size_t at = pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
-  if (pairs_.pair[at] < 0) return;
-  const auto k = static_cast<std::size_t>(pairs_.pair[at]);
-  books_.pair_impulse[k] += (pairs_.forward[at] ? share : -share) * entry.impulse;
-  books_.pair_friction_work[k] += share * entry.friction_work;
-}
-
-// The members of this file; the others are in contact.cpp and explicit_pairs.cpp.
-#define MPMFAST_MEMBERS(D)                                                                                \
-  template Contact<D>::Contact(const Scene&, const Plan&);                                                \
-  template void Contact<D>::open_books(const std::vector<Vec<D>>&);                                       \
-  template void Contact<D>::resolve(State<D>&, Correction, double);                                       \
-  template void Contact<D>::rest(int, int);                                                               \
-  template int Contact<D>::partner(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const; \
-  template Contact<D>::Meeting Contact<D>::meet(const State<D>&, const ContactNode<D>&,                   \
-                                                const ContactEntry<D>&) const;                            \
-  template double Contact<D>::separation_of(const ContactEntry<D>&, const Meeting&, Correction, double)   \
-      const;                                                                                              \
-  template double Contact<D>::area(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const; \
-  template void Contact<D>::apply(State<D>&, Correction, double, const ContactNode<D>&) const;            \
-  template void Contact<D>::book(const State<D>&);                                                        \
-  template void Contact<D>::book_rigid(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&);   \
-  template void Contact<D>::book_pair(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&, double)
+// The members of this file; the others are in contact.cpp, explicit_pairs.cpp and book_contact.cpp.
+#define MPMFAST_MEMBERS(D)                                                                                 \
+  template Contact<D>::Contact(const Scene&, const Plan&);                                                 \
+  template void Contact<D>::resolve(State<D>&, Correction, double);                                        \
+  template void Contact<D>::rest(int, int);                                                                \
+  template int Contact<D>::partner(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const;  \
+  template Contact<D>::Total Contact<D>::together(const State<D>&, const ContactNode<D>&, int, int) const; \
+  template Contact<D>::Meeting Contact<D>::meet(const State<D>&, const ContactNode<D>&, int, const Total&) \
+      const;                                                                                               \
+  template double Contact<D>::separation_of(const ContactEntry<D>&, const Meeting&, Correction, double)    \
+      const;                                                                                               \
+  template double Contact<D>::area(const State<D>&, const ContactNode<D>&, const ContactEntry<D>&) const;  \
+  template void Contact<D>::apply(State<D>&, Correction, double, const ContactNode<D>&) const
 MPMFAST_MEMBERS(2);
 MPMFAST_MEMBERS(3);
 #undef MPMFAST_MEMBERS

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -195,6 +197,62 @@ TEST_CASE("contact areas of a flat interface add up to it, anywhere in the cells
       CHECK(worst[0] < 1e-6);  // measured 1.2e-8: the shear itself slows the sliding
       CHECK(worst[1] < 0.02);  // measured 0.011: the tilted edge is a staircase of particles
     }
+}
+
+TEST_CASE(
+    "nodal volumes and gradients are projected only where a law or a lump of several laws asks for them") {
+  const auto columns = [](const std::string& contact, const std::string& third) {
+    std::string yaml = kImpact;
+    if (!third.empty()) yaml += "  - {name: c, box: {from: [16 mm, 0 mm], to: [18 mm, 2 mm]}, material: n}\n";
+    const Plan plan = make_plan(scene_from(yaml, {{"contact", contact}}));
+    const auto has = [&](Nodal q) {
+      return std::find(plan.nodal_columns.begin(), plan.nodal_columns.end(), q) != plan.nodal_columns.end();
+    };
+    return std::pair{has(Nodal::volume_gradient), has(Nodal::volume)};
+  };
+  const std::string viscous = "law: viscous, viscosity: 1 Pa*s, film: 1 mm";
+  using Wanted = std::pair<bool, bool>;
+  CHECK(columns("{law: coulomb, friction: 0.2}", "c") == Wanted{false, false});
+  CHECK(columns("{" + viscous + "}", "") == Wanted{true, false});
+  CHECK(columns("{" + viscous + ", area: nodal_volume}", "") == Wanted{false, true});
+  CHECK(columns("{pairs: [{between: [a, b], " + viscous + "}]}", "") == Wanted{true, false});
+  CHECK(columns("{pairs: [{between: [a, b], law: stick}]}", "") == Wanted{false, false});
+  CHECK(columns("{pairs: [{between: [a, b], law: stick}]}", "c") == Wanted{false, true});
+}
+
+TEST_CASE(
+    "a lump obeys the law of one of its fields: what two laws do apart adds up to what they do together") {
+  // The high block falls on a small and a wide one that meet under it.
+  const std::string yaml = R"(
+space: plane_strain
+grid: {size: [24 mm, 24 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: high, box: {from: [4 mm, 8 mm], to: [14 mm, 11 mm]}, material: m, velocity: [1 m/s, -1 m/s]}
+  - {name: small, box: {from: [4 mm, 4 mm], to: [6 mm, 8 mm]}, material: m}
+  - {name: wide, box: {from: [6 mm, 4 mm], to: [14 mm, 8 mm]}, material: m}
+)";
+  const auto gained = [&](const std::string& small, const std::string& wide) {
+    const Scene scene = scene_from(
+        yaml,
+        {{"contact", fmt::format("{{law: ignore, separation: none, corrections: 1, pairs: [{{between: [high, "
+                                 "small], law: {}}}, {{between: [high, wide], law: {}}}]}}",
+                                 small, wide)}});
+    Step<2> step(scene);
+    advance(step, 1);
+    double sum = 0;
+    for (std::size_t p = 0; p < step.state().particles.size(); ++p)
+      if (step.state().particles.body()[p] == 0)
+        sum += step.state().particles.column(Quantity::mass)[p] *
+               (step.state().particles.vector(Quantity::velocity, p)[1] + 1);
+    return sum;
+  };
+  const double both = gained("stick", "stick"), small = gained("stick", "ignore"),
+               wide = gained("ignore", "stick");
+  CHECK(small > 0);
+  CHECK(wide > 2 * small);
+  CHECK(std::abs((small + wide) / both - 1) < 1e-12);
 }
 
 }  // namespace
