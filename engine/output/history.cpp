@@ -34,6 +34,15 @@ void add_stress_names(std::vector<std::string>& names, const Scene& scene, const
     names.push_back(fmt::format("{}.mean_stress_{}_Pa", body, kTensorNames[k]));
 }
 
+/// "a+b" for what contact does between a and b.
+std::string pair_name(const Scene& scene, const ContactPair& pair) {
+  const auto name = [&](int index) {
+    const auto k = static_cast<std::size_t>(index);
+    return pair.materials ? scene.materials[k].name : scene.bodies[k].name;
+  };
+  return name(pair.between[0]) + "+" + name(pair.between[1]);
+}
+
 std::vector<std::string> column_names(const Scene& scene) {
   std::vector<std::string> names{"step",       "time_s",          "dt_s",       "kinetic_J",  "stored_J",
                                  "friction_J", "boundary_work_J", "momentum_x", "momentum_y", "momentum_z"};
@@ -53,6 +62,16 @@ std::vector<std::string> column_names(const Scene& scene) {
     if (is_rigid(scene, scene.bodies[b])) add(scene.bodies[b].name, "force_", "_N");
   names.push_back("body_force_work_J");
   add_stress_names(names, scene, "all");
+  for (const auto& body : scene.bodies) {
+    if (!is_rigid(scene, body)) continue;
+    if (dim == 2) names.push_back(body.name + ".moment_z_Nm");
+    if (dim == 3) add(body.name, "moment_", "_Nm");
+  }
+  for (const auto& pair : scene.contact.pairs) {
+    const std::string owner = pair_name(scene, pair);
+    add(owner, "force_", "_N");
+    names.push_back(owner + ".friction_J");
+  }
   return names;
 }
 
@@ -102,6 +121,16 @@ void HistoryFile::append(const HistoryRow& row) {
       line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
   line.add(row.body_force_work);
   line.add(row.mean_stress, tensor);
+  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
+    if (!is_rigid(*scene_, scene_->bodies[b])) continue;
+    const Vec3 moment = b < row.rigid_moment.size() ? row.rigid_moment[b] : Vec3{};
+    if (dim == 2) line.add(moment[2]);
+    if (dim == 3) line.add(moment, 3);
+  }
+  for (std::size_t k = 0; k < scene_->contact.pairs.size(); ++k) {
+    line.add(k < row.pair_force.size() ? row.pair_force[k] : Vec3{}, dim);
+    line.add(k < row.pair_friction.size() ? row.pair_friction[k] : 0.0);
+  }
   errno = 0;
   file_ << line.end() << std::flush;
   if (!file_) throw_file_error("write", path_);

@@ -32,9 +32,12 @@ struct HistoryRow {
     double mass = 0;
     Vec3 position{}, velocity{};  ///< of the centre of mass
   };
-  std::vector<Body> bodies;          ///< as Scene::bodies
-  std::vector<Vec3> boundary_force;  ///< N, on the material, mean over the interval; as Scene::boundaries
-  std::vector<Vec3> rigid_force;     ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
+  std::vector<Body> bodies;           ///< as Scene::bodies
+  std::vector<Vec3> boundary_force;   ///< N, on the material, mean over the interval; as Scene::boundaries
+  std::vector<Vec3> rigid_force;      ///< N, on the rigid body by contact; as Scene::bodies (zero for others)
+  std::vector<Vec3> rigid_moment;     ///< N m, likewise, about the body's pivot
+  std::vector<Vec3> pair_force;       ///< N, on the first of the two; as ContactSpec::pairs
+  std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
 };
 
 /// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise
@@ -91,6 +94,7 @@ struct RunSummary {
   struct Contact {
     std::uint64_t nodes_peak = 0, regressions = 0, fallbacks = 0, unconverged = 0;
     double mean_iterations = 0;
+    std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< with fields: pairs
   } contact;
   double energy_error = 0;
   std::string checksum;

@@ -23,11 +23,10 @@ std::string processor_name() {
 }
 
 nlohmann::ordered_json contact_json(const RunSummary::Contact& contact) {
-  return {{"nodes_peak", contact.nodes_peak},
-          {"regressions", contact.regressions},
-          {"mean_iterations", contact.mean_iterations},
-          {"fallbacks", contact.fallbacks},
-          {"unconverged", contact.unconverged}};
+  return {{"nodes_peak", contact.nodes_peak},           {"regressions", contact.regressions},
+          {"mean_iterations", contact.mean_iterations}, {"fallbacks", contact.fallbacks},
+          {"unconverged", contact.unconverged},         {"pair_nodes", contact.pair_nodes},
+          {"pair_fallbacks", contact.pair_fallbacks}};
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/plan/contact_law.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -33,12 +35,15 @@ void plan_fields(const Scene& scene, Plan& plan) {
   }
 }
 
+void need_column(Nodal q, Plan& plan) {
+  plan.geometry = true;
+  auto& columns = plan.nodal_columns;
+  if (std::find(columns.begin(), columns.end(), q) == columns.end()) columns.push_back(q);
+}
+
 /// What normals, separations and screening take from the grid.
 void plan_contact_columns(const ContactSpec& contact, Plan& plan) {
-  const auto need = [&](Nodal q) {
-    plan.geometry = true;
-    plan.nodal_columns.push_back(q);
-  };
+  const auto need = [&](Nodal q) { need_column(q, plan); };
   const bool gradients =
       contact.normal == NormalKind::average_gradient || contact.normal == NormalKind::max_gradient ||
       contact.normal == NormalKind::max_volume || contact.normal == NormalKind::own_gradient;
@@ -59,6 +64,16 @@ void plan_contact_columns(const ContactSpec& contact, Plan& plan) {
   }
 }
 
+/// Contact areas for the laws that ask for one; nodal volumes also where the lump of several fields takes the
+/// law of the largest.
+void plan_areas(const Scene& scene, Plan& plan) {
+  if (!plan.contact) return;
+  const auto need = [&](Nodal q) { need_column(q, plan); };
+  if (any_law(scene.contact, uses_area))
+    need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
+  if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
+}
+
 void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
@@ -67,17 +82,18 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
-  if (plan.contact && scene.contact.law != LawKind::perfect) plan_contact_columns(scene.contact, plan);
+  if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
+  plan_areas(scene, plan);
 }
 
-void list_passes(const Scene& scene, Plan& plan) {
+void list_passes(Plan& plan) {
   auto& p = plan.passes;
   p.push_back("project mass and momentum");
-  if (plan.geometry) p.push_back("project volume gradients and positions");
+  if (plan.geometry) p.push_back("project volumes, their gradients and positions");
   if (plan.contact) {
     p.push_back("find contact nodes");
-    if (scene.contact.law != LawKind::perfect) p.push_back("contact normals and separations");
-    p.push_back("first contact correction");
+    if (plan.contact_geometry) p.push_back("contact normals and separations");
+    if (plan.first_correction) p.push_back("first contact correction");
   }
   p.push_back(plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
   if (plan.gravity) p.push_back("body force");
@@ -98,14 +114,22 @@ Plan make_plan(const Scene& scene) {
   plan_method(scene.method, plan);
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
-  plan.contact = plan.fields.size() > 1 && scene.contact.law != LawKind::ignore;
-  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction && !scene.method.own_filter;
+  const auto acts = [](const LawSpec& law) { return law.law != LawKind::ignore; };
+  plan.contact = plan.fields.size() > 1 && any_law(scene.contact, acts);
+  plan.contact_geometry = any_law(scene.contact, uses_geometry);
+  plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
+  plan.first_correction = scene.contact.corrections == 2;
+  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction &&
+                !scene.method.own_filter && plan.first_correction;
   plan.own_filter = scene.method.own_filter;
-  plan.first_correction_stays = plan.update == ParticleUpdate::pic ||
-                                (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction && !scene.method.own_filter);
+  if (plan.contact)
+    plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
+  plan.first_correction_stays =
+      plan.update == ParticleUpdate::pic ||
+      (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction && !scene.method.own_filter);
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
-  list_passes(scene, plan);
+  list_passes(plan);
   return plan;
 }
 

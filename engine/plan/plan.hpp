@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/plan/pair_table.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
@@ -20,20 +21,25 @@ struct Plan {
   int order = 1;            ///< m of XPIC(m)
   double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
   int deformation_terms = 2;
-  bool contact = false;                 ///< more than one velocity field, and a law that acts
+  bool contact = false;  ///< more than one velocity field, and a law that acts
   bool own_filter = false;
   bool paired = false;                  ///< XPIC carries Δv* beside v*
   bool first_correction_stays = false;  ///< particles keep its impulse: PIC, and XPIC without the Δv terms
-  bool geometry = false;                ///< volume gradients and mean positions are projected
+  bool first_correction = true;   ///< contact is corrected before the strain too, not only after the momenta
+  bool contact_geometry = false;  ///< some law asks for normals and separations
+  bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
+  bool geometry = false;          ///< volume gradients and mean positions are projected
   bool gravity = false;
   std::vector<std::string> fields;  ///< names of the velocity fields
   std::vector<int> body_field;      ///< as Scene::bodies
   std::vector<bool> field_rigid;
+  PairTable pairs;  ///< laws of their own between fields; empty: one law for all
   std::vector<Quantity> particle_columns;
   std::vector<Nodal> nodal_columns;
   std::vector<std::string> passes;  ///< of a step, in order
 };
 
 Plan make_plan(const Scene& scene);
+PairTable make_pair_table(const Scene& scene, const std::vector<int>& body_field, int fields);
 
 }  // namespace mpmfast

@@ -1,5 +1,7 @@
 #include "engine/scene/catalogue.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "engine/scene/sections.hpp"
@@ -23,6 +25,20 @@ std::vector<CatalogueEntry> kinds_of(const std::vector<Kind>& kinds) {
   return out;
 }
 
+/// A law with its parameters.
+std::vector<CatalogueEntry> laws() {
+  std::vector<CatalogueEntry> out = words_of(kLaws);
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    for (const LawParameter& parameter : law_parameters()) {
+      if (!has_parameter(kLaws[k].value, parameter)) continue;
+      if (!out[k].keys.empty()) out[k].keys += ", ";
+      out[k].keys += parameter.name;
+      if (!parameter.needed) out[k].keys += fmt::format(" = {}", LawSpec{}.*parameter.value);
+    }
+  }
+  return out;
+}
+
 std::vector<CatalogueEntry> boundaries() {
   return {
       {"wall", "",
@@ -33,14 +49,16 @@ std::vector<CatalogueEntry> boundaries() {
       {"{wall: …}", "wall: sliding or held, position", "a wall at another place than the grid's face"},
       {"{piston: …}", "piston: speed or table, direction = inwards, held = false, position", "a moving wall"},
       {"NAME: {box: …}", "box: {from, to}, direction, speed: speed or table",
-       "one velocity component prescribed at every node in the box"}};
+       "one velocity component prescribed at every node in the box"},
+      {"NAME: {node: …}", "node: point, direction, speed: speed or table",
+       "the same at the node nearest to a point"}};
 }
 
 }  // namespace
 
 std::vector<std::string> catalogue_topics() {
-  return {"materials",   "bases",      "updates", "strains", "positions",  "normals",
-          "separations", "detections", "laws",    "shapes",  "boundaries", "pictures"};
+  return {"materials",  "bases", "updates", "strains", "positions", "normals",    "separations",
+          "detections", "laws",  "areas",   "fields",  "shapes",    "boundaries", "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -52,7 +70,9 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "normals") return words_of(kNormals);
   if (topic == "separations") return words_of(kSeparations);
   if (topic == "detections") return words_of(kDetections);
-  if (topic == "laws") return words_of(kLaws);
+  if (topic == "laws") return laws();
+  if (topic == "areas") return words_of(kAreas);
+  if (topic == "fields") return words_of(kManyFields);
   if (topic == "shapes") return kinds_of(shape_kinds());
   if (topic == "boundaries") return boundaries();
   std::vector<CatalogueEntry> out;

@@ -52,7 +52,8 @@ inline constexpr std::array<Word<NormalKind>, 9> kNormals{{
     {NormalKind::logistic_regression, "logistic_regression",
      "the plane that best parts the particles (default)"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
-     "its mean over the nodes around, with penalty 0.01, warm starts and an advanced separation"},
+     "its mean over the nodes around, with warm starts, an advanced separation, persistent and simultaneous "
+     "contact"},
     {NormalKind::logistic_irls, "logistic_irls", "the same by maximum likelihood (reweighted least squares)"},
     {NormalKind::linear_regression, "linear_regression", "the plane by linear regression alone"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},
@@ -87,12 +88,29 @@ inline constexpr std::array<Word<DetectionKind>, 3> kDetections{{
     {DetectionKind::separation, "separation", "surfaces that overlap, also where they part: they stick"},
 }};
 
-inline constexpr std::array<Word<LawKind>, 5> kLaws{{
+/// Their keys are in law_parameters (sections.hpp).
+inline constexpr std::array<Word<LawKind>, 8> kLaws{{
     {LawKind::coulomb, "coulomb", "slides when friction × normal force is reached (default, friction 0)"},
     {LawKind::frictionless, "frictionless", "slides freely"},
     {LawKind::stick, "stick", "never slides while in contact"},
     {LawKind::perfect, "perfect", "always tied, also in tension"},
     {LawKind::ignore, "ignore", "bodies pass through each other"},
+    {LawKind::adhesion, "adhesion", "bonded up to a tensile and a shear strength, then coulomb"},
+    {LawKind::velocity_friction, "velocity_friction",
+     "friction + (static_friction - friction) exp(-v/decay_speed)"},
+    {LawKind::viscous, "viscous", "a liquid film: shear traction viscosity × v/film, no dry friction"},
+}};
+
+inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
+    {ManyFields::lump, "lump", "each field against all others of the node together (default)"},
+    {ManyFields::pairs, "pairs", "one or two touching pairs are solved by themselves, more are lumped"},
+    {ManyFields::simultaneous, "simultaneous",
+     "all touching pairs of the node at once; conserves momentum (default of smoothed normals)"},
+}};
+
+inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
+    {AreaKind::volume_gradient, "volume_gradient", "the node's share of the surface itself (default)"},
+    {AreaKind::nodal_volume, "nodal_volume", "from the nodal volumes of the two fields"},
 }};
 
 /// Fields that output.picture can show.

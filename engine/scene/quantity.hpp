@@ -11,7 +11,19 @@
 namespace mpmfast {
 
 /// What a number of the scene measures.
-enum class Measure { number, length, time, mass, velocity, acceleration, density, pressure, angle };
+enum class Measure {
+  number,
+  length,
+  time,
+  mass,
+  velocity,
+  acceleration,
+  density,
+  pressure,
+  angle,
+  angular_velocity,
+  viscosity
+};
 
 /// Exponents of metre, kilogram, second and radian.
 using Dimensions = std::array<int, 4>;

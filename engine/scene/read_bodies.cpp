@@ -104,16 +104,18 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   }
 }
 
-/// A table of velocities makes sense only where the body obeys it.
+/// Tables of velocities and rotations make sense only where the body obeys them.
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {
-  for (const auto& table : body.rigid_velocity) {
-    if (!table || is_rigid(scene, body)) continue;
-    const int index = index_of(entry.node(), "velocity");
-    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), "velocity"),
-          entry.problems())
-        .report("a table of velocities is for rigid bodies only");
-    return;
-  }
+  if (is_rigid(scene, body)) return;
+  const auto refuse = [&](const char* key, const char* what) {
+    const int index = index_of(entry.node(), key);
+    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), key), entry.problems())
+        .report(fmt::format("{} is for rigid bodies only", what));
+  };
+  const auto& tables = body.rigid_velocity;
+  if (std::any_of(tables.begin(), tables.end(), [](const auto& table) { return table.has_value(); }))
+    refuse("velocity", "a table of velocities");
+  if (body.rotation) refuse("rotation", "a rotation");
 }
 
 /// One entry of the list: one body, or one for each grey level of a bitmap.
@@ -132,6 +134,7 @@ class BodyReader {
     body.field = (field ? field->name() : std::nullopt).value_or("");
     read_particles_per_cell(map, dimension, body);
     read_velocity(map, dimension, body);
+    read_rotation(map, dimension, body);
     if (map.find("bitmap")) {
       for (const char* key : {"extent", "origin", "skip", "materials"})
         map.find(key);  // known, whatever else is wrong

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/scene/sections.hpp"
 #include "engine/scene/suggest.hpp"
@@ -28,7 +29,7 @@ class BoundaryReader {
     if (!value.is(Node::Kind::map)) {
       std::vector<std::string> faces;
       for (const FaceName& known : kFaces) faces.emplace_back(known.name);
-      return value.complain("not a face of the grid, and not a map {box, direction, speed}",
+      return value.complain("not a face of the grid, and not a map {box | node, direction, speed}",
                             did_you_mean(name, faces));
     }
     if (!is_name(name)) value.report("not a name (letters, digits, '_' and '-')");
@@ -122,7 +123,10 @@ class BoundaryReader {
     MapReader map(value);
     VelocityBoxSpec spec;
     spec.speed = TimeTable{{0}, {0}};
-    if (const auto box = map.need("box", "a map {from, to}")) read_corners(*box, spec);
+    if (const auto node = map.find("node"))
+      read_node(*node, spec);
+    else if (const auto box = map.need("box", "a map {from, to}"))
+      read_corners(*box, spec);
     if (const auto direction = map.need("direction", "x, y, z, left, up, … or a vector")) {
       spec.direction = read_direction(*direction, scene_.dimension(), true).value_or(Vec3{});
     }
@@ -131,6 +135,19 @@ class BoundaryReader {
     }
     map.finish();
     add(name, value, spec);
+  }
+
+  /// The node nearest to a point, as a box without extent.
+  void read_node(const Value& node, VelocityBoxSpec& spec) const {
+    const auto point = node.vector(Measure::length, scene_.dimension());
+    if (!point || !grid_known_) return;
+    const auto& grid = scene_.grid;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(scene_.dimension()); ++k) {
+      const double at = std::round(((*point)[k] - grid.origin[k]) / grid.cell);
+      if (at < 0 || at > std::round(grid.size[k] / grid.cell))
+        node.report(fmt::format("no node of the grid lies there in {}", "xyz"[k]));
+      spec.lower[k] = spec.upper[k] = grid.origin[k] + at * grid.cell;
+    }
   }
 
   void read_corners(const Value& box, VelocityBoxSpec& spec) const {

@@ -8,9 +8,10 @@ namespace {
 void set_defaults(ContactSpec& contact) {
   switch (contact.normal) {
     case NormalKind::smoothed_logistic_regression:
-      contact.penalty = 1e-2;
       contact.advance_separation = true;
       contact.warm_start = true;
+      contact.persistent = true;
+      contact.fields = ManyFields::simultaneous;
       break;
     case NormalKind::average_gradient:
     case NormalKind::max_gradient:
@@ -56,15 +57,26 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
   map.integer("piecewise_particles", 1, 2, contact.piecewise_particles);
   map.word("detection", kDetections, contact.detection);
-  map.word("law", kLaws, contact.law);
-  map.quantity("friction", Measure::number, kNotNegative, contact.friction);
+  read_law(map, contact);
   read_regression(map, contact);
   map.quantity("rigid_bias", Measure::number, kNotNegative, contact.rigid_bias);
   map.boolean("advance_separation", contact.advance_separation);
-  map.integer("persistent", 0, 2, contact.persistent);
+  map.boolean("persistent", contact.persistent);
   map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
   map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
   map.quantity("volume_screen", Measure::number, kNotNegative, contact.volume_screen);
+  map.integer("corrections", 1, 2, contact.corrections);
+  map.word("area", kAreas, contact.area);
+  map.word("fields", kManyFields, contact.fields);
+  const bool clouds = (contact.normal == NormalKind::logistic_regression ||
+                       contact.normal == NormalKind::smoothed_logistic_regression) &&
+                      contact.separation == SeparationKind::ellipsoid;
+  if (contact.fields == ManyFields::pairs && !clouds) {
+    map.find("fields")->report(
+        "explicit pairs are found from the particles of each pair (normal: logistic_regression, separation: "
+        "ellipsoid)");
+  }
+  map.find("pairs");  // known here, read when there are bodies
   map.finish();
 }
 

@@ -62,6 +62,7 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
   read_output(top, dimension, scene.output);
   read_materials(top, scene.materials);
   read_bodies(top, grid_known, scene);
+  read_contact_pairs(top, scene);
   read_boundaries(top, grid_known, scene);
   top.finish();
 }

@@ -47,7 +47,12 @@ enum class SeparationKind {
 };
 /// What makes two fields of a node touch: both their approach and their separation, or one alone.
 enum class DetectionKind { both, velocity, separation };
-enum class LawKind { coulomb, frictionless, stick, perfect, ignore };
+enum class LawKind { coulomb, frictionless, stick, perfect, ignore, adhesion, velocity_friction, viscous };
+/// How the contact area of a node is found, for the laws that need it.
+enum class AreaKind { volume_gradient, nodal_volume };
+/// Nodes of three or more fields: each against the lump of the others, pair by pair where one or two touch
+/// (N20 §3.4), or all pairs that touch at once.
+enum class ManyFields { lump, pairs, simultaneous };
 
 /// A quantity tabulated in time: linear between the points, constant before the first and after the last.
 struct TimeTable {
@@ -72,6 +77,7 @@ struct MethodSpec {
   UpdateKind update = UpdateKind::flip;
   int xpic_order = 1;              ///< m of XPIC(m), 2..20 when update is xpic
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
+  /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
   PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid
@@ -125,6 +131,13 @@ struct BitmapShape {
 
 using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape>;
 
+/// Of a rigid body: about an axis through a point that moves with the body's velocity.
+struct RotationSpec {
+  Vec3 about{};        ///< m, at time 0
+  Vec3 axis{0, 0, 1};  ///< unit; z in 2-D
+  TimeTable speed;     ///< rad/s, right-handed about the axis
+};
+
 struct BodySpec {
   std::string name;
   Shape shape;
@@ -133,6 +146,7 @@ struct BodySpec {
   std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
+  std::optional<RotationSpec> rotation;                    ///< rigid bodies
 };
 
 /// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
@@ -160,7 +174,28 @@ struct GravitySpec {
   double ramp = 0;             ///< s, linear from 0 to full
 };
 
-struct ContactSpec {
+/// The law of a pair of surfaces, with the parameters that it has.
+struct LawSpec {
+  LawKind law = LawKind::coulomb;
+  double friction = 0;         ///< coefficient of friction while sliding
+  double static_friction = 0;  ///< before sliding; 0: as `friction`
+  double decay_speed = 1;      ///< m/s, over which friction falls from static to sliding
+  double normal_strength = 0;  ///< Pa, of adhesion
+  double shear_strength = 0;   ///< Pa, of adhesion
+  double reach = 0.05;         ///< cells: adhesion acts up to this gap
+  double viscosity = 0;        ///< Pa s, of a film between the surfaces
+  double film = 1;             ///< m, its thickness
+};
+
+/// A pair of bodies (that is, of their velocity fields) or of materials with a law of its own.
+struct ContactPair {
+  bool materials = false;  ///< `between` counts Scene::materials; else Scene::bodies
+  std::array<int, 2> between{0, 0};
+  LawSpec law;
+};
+
+/// The law is that of all pairs but those in `pairs`.
+struct ContactSpec : LawSpec {
   bool active = true;  ///< false: every body shares one velocity field
   NormalKind normal = NormalKind::logistic_regression;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
@@ -168,8 +203,6 @@ struct ContactSpec {
   double position_offset = 0.8;  ///< c of `position_offset`, in cells
   int piecewise_particles = 2;   ///< particles a cell side that `position_piecewise` is made for: 1 or 2
   DetectionKind detection = DetectionKind::both;
-  LawKind law = LawKind::coulomb;
-  double friction = 0;        ///< Coulomb coefficient
   double penalty = 1e-7;      ///< λ of the regression in cell units
   double offset_penalty = 0;  ///< the same on its offset (NN §3.4.5)
   double tolerance = 1e-5;    ///< on 1 − n'·n, where the regression stops
@@ -180,12 +213,17 @@ struct ContactSpec {
   double rigid_bias = 0;
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
-  int persistent = 0;
-  double hysteresis = 0;            ///< cells; a node in contact stays so up to this gap
+  /// The first correction also holds a pair that touched at the end of the last step and now would part.
+  bool persistent = false;
+  double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen
   /// round-off only.
   double mass_screen = 1e-12;
+  int corrections = 2;  ///< a step; 1: only after the momentum update ('LR once' of N20 Fig. 5)
+  ManyFields fields = ManyFields::lump;
+  AreaKind area = AreaKind::volume_gradient;
+  std::vector<ContactPair> pairs;
 };
 
 struct OutputSpec {

@@ -20,6 +20,12 @@ void read_gravity(MapReader& top, int dimension, GravitySpec& gravity);
 void read_output(MapReader& top, int dimension, OutputSpec& output);
 void read_method(MapReader& top, MethodSpec& method);
 void read_contact(MapReader& top, int dimension, ContactSpec& contact);
+/// `law` and its parameters; what is absent keeps its value.
+void read_law(MapReader& map, LawSpec& law);
+/// Needs the contact section and the bodies.
+void read_contact_pairs(MapReader& top, Scene& scene);
+/// `rotation` of a body.
+void read_rotation(MapReader& body, int dimension, BodySpec& spec);
 /// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
 void read_materials(MapReader& top, std::vector<MaterialSpec>& materials);
 /// Needs grid, materials and contact; checks bodies against them when `grid_known`.
@@ -54,6 +60,18 @@ struct MaterialKind {
   decltype(MaterialSpec::model) (*read)(MapReader& map);
 };
 const std::vector<MaterialKind>& material_kinds();
+
+/// A number that some laws have.
+struct LawParameter {
+  const char* name;
+  Measure measure;
+  Limit limit;
+  double LawSpec::*value;
+  std::vector<LawKind> laws;
+  bool needed;  ///< has no default
+};
+const std::vector<LawParameter>& law_parameters();
+bool has_parameter(LawKind law, const LawParameter& parameter);
 
 /// A direction: x, +x, -x, left, up, out … or (when `any`) a vector, made a unit vector.
 std::optional<Vec3> read_direction(const Value& value, int dimension, bool any);

@@ -49,6 +49,8 @@ const QuantityKind kKinds[] = {
     {"a density", "kg/m^3, g/cm^3, t/m^3", "kg/m^3", {-3, 1, 0, 0}},
     {"a pressure", "Pa, kPa, MPa, GPa", "Pa", kPressure},
     {"an angle", "rad, deg", "rad", kAngle},
+    {"an angular velocity", "rad/s, deg/s", "rad/s", {0, 0, -1, 1}},
+    {"a viscosity", "Pa*s", "Pa*s", {-1, 1, -1, 0}},
 };
 
 /// The typographic forms that people paste: µ, °, ·, ², ³.

@@ -55,12 +55,12 @@ double extent_between(double lower, double upper) {
 }
 
 /// A table that is one value at time zero is written as that value.
-std::string table_text(const TimeTable& table) {
-  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], Measure::velocity);
+std::string table_text(const TimeTable& table, Measure kind = Measure::velocity) {
+  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], kind);
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < table.time.size(); ++k) {
     parts.push_back(fmt::format("[{}, {}]", quantity_text(table.time[k], Measure::time),
-                                quantity_text(table.value[k], Measure::velocity)));
+                                quantity_text(table.value[k], kind)));
   }
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
@@ -84,10 +84,12 @@ std::string method_text(const MethodSpec& method) {
                                  ? fmt::format("xpic({})", method.xpic_order)
                                  : std::string(name_of(kUpdates, method.update));
   return fmt::format(
-      "method:\n  basis: {}\n  update: {}\n  strain: {}\n  position: {}\n  contact_correction: {}\n"
+      "method:\n  basis: {}\n  update: {}\n  strain: {}\n  position: {}\n  contact_correction: {}\n  "
+      "own_filter: {}\n"
       "  deformation_terms: {}\n",
       name_of(kBases, method.basis), update, name_of(kStrains, method.strain),
-      name_of(kPositions, method.position), method.contact_correction, method.deformation_terms);
+      name_of(kPositions, method.position), method.contact_correction, method.own_filter,
+      method.deformation_terms);
 }
 
 struct ModelText {
@@ -194,8 +196,14 @@ std::string entry_text(const Scene& scene, std::size_t first, std::size_t last) 
                        name_text(body.field));
   }
   const std::vector<int> counts(body.particles_per_cell.begin(), body.particles_per_cell.begin() + d);
-  return out + fmt::format("    particles_per_cell: [{}]\n    velocity: {}\n", fmt::join(counts, ", "),
-                           velocity_text(body, d));
+  out += fmt::format("    particles_per_cell: [{}]\n    velocity: {}\n", fmt::join(counts, ", "),
+                     velocity_text(body, d));
+  if (!body.rotation) return out;
+  const std::string axis =
+      d == 3 ? fmt::format(", axis: {}", vector_text(body.rotation->axis, Measure::number, d)) : "";
+  return out + fmt::format("    rotation: {{about: {}{}, speed: {}}}\n",
+                           vector_text(body.rotation->about, Measure::length, d), axis,
+                           table_text(body.rotation->speed, Measure::angular_velocity));
 }
 
 struct BoundaryText {
@@ -230,24 +238,54 @@ std::string boundaries_text(const Scene& scene) {
   return out;
 }
 
-std::string contact_text(const ContactSpec& contact, int d) {
+/// The law and the parameters that it has; friction always, so that another law can be set from outside.
+std::vector<std::string> law_lines(const LawSpec& law) {
+  std::vector<std::string> lines{fmt::format("law: {}", name_of(kLaws, law.law))};
+  for (const LawParameter& parameter : law_parameters()) {
+    if (!has_parameter(law.law, parameter) && parameter.value != &LawSpec::friction) continue;
+    lines.push_back(
+        fmt::format("{}: {}", parameter.name, quantity_text(law.*parameter.value, parameter.measure)));
+  }
+  return lines;
+}
+
+std::string pairs_text(const Scene& scene) {
+  if (scene.contact.pairs.empty()) return "";
+  std::string out = "  pairs:\n";
+  for (const ContactPair& pair : scene.contact.pairs) {
+    const auto name = [&](int index) {
+      const auto k = static_cast<std::size_t>(index);
+      return name_text(pair.materials ? scene.materials[k].name : scene.bodies[k].name);
+    };
+    out += fmt::format("    - {{{}: [{}, {}], {}}}\n", pair.materials ? "materials" : "between",
+                       name(pair.between[0]), name(pair.between[1]), fmt::join(law_lines(pair.law), ", "));
+  }
+  return out;
+}
+
+std::string contact_text(const Scene& scene) {
+  const ContactSpec& contact = scene.contact;
   if (!contact.active) return "contact: none\n";
   std::string out = fmt::format("contact:\n  normal: {}\n", name_of(kNormals, contact.normal));
   if (contact.specified_normal != Vec3{}) {
-    out += fmt::format("  specified_normal: {}\n", vector_text(contact.specified_normal, Measure::number, d));
+    out += fmt::format("  specified_normal: {}\n",
+                       vector_text(contact.specified_normal, Measure::number, scene.dimension()));
   }
   out += fmt::format("  separation: {}\n  position_offset: {}\n  piecewise_particles: {}\n  detection: {}\n",
                      name_of(kSeparations, contact.separation), contact.position_offset,
                      contact.piecewise_particles, name_of(kDetections, contact.detection));
-  out += fmt::format("  law: {}\n  friction: {}\n", name_of(kLaws, contact.law), contact.friction);
+  out += fmt::format("  {}\n", fmt::join(law_lines(contact), "\n  "));
   out += fmt::format(
       "  penalty: {}\n  offset_penalty: {}\n  tolerance: {}\n  max_iterations: {}\n  warm_start: {}\n",
       contact.penalty, contact.offset_penalty, contact.tolerance, contact.max_iterations, contact.warm_start);
-  return out + fmt::format(
-                   "  rigid_bias: {}\n  advance_separation: {}\n  hysteresis: {}\n  mass_screen: {}\n"
-                   "  volume_screen: {}\n",
-                   contact.rigid_bias, contact.advance_separation, contact.hysteresis, contact.mass_screen,
-                   contact.volume_screen);
+  out += fmt::format(
+      "  rigid_bias: {}\n  advance_separation: {}\n  persistent: {}\n  hysteresis: {}\n  mass_screen: {}\n"
+      "  volume_screen: {}\n",
+      contact.rigid_bias, contact.advance_separation, contact.persistent, contact.hysteresis,
+      contact.mass_screen, contact.volume_screen);
+  out += fmt::format("  corrections: {}\n  area: {}\n  fields: {}\n", contact.corrections,
+                     name_of(kAreas, contact.area), name_of(kManyFields, contact.fields));
+  return out + pairs_text(scene);
 }
 
 }  // namespace
@@ -268,7 +306,7 @@ std::string write_scene(const Scene& scene) {
   out += fmt::format("gravity:\n  acceleration: {}\n  ramp: {}\n",
                      vector_text(scene.gravity.acceleration, Measure::acceleration, d),
                      quantity_text(scene.gravity.ramp, Measure::time));
-  out += contact_text(scene.contact, d);
+  out += contact_text(scene);
   out += fmt::format("output:\n  frames: {}\n  history: {}\n  picture: {}\n", scene.output.frames,
                      scene.output.history, scene.output.picture);
   return out;

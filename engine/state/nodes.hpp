@@ -45,7 +45,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::series, "series", true, false, "XPIC"},
     {Nodal::volume_gradient, "volume_gradient", true, false, "gradient normals"},
     {Nodal::mass_position, "mass_position", true, false, "separation by position"},
-    {Nodal::volume, "volume", false, false, "normals and screening by volume"},
+    {Nodal::volume, "volume", false, false, "normals, screening and contact areas by volume"},
     {Nodal::mass_displacement, "mass_displacement", true, false, "separation by displacement"},
 }};
 

@@ -13,7 +13,8 @@ namespace mpmfast {
 /// Each condition prescribes v·n = u on its nodes: a wall on the nodes at and beyond its plane, a box on
 /// those inside. Where several act on a node, they are turned to orthonormal directions one after the other:
 /// a parallel one adds its velocity, an oblique one keeps what is new of it, so that every prescribed
-/// component is met to round-off.
+/// component is met to round-off. What depends on those before it (a third direction in 2-D) is dropped: the
+/// first hold.
 ///
 /// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would
 /// otherwise be thrown by the full force of the particles at the wall; held at the wall's velocity, they

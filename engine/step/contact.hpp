@@ -4,27 +4,36 @@
 
 #include <vector>
 
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
 #include "engine/step/passes.hpp"
+#include "kernels/contact/laws.hpp"
 
 namespace mpmfast {
 
 /// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force).
 enum class Correction { initial, final };
 
+/// Of a node with explicit pairs: none touches or they are solved, or the lump must do (N20 §3.4).
+enum class PairOutcome { none, solved, lump };
+
+/// What contact did in one step, for the balance and the history.
+template <int Dim>
+struct ContactBooks {
+  double friction_work = 0;                ///< J
+  double rigid_work = 0;                   ///< J, of rigid bodies on the others
+  std::vector<Vec<Dim>> rigid_impulse;     ///< N s, on rigid bodies; by field
+  std::vector<Vec<3>> rigid_moment;        ///< N m s, on rigid bodies about their pivots; by field
+  std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
+  std::vector<double> pair_friction_work;  ///< J; as ContactSpec::pairs
+};
+
 template <int Dim>
 class Contact {
  public:
-  /// @param keep_velocity_change  XPIC wants Δv of the first correction
-  /// @param first_correction_stays  particles keep the impulse of the first correction: it is booked too
-  /// @param cell_volume  m³
-  Contact(const ContactSpec& spec, bool keep_velocity_change, bool first_correction_stays, double cell_volume)
-      : spec_(spec),
-        keep_velocity_change_(keep_velocity_change),
-        first_correction_stays_(first_correction_stays),
-        cell_volume_(cell_volume) {}
+  Contact(const Scene& scene, const Plan& plan);
 
   /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
   void find_nodes(const State<Dim>& state);
@@ -32,48 +41,95 @@ class Contact {
   /// Normals and separations of all entries: they hold for both corrections.
   void find_geometry(State<Dim>& state, Passes<Dim>& passes);
 
+  /// A new step: the books are empty, and moments count about these points, by field.
+  void open_books(const std::vector<Vec<Dim>>& pivots);
+
   /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
-  /// final: forces change too, friction work and the impulses on rigid bodies are summed.
+  /// final: forces change too. Friction work and the impulses on rigid bodies and of pairs are summed.
   void resolve(State<Dim>& state, Correction correction, double dt);
 
   const ContactList<Dim>& list() const { return list_; }
-  double friction_work() const { return friction_work_; }  ///< J, of the last step
-  /// Work that rigid bodies did on the others in the last step, J.
-  double rigid_work() const { return rigid_work_; }
-  const std::vector<Vec<Dim>>& rigid_impulse() const {
-    return rigid_impulse_;
-  }  ///< N s, by field, of the last step
+  /// Of the last step.
+  const ContactBooks<Dim>& books() const { return books_; }
 
  private:
   void list_stack(const State<Dim>& state, int stack);
   void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
+  void add_pairs(const ContactNode<Dim>& node);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
   void remember();
   void recall(const State<Dim>& state);
+  void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);
+  void book_pair(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                 double share);
   void grid_normals(const State<Dim>& state);
   void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   void grid_separations(const State<Dim>& state);
-  template <class Law>
-  void resolve_law(State<Dim>& state, const Law& law, Correction correction, double dt);
-  template <class Law>
-  void resolve_node(State<Dim>& state, const Law& law, Correction correction, double dt,
+  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  template <class Laws>
+  void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
+  template <class Laws>
+  void resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                     const ContactNode<Dim>& node);
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
-    bool touching, sticking;
+    bool touching;
     double plane[Dim + 1];
   };
 
+  PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
+                            const ContactNode<Dim>& node);
+  struct Touching;
+  bool find_touching(const State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node,
+                     Touching& out);
+  void rest(int begin, int end);
+  void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
+  struct Total {
+    double mass = 0;
+    Vec<Dim> momentum = Vec<Dim>::Zero();
+  };
+  /// What field a needs to stick to the others: Δp_a(0), N s, and m_red, kg.
+  struct Meeting {
+    Vec<Dim> stick;
+    double reduced;
+  };
+  /// A field of a node while its pairs are solved: rigid ones have no inverse mass.
+  struct Moving {
+    Vec<Dim> velocity;
+    double inverse_mass;
+  };
+  template <class Laws>
+  bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                        const ContactNode<Dim>& node);
+  static Meeting meeting_of(const std::vector<Moving>& fields, const ContactEntry<Dim>& entry);
+  template <class Law>
+  Vec<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                      Correction correction, const Law& law, double area_time) const;
+  template <class Law>
+  static double friction_work_of(const ContactEntry<Dim>& entry, const Vec<Dim>& stick,
+                                 const Vec<Dim>& impulse, double reduced, const Law& law);
+  Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
+  Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
+  double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, Correction correction,
+                       double dt) const;
+  double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+
   ContactSpec spec_;
-  bool keep_velocity_change_, first_correction_stays_;
-  double cell_volume_;
+  PairTable pairs_;
+  std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
+  double cell_, cell_volume_;
+  bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
+  bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
+  bool geometry_;                ///< some law asks for normals and separations
+  bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;  ///< of the entries, ascending
-  std::vector<Memory> memory_;       ///< of the last step, in order of the keys
-  double friction_work_ = 0, rigid_work_ = 0;
-  std::vector<Vec<Dim>> rigid_impulse_;
+  std::vector<std::uint64_t> keys_;          ///< of the entries
+  std::vector<std::vector<Moving>> moving_;  ///< room of each thread
+  std::vector<Memory> memory_;               ///< of the last step, in order of the keys
+  ContactBooks<Dim> books_;
+  std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };
 
 extern template class Contact<2>;

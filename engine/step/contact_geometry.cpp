@@ -9,7 +9,7 @@ namespace mpmfast {
 
 template <int Dim>
 void Contact<Dim>::find_geometry(State<Dim>& state, Passes<Dim>& passes) {
-  if (list_.nodes.empty() || spec_.law == LawKind::perfect || spec_.law == LawKind::ignore) return;
+  if (list_.nodes.empty() || !geometry_) return;
   grid_normals(state);
   passes.fit_contact(state, spec_, list_);
   grid_separations(state);
@@ -29,10 +29,12 @@ void Contact<Dim>::grid_normals(const State<Dim>& state) {
         continue;
       }
       // Into the rigid body, else from the lower field to the higher.
-      const int own = node.field_begin + entry.a,
-                other = own == node.field_begin ? own + 1 : node.field_begin;
-      const auto field = [&](int f) { return list_.fields[static_cast<std::size_t>(f)].field; };
-      const double sign = node.rigid >= 0 || field(own) < field(other) ? 1.0 : -1.0;
+      const int other = entry.b >= 0 ? entry.b : entry.a == 0 ? 1 : 0;
+      const auto field = [&](int k) {
+        return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+      };
+      const bool into_rigid = node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid);
+      const double sign = into_rigid || field(entry.a) < field(other) ? 1.0 : -1.0;
       for (int d = 0; d < Dim; ++d)
         entry.normal[d] = sign * spec_.specified_normal[static_cast<std::size_t>(d)];
     }
@@ -48,7 +50,8 @@ void Contact<Dim>::gradient_normal(const State<Dim>& state, const ContactNode<Di
   const bool volumes = state.nodes.has(Nodal::volume);
   for (int k = 0; k < node.field_end - node.field_begin; ++k) {
     const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-    if (node.rigid >= 0 && k != entry.a && k != node.rigid) continue;
+    const int other = entry.b >= 0 ? entry.b : node.rigid;
+    if (other >= 0 && k != entry.a && k != other) continue;
     (k == entry.a ? own : rest) += state.nodes.vector(Nodal::volume_gradient, slot);
     if (volumes) (k == entry.a ? own_volume : rest_volume) += state.nodes.column(Nodal::volume)[slot];
   }
@@ -70,7 +73,8 @@ void Contact<Dim>::gradient_normal(const State<Dim>& state, const ContactNode<Di
       gradients = false;
   }
   // NN §3.5: a rigid body keeps its shape, and so does its gradient.
-  if (node.rigid >= 0 && spec_.rigid_bias > 0 && (gradients || spec_.rigid_bias >= 10) &&
+  const bool against_rigid = node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid);
+  if (against_rigid && spec_.rigid_bias > 0 && (gradients || spec_.rigid_bias >= 10) &&
       rest.norm() * spec_.rigid_bias >= own.norm()) {
     normal = -rest;
     entry.settled = true;
@@ -92,6 +96,7 @@ void Contact<Dim>::grid_separations(const State<Dim>& state) {
       double mass_own = 0, mass_rest = 0;
       Vec<Dim> own = Vec<Dim>::Zero(), rest = Vec<Dim>::Zero();
       for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+        if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
         const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
         (k == entry.a ? mass_own : mass_rest) += mass[slot];
         (k == entry.a ? own : rest) += state.nodes.vector(moment, slot);

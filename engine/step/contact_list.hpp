@@ -15,18 +15,18 @@ struct ContactField {
   int field, slot;
 };
 
-/// One field against the rest of a node.
+/// One field against another or against the rest of a node.
 template <int Dim>
 struct ContactEntry {
   int a;                     ///< which of the node's fields
-  int b;                     ///< the only other field; −1: the lump of all the others (N20 Eq. 50)
+  int b;                     ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
   Vec<Dim> normal;           ///< unit, from a to the rest; zero: unknown, no contact
   double separation = 0;     ///< m, negative: overlap
+  double advanced = 0;       ///< the separation that a correction judges by, m
   double plane[Dim + 1]{};   ///< of the regression, cells; zero: none
   bool settled = false;      ///< the normal is found: no regression
   bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
   bool touching = false;     ///< in contact at the last correction
-  bool stuck = false, sticking = false;
   double friction_work = 0;  ///< J, of the last correction
   Vec<Dim> impulse;          ///< Δp_a of the last correction
 };
@@ -37,11 +37,13 @@ struct ContactNode {
   NodeIndex<Dim> node;         ///< coordinates
   int field_begin, field_end;  ///< into ContactList::fields
   int entry_begin, entry_end;  ///< into ContactList::entries
-  int rigid;                   ///< which of its fields is the rigid one; −1: none
+  int pair_begin;  ///< entries from here on are the explicit pairs of a node of three or more fields
+  int rigid;       ///< which of its fields is the rigid one; −1: none
 };
 
 struct ContactCounters {
   std::uint64_t nodes_peak = 0, regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
+  std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< explicit pairs solved, and left to the lump
 };
 
 template <int Dim>
@@ -53,17 +55,20 @@ struct ContactList {
   ContactCounters counters;
 };
 
-/// Names an entry from step to step, in the order of the list: its node, then its field a.
+/// Names an entry from step to step: its node, then its field a, then b (first of all the lump).
 template <int Dim>
 std::uint64_t entry_key(const State<Dim>& state, const ContactList<Dim>& list, const ContactNode<Dim>& node,
                         const ContactEntry<Dim>& entry) {
   const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
   const auto place =
       static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
-  const int field = list.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
-  return (place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local)) *
-             static_cast<std::uint64_t>(state.fields()) +
-         static_cast<std::uint64_t>(field);
+  const auto field = [&](int k) {
+    return static_cast<std::uint64_t>(list.fields[static_cast<std::size_t>(node.field_begin + k)].field);
+  };
+  const auto fields = static_cast<std::uint64_t>(state.fields());
+  const std::uint64_t other = entry.b >= 0 ? field(entry.b) + 1 : 0;
+  const std::uint64_t at = place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local);
+  return (at * fields + field(entry.a)) * (fields + 1) + other;
 }
 
 }  // namespace mpmfast

@@ -25,11 +25,12 @@ struct alignas(64) FitTally {
 
 /// What a scene's contact asks of the clouds.
 struct FitChoice {
-  bool regress, smooth, separate;
+  bool regress, smooth, separate, pairs;
   Extent extent;
   RegressionRule rule;
 
   explicit FitChoice(const ContactSpec& spec) {
+    pairs = spec.fields == ManyFields::simultaneous;
     smooth = spec.normal == NormalKind::smoothed_logistic_regression;
     regress = smooth || spec.normal == NormalKind::logistic_regression ||
               spec.normal == NormalKind::logistic_irls || spec.normal == NormalKind::linear_regression;
@@ -91,8 +92,13 @@ class ContactFit {
     void choose_sides(const CloudColumns<Dim>& cloud, const ContactEntry<Dim>& entry) {
       const auto needed = static_cast<std::size_t>(padded_count(cloud.count));
       if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
-      for (std::size_t k = 0; k < needed; ++k)
-        side[k] = cloud.owner[k] < 0 ? 0.0 : cloud.owner[k] == entry.a ? -1.0 : 1.0;
+      for (std::size_t k = 0; k < needed; ++k) side[k] = side_of(cloud.owner[k], entry);
+    }
+
+    /// A pair of a node of three or more fields leaves the others out.
+    static double side_of(int owner, const ContactEntry<Dim>& entry) {
+      if (owner == entry.a) return -1;
+      return owner >= 0 && (entry.b < 0 || owner == entry.b) ? 1 : 0;
     }
 
     CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
@@ -184,7 +190,7 @@ class ContactFit {
 
   /// Mean normals of the nodes around, and the separations along them.
   void smooth(const State<Dim>& state, const FitChoice& choice, ContactList<Dim>& contact) {
-    const NormalMean<Dim> mean(state, contact, raw_);
+    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       const Kept& kept = kept_[k];
       const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);

@@ -133,20 +133,25 @@ class Run {
     row.body_force_work = sums.body_force_work;
     fill_particle_sums(state.particles, scene_, row);
     const double elapsed = state.time - last_row_time_;
-    const auto mean_force = [&](const Vec<Dim>& now, const Vec<Dim>& before) {
+    const auto mean_force = [&](const auto& now, const auto& before) {
       Vec3 force{};
-      for (int d = 0; d < Dim && elapsed > 0; ++d)
+      for (int d = 0; d < now.size() && elapsed > 0; ++d)
         force[static_cast<std::size_t>(d)] = (now[d] - before[d]) / elapsed;
       return force;
     };
     for (std::size_t b = 0; b < sums.boundary_impulse.size(); ++b)
       row.boundary_force.push_back(mean_force(sums.boundary_impulse[b], last_impulse_.boundary_impulse[b]));
     row.rigid_force.assign(scene_.bodies.size(), Vec3{});
+    row.rigid_moment.assign(scene_.bodies.size(), Vec3{});
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const auto f = static_cast<std::size_t>(step_.plan().body_field[b]);
-      if (step_.plan().field_rigid[f])
-        row.rigid_force[b] = mean_force(sums.rigid_impulse[f], last_impulse_.rigid_impulse[f]);
+      if (!step_.plan().field_rigid[f]) continue;
+      row.rigid_force[b] = mean_force(sums.rigid_impulse[f], last_impulse_.rigid_impulse[f]);
+      row.rigid_moment[b] = mean_force(sums.rigid_moment[f], last_impulse_.rigid_moment[f]);
     }
+    for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
+      row.pair_force.push_back(mean_force(sums.pair_impulse[k], last_impulse_.pair_impulse[k]));
+    row.pair_friction = sums.pair_friction_work;
     last_impulse_ = sums;
     last_row_time_ = state.time;
     last_row_step_ = state.step;
@@ -223,9 +228,10 @@ class Run {
       s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
     s.seconds.emplace_back("output", std::max(0.0, s.wall - stepping_));
     const ContactCounters& c = step_.contact_counters();
-    s.contact = {
-        c.nodes_peak, c.regressions, c.fallbacks, c.unconverged,
-        c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0};
+    const double mean_iterations =
+        c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;
+    s.contact = {c.nodes_peak,    c.regressions, c.fallbacks,     c.unconverged,
+                 mean_iterations, c.pair_nodes,  c.pair_fallbacks};
     s.energy_error = balance_.error();
     s.checksum = checksum(state.particles);
     s.command = options_.command;

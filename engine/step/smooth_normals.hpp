@@ -37,8 +37,10 @@ int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact
 template <int Dim>
 class NormalMean {
  public:
-  NormalMean(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<Vec<Dim>>& raw)
-      : state_(state), contact_(contact), raw_(raw) {}
+  /// @param pairs  nodes of three or more fields have an entry for every pair, and no lumps
+  NormalMean(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<Vec<Dim>>& raw,
+             bool pairs)
+      : state_(state), contact_(contact), raw_(raw), pairs_(pairs) {}
 
   /// Over the 3^Dim nodes around, weighted by the smaller of the two masses; not normalised.
   Vec<Dim> operator()(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
@@ -55,11 +57,12 @@ class NormalMean {
     return contact_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   }
 
-  /// Adds the other node's normals of field a against any of the fields that a meets here, and of such a
-  /// field against a, turned round.
+  /// Adds the other node's normals of field a against b, and of b against a turned round; against a lump,
+  /// those of a and any of the fields that it meets here.
   void add(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, const ContactNode<Dim>& other,
            Vec<Dim>& sum) const {
     const int a = field(node, entry.a);
+    if (entry.b >= 0 && pairs_) return add_pair(a, field(node, entry.b), other, sum);
     const auto meets_a = [&](int f) {
       if (f == a) return false;
       for (int k = 0; k < node.field_end - node.field_begin; ++k)
@@ -81,10 +84,22 @@ class NormalMean {
     }
   }
 
-  double weight(const ContactNode<Dim>& node, int a) const {
+  void add_pair(int a, int b, const ContactNode<Dim>& other, Vec<Dim>& sum) const {
+    for (int e = other.entry_begin; e < other.entry_end; ++e) {
+      const auto& theirs = contact_.entries[static_cast<std::size_t>(e)];
+      if (theirs.b < 0) continue;
+      const int f = field(other, theirs.a), g = field(other, theirs.b);
+      if (!((f == a && g == b) || (f == b && g == a))) continue;
+      sum += (f == a ? 1.0 : -1.0) * weight(other, theirs.a, theirs.b) * raw_[static_cast<std::size_t>(e)];
+    }
+  }
+
+  /// The smaller mass of field a and the others, or b alone.
+  double weight(const ContactNode<Dim>& node, int a, int b = -1) const {
     const double* mass = state_.nodes.column(Nodal::mass);
     double own = 0, total = 0;
     for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+      if (b >= 0 && k != a && k != b) continue;
       const double m = mass[contact_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
       total += m;
       if (k == a) own = m;
@@ -95,6 +110,7 @@ class NormalMean {
   const State<Dim>& state_;
   const ContactList<Dim>& contact_;
   const std::vector<Vec<Dim>>& raw_;
+  bool pairs_;
 };
 
 }  // namespace mpmfast

@@ -12,7 +12,6 @@
 
 #include "engine/errors.hpp"
 #include "engine/plan/seed.hpp"
-#include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
 
@@ -22,14 +21,17 @@ Step<Dim>::Step(const Scene& scene)
       plan_(make_plan(scene)),
       passes_(make_passes<Dim>(scene.method.basis)),
       conditions_(scene),
-      contact_(scene.contact, plan_.paired, plan_.first_correction_stays, cell_volume(scene)) {
-  seed(scene, plan_, state_);
+      contact_(scene, plan_),
+      rigid_(scene, plan_, seeded(scene)) {
   // Below a thousand particles a thread, waiting for each other costs more than the work.
   state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
   passes_->shape_domains(state_);
   state_.nodes.plan(plan_.nodal_columns, plan_.paired);
   sums_.boundary_impulse.assign(scene.boundaries.size(), Vec<Dim>::Zero());
   sums_.rigid_impulse.assign(plan_.fields.size(), Vec<Dim>::Zero());
+  sums_.rigid_moment.assign(plan_.fields.size(), Vec<3>::Zero());
+  sums_.pair_impulse.assign(scene.contact.pairs.size(), Vec<Dim>::Zero());
+  sums_.pair_friction_work.assign(scene.contact.pairs.size(), 0);
   for (int d = 0; d < Dim; ++d) {
     const auto k = static_cast<std::size_t>(d);
     lower_[d] = scene.grid.origin[k] - scene.grid.cell;
@@ -41,14 +43,17 @@ Step<Dim>::Step(const Scene& scene)
 }
 
 template <int Dim>
+const State<Dim>& Step<Dim>::seeded(const Scene& scene) {
+  seed(scene, plan_, state_);
+  return state_;
+}
+
+template <int Dim>
 double Step<Dim>::stable_dt() const {
-  double fastest = std::max(fastest_, conditions_.fastest());
+  double fastest = std::max({fastest_, conditions_.fastest(), rigid_.fastest()});
   for (const auto& body : scene_->bodies) {
     double squared = 0;
-    for (std::size_t d = 0; d < Dim; ++d) {
-      const double v = body.rigid_velocity[d] ? largest(*body.rigid_velocity[d]) : body.velocity[d];
-      squared += v * v;
-    }
+    for (std::size_t d = 0; d < Dim; ++d) squared += body.velocity[d] * body.velocity[d];
     fastest = std::max(fastest, std::sqrt(squared));
   }
   return std::min(scene_->time.max_step, scene_->time.cfl * scene_->grid.cell / fastest);
@@ -56,9 +61,10 @@ double Step<Dim>::stable_dt() const {
 
 template <int Dim>
 void Step<Dim>::advance(double dt) {
-  move_rigid_start(dt);
+  rigid_.begin(state_, dt);
   sort_if_due();
   project();  // N20 Eq. 5
+  rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
   find_contact();
   if (plan_.own_filter && plan_.order > 1)
@@ -70,7 +76,7 @@ void Step<Dim>::advance(double dt) {
         for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
       }
     });
-  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::initial, dt); });  // Eq. 26
+  correct_contact(Correction::initial, dt);  // Eq. 26
   start_velocities();
   const double smallest_j = clock_.time(Pass::strain_force, [&] {  // Eq. 28, 29
     return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
@@ -78,8 +84,8 @@ void Step<Dim>::advance(double dt) {
   if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
   add_body_force(dt);
   clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt); });
-  update_momenta(dt);                                                                            // Eq. 30
-  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, Correction::final, dt); });  // Eq. 31, 33
+  update_momenta(dt);                      // Eq. 30
+  correct_contact(Correction::final, dt);  // Eq. 31, 33
   clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
   end_velocities(dt);
   filter_velocities();   // Eq. 42 to 44
@@ -147,6 +153,16 @@ void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
   clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
   clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
+}
+
+template <int Dim>
+void Step<Dim>::correct_contact(Correction correction, double dt) {
+  if (!plan_.contact) return;
+  if (correction == Correction::initial) {
+    contact_.open_books(rigid_.pivots());
+    if (!plan_.first_correction) return;
+  }
+  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, correction, dt); });
 }
 
 /// v = p/m after the first contact correction: for XPIC as it is, for the strain with conditions imposed on
@@ -291,35 +307,11 @@ void Step<Dim>::update_particles(double dt) {
   if (report.lost) fail("it left the grid or is not a number");
 }
 
-/// Rigid particles carry the mean speed of the step, so that the grid sees it too.
-template <int Dim>
-void Step<Dim>::move_rigid_start(double dt) {
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-    if (!state_.bodies[b].rigid) continue;
-    for (int d = 0; d < Dim; ++d) {
-      const auto& table = scene_->bodies[b].rigid_velocity[static_cast<std::size_t>(d)];
-      if (!table) continue;
-      const double v = mean_over(*table, state_.time, dt);
-      for (std::size_t p = 0; p < state_.particles.size(); ++p)
-        if (state_.particles.body()[p] == b) state_.particles.column(Quantity::velocity, d)[p] = v;
-    }
-  }
-}
-
 template <int Dim>
 void Step<Dim>::move_rigid_end(double dt) {
-  if (std::none_of(plan_.field_rigid.begin(), plan_.field_rigid.end(), [](bool r) { return r; })) return;
-  double fastest = 0;
-  for (std::size_t p = 0; p < state_.particles.size(); ++p) {
-    if (!state_.bodies[state_.particles.body()[p]].rigid) continue;
-    const Vec<Dim> v = state_.particles.vector(Quantity::velocity, p);
-    fastest = std::max(fastest, v.norm());
-    for (int d = 0; d < Dim; ++d) {
-      double& x = state_.particles.column(Quantity::position, d)[p];
-      x += dt * v[d];
-      if (!(x > lower_[d] && x < upper_[d])) fail("it left the grid or is not a number");
-    }
-  }
+  if (rigid_.empty()) return;
+  const double fastest = rigid_.end(state_, dt, lower_, upper_);
+  if (fastest < 0) fail("it left the grid or is not a number");
   travelled_ += fastest * dt;
 }
 
@@ -329,10 +321,17 @@ void Step<Dim>::book(double dt) {
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) {
-    sums_.friction_work += contact_.friction_work();
-    sums_.boundary_work += contact_.rigid_work();
-    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f)
-      sums_.rigid_impulse[f] += contact_.rigid_impulse()[f];
+    const ContactBooks<Dim>& books = contact_.books();
+    sums_.friction_work += books.friction_work;
+    sums_.boundary_work += books.rigid_work;
+    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) {
+      sums_.rigid_impulse[f] += books.rigid_impulse[f];
+      sums_.rigid_moment[f] += books.rigid_moment[f];
+    }
+    for (std::size_t k = 0; k < sums_.pair_impulse.size(); ++k) {
+      sums_.pair_impulse[k] += books.pair_impulse[k];
+      sums_.pair_friction_work[k] += books.pair_friction_work[k];
+    }
   }
   if (plan_.gravity) {
     double power = 0;

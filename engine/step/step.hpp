@@ -12,6 +12,7 @@
 #include "engine/step/conditions.hpp"
 #include "engine/step/contact.hpp"
 #include "engine/step/passes.hpp"
+#include "engine/step/rigid_bodies.hpp"
 
 namespace mpmfast {
 
@@ -21,6 +22,9 @@ struct Sums {
   double friction_work = 0, boundary_work = 0, body_force_work = 0;  ///< J
   std::vector<Vec<Dim>> boundary_impulse;                            ///< N s, as Scene::boundaries
   std::vector<Vec<Dim>> rigid_impulse;                               ///< N s, by velocity field
+  std::vector<Vec<3>> rigid_moment;                                  ///< N m s about the pivot, likewise
+  std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
+  std::vector<double> pair_friction_work;  ///< J, likewise
 };
 
 template <int Dim>
@@ -49,10 +53,11 @@ class Step {
   double stored_energy() const;
 
  private:
+  const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
-  void move_rigid_start(double dt);
   void project();
   void find_contact();
+  void correct_contact(Correction correction, double dt);
   void start_velocities();
   bool is_rigid_slot(std::int64_t slot) const;
   void add_body_force(double dt);
@@ -73,6 +78,7 @@ class Step {
   std::unique_ptr<Passes<Dim>> passes_;
   Conditions<Dim> conditions_;
   Contact<Dim> contact_;
+  RigidBodies<Dim> rigid_;
   Sums<Dim> sums_;
   PassClock clock_;
   Vec<Dim> lower_, upper_;               ///< box that particles must stay in, m

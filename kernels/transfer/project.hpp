@@ -11,7 +11,7 @@ namespace mpmfast {
 template <int Dim, class Basis>
 struct ProjectRoom {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, 1> mass_momentum, gradient_volume, mass_position, mass_displacement;
+  Window<Dim, 1> mass_momentum, gradient_volume, mass_position, mass_displacement, volume;
   alignas(64) double row[1 + Dim][kChunk<Dim>];  ///< mass and momentum of the particles
   Record record[kChunk<Dim>];
 };
@@ -40,8 +40,7 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   return inside;
 }
 
-/// What grid-based contact asks for; null columns are not projected, except that all four are computed once
-/// one is asked for.
+/// What grid-based contact asks for; null columns are not wanted.
 template <int Dim>
 struct GeometryColumns {
   NodeColumns<Dim> volume_gradient;    ///< g_i = Σ G_pi V_p: out of the material (G_pi turns from p to i)
@@ -50,16 +49,17 @@ struct GeometryColumns {
   NodeColumns<1> volume;               ///< Σ S_pi V_p
 };
 
-/// The sums that gradient normals, volume screening and grid-based separations are made of (theory §2).
+/// The sums that gradient normals, volume screening, contact areas and grid-based separations are made of
+/// (theory §2).
 template <int Dim, class Basis>
 void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
                            const GeometryColumns<Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
+  const bool displaced = out.mass_displacement.column[0];
   clear(room.gradient_volume);
   clear(room.mass_position);
   clear(room.mass_displacement);
-  clear(room.mass_momentum);
-  const bool displaced = p.reference_position[0] != nullptr;
+  clear(room.volume);
   for_each_chunk<Dim, Basis, Wanted::both>(
       c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
@@ -67,18 +67,17 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
           double f[Dim * Dim];
           for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
           const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
-          Record x{}, u{}, omega{};
+          Record x{}, u{};
           Record unit[Dim] = {};
-          omega[0] = volume;
           for (int d = 0; d < Dim; ++d) {
             x[d] = m * (p.position[d][q] - c.grid->origin[d]);
             if (displaced) u[d] = m * (p.position[d][q] - p.reference_position[d][q]);
             unit[d][d] = volume;
           }
-          scatter_values(w, k, x, room.mass_position.at[0]);
-          scatter_values(w, k, omega, room.mass_momentum.at[0]);
+          if (out.mass_position.column[0]) scatter_values(w, k, x, room.mass_position.at[0]);
+          if (out.volume.column[0]) scatter_values(w, k, Record{volume}, room.volume.at[0]);
           if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
-          scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+          if (out.volume_gradient.column[0]) scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
         }
       });
   const auto flush = [&](auto& window, const auto& columns) {
@@ -88,7 +87,7 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   flush(room.gradient_volume, out.volume_gradient);
   flush(room.mass_position, out.mass_position);
   flush(room.mass_displacement, out.mass_displacement);
-  flush(room.mass_momentum, out.volume);
+  flush(room.volume, out.volume);
 }
 
 }  // namespace mpmfast

@@ -95,22 +95,18 @@ TEST_CASE("touching surfaces: separations by domains and by displacement vanish,
 }
 
 TEST_CASE("displacements measure how far the surfaces have come") {
-  const Scene scene = contact_scene(0, "{law: ignore}");
-  const Scene seen = contact_scene(
-      0, "{normal: specified, specified_normal: [0, 1], separation: displacement, friction: 0}");
+  const Scene seen =
+      contact_scene(0, "{normal: specified, specified_normal: [0, 1], separation: displacement}");
   Step<2> step(seen);
   const double dt = step.stable_dt();
+  step.advance(dt);  // surfaces that just touch do not overlap: the blocks approach freely at 2 m/s
   step.advance(dt);
-  step.advance(dt);
-  // After one step the blocks have approached as their interface allows: compare with the particles
-  // themselves.
-  const auto& particles = step.state().particles;
-  for_inner_entries(step, [&](const auto&, const auto& entry, double) {
-    CHECK(std::abs(entry.separation) <= 2 * dt);
-    CHECK(entry.separation <= 1e-12);
+  const int entries = for_inner_entries(step, [&](const auto&, const auto& entry, double) {
+    CHECK(std::abs(entry.separation / (-2 * dt) - 1) < 1e-9);
   });
-  CHECK(particles.has(Quantity::reference_position));
-  Step<2> other(scene);
+  CHECK(entries > 6);
+  const Scene unseen = contact_scene(0, "{law: ignore}");
+  Step<2> other(unseen);
   CHECK_FALSE(other.state().particles.has(Quantity::reference_position));
 }
 
@@ -153,10 +149,13 @@ bodies:
   CHECK(worst_tilt("normal: linear_regression, rigid_bias: 1000") < 1e-12);
 }
 
-TEST_CASE("a scene with warm starts keeps the normals and the motion of one with cold starts") {
+// Warm normals are within the tolerance of the least objective, 1 − n'·n < 1e-5 or 4.5e-3 rad; over the path
+// of 0.14 m that bends positions by 6e-4 m at most, 5e-5 of the scene's size. Measured: 6e-6.
+TEST_CASE("a scene with warm starts keeps the normals and the motion of one with converged cold starts") {
   const std::string contact = "{friction: 0.2, normal: smoothed_logistic_regression, warm_start: ";
-  const Scene warm_scene = contact_scene(0.2, contact + "true}"),
-              cold_scene = contact_scene(0.2, contact + "false}");
+  const Scene warm_scene = contact_scene(0.2, contact + "true, penalty: 0.01}"),
+              cold_scene = contact_scene(
+                  0.2, contact + "false, penalty: 0.01, tolerance: 1e-14, max_iterations: 200}");
   Step<2> warm(warm_scene), cold(cold_scene);
   for (int k = 0; k < 100; ++k) {
     const double dt = cold.stable_dt();
@@ -167,7 +166,7 @@ TEST_CASE("a scene with warm starts keeps the normals and the motion of one with
   for (std::size_t e = 0; e < cold.contact_list().entries.size(); ++e)
     CHECK(1 - warm.contact_list().entries[e].normal.dot(cold.contact_list().entries[e].normal) < 2e-5);
   CHECK(relative_difference(by_id(warm.state().particles, Quantity::position),
-                            by_id(cold.state().particles, Quantity::position)) < 1e-6);
+                            by_id(cold.state().particles, Quantity::position)) < 5e-5);
   CHECK(warm.contact_counters().iterations < cold.contact_counters().iterations);
 }
 

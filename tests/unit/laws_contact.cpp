@@ -25,6 +25,7 @@ struct Pair {
   }
   /// Δp_a(0): what gives both one velocity.
   Vec<Dim> stick() const { return mass_a / (mass_a + mass_b) * (momentum_a + momentum_b) - momentum_a; }
+  double reduced() const { return mass_a * mass_b / (mass_a + mass_b); }
   double kinetic(const Vec<Dim>& change) const {
     return 0.5 * (momentum_a + change).squaredNorm() / mass_a +
            0.5 * (momentum_b - change).squaredNorm() / mass_b;
@@ -40,7 +41,7 @@ void check_dissipation_and_detection(const Law& law) {
   for (int k = 0; k < 500; ++k) {
     const Pair<Dim> pair(draw);
     const Vec<Dim> n = random_direction<Dim>(draw), stick = pair.stick();
-    const Vec<Dim> change = resolve_pair<Dim>(stick, n, -0.1, law);
+    const Vec<Dim> change = resolve_pair<Dim>(stick, n, -0.1, law, pair.reduced(), 0.3);
     CHECK(pair.kinetic(change) <= pair.kinetic(Vec<Dim>::Zero()) * (1 + 1e-13));
     if (Law::scope != LawScope::contact) continue;
     CHECK(resolve_pair<Dim>(stick, n, 0.0, law) == Vec<Dim>::Zero());
@@ -50,7 +51,8 @@ void check_dissipation_and_detection(const Law& law) {
     if (stick.dot(n) < 0)
       CHECK(std::abs(pair.velocity_jump(change).dot(n)) < 1e-10 * (1 + stick.norm() / pair.mass_a));
     // b sees the same pair from its side: opposite stick momentum and opposite normal.
-    CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law) + change).norm() <= 1e-15 * stick.norm());
+    CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law, pair.reduced(), 0.3) + change).norm() <=
+          1e-15 * stick.norm());
   }
 }
 
@@ -64,6 +66,10 @@ TEST_CASE_TEMPLATE("laws never add kinetic energy and act only on touching, appr
   check_dissipation_and_detection<Dim>(Stick{});
   check_dissipation_and_detection<Dim>(Perfect{});
   check_dissipation_and_detection<Dim>(Ignore{});
+  check_dissipation_and_detection<Dim>(Coulomb{0.2, 0.4});
+  check_dissipation_and_detection<Dim>(VelocityFriction{0.1, 0.6, 0.5});
+  check_dissipation_and_detection<Dim>(Viscous{3});
+  check_dissipation_and_detection<Dim>(Adhesion{0.2, 1, 2, 0.01});
 }
 
 TEST_CASE_TEMPLATE("Coulomb: on the cone when sliding, along the sliding, whole inside it", D, TwoD, ThreeD) {
@@ -114,13 +120,61 @@ TEST_CASE_TEMPLATE("limits: no friction, endless friction, tied and ignored surf
   CHECK(resolve_pair<Dim>(-2.0 * n, n, -0.1, Frictionless{}) == -2.0 * n);
 }
 
+TEST_CASE("Coulomb: static friction holds up to its own cone, then the sliding coefficient counts") {
+  const Coulomb law{0.2, 0.5};
+  CHECK(law({10, 4.9}) == kSticks);
+  CHECK(law({10, 5.1}) == doctest::Approx(2).epsilon(1e-15));
+}
+
+TEST_CASE("velocity-dependent friction satisfies its law at the speed that remains") {
+  const VelocityFriction law{0.1, 0.6, 0.5};
+  Draw draw(4);
+  for (int k = 0; k < 300; ++k) {
+    const double normal = uniform(draw, 0.1, 3), reduced = uniform(draw, 0.01, 2);
+    const double stick = normal * uniform(draw, 0.6001, 4);
+    const double shear = law({normal, stick, reduced});
+    const double speed = (stick - shear) / reduced;  // N20 Eq. 8: Δp = Δp(0) − m_red k t
+    CHECK(speed > 0);
+    CHECK(shear == doctest::Approx((0.1 + 0.5 * std::exp(-speed / 0.5)) * normal).epsilon(1e-10));
+  }
+  CHECK(law({1, 0.6, 1}) == kSticks);
+}
+
+TEST_CASE("a viscous film carries its viscosity times the speed that remains, and never reverses it") {
+  const double resistance = 7, reduced = 0.4, area_time = 0.02, stick = 3;
+  const double shear = Viscous{resistance}({1, stick, reduced, area_time});
+  CHECK(shear == doctest::Approx(resistance * area_time * (stick - shear) / reduced).epsilon(1e-14));
+  CHECK(Viscous{1e30}({1, stick, reduced, area_time}) == doctest::Approx(stick));
+  CHECK(Viscous{resistance}({1, stick, reduced, 0}) == 0);
+}
+
+TEST_CASE("a bond holds up to its ellipse of tension and shear, within reach, and friction follows") {
+  const Adhesion law{0.3, 2, 5, 0.01};
+  const double area_time = 0.1;  // tension up to 0.2, shear up to 0.5
+  const Vec<2> n = Vec<2>::Unit(0), t = Vec<2>::Unit(1);
+  const auto change = [&](const Vec<2>& stick, double separation) {
+    return resolve_pair<2>(stick, n, separation, law, 1, area_time);
+  };
+  CHECK(change(0.199 * n, 0.005) == 0.199 * n);
+  CHECK(change(0.201 * n, 0.005) == Vec<2>::Zero());
+  CHECK(change(0.199 * n, 0.011) == Vec<2>::Zero());  // out of reach
+  CHECK(change(0.499 * t, 0.005) == 0.499 * t);
+  CHECK(change(0.501 * t, 0.005) == Vec<2>::Zero());
+  const double r = std::sqrt(0.5);
+  CHECK(change(r * 0.199 * n + r * 0.499 * t, 0) == r * 0.199 * n + r * 0.499 * t);
+  CHECK(change(r * 0.201 * n + r * 0.501 * t, 0) == Vec<2>::Zero());
+  // In compression the shear strength and the friction add up; broken, only the friction is left.
+  CHECK(change(-n + 0.79 * t, -0.1) == -n + 0.79 * t);
+  CHECK((change(-n + 0.81 * t, -0.1) - (-n + 0.3 * t)).norm() < 1e-15);
+}
+
 TEST_CASE("every law has a name of its own and says what it is") {
-  CHECK(Coulomb::keys[0].name == "friction");
-  const std::string_view names[] = {Coulomb::name, Frictionless::name, Stick::name, Perfect::name,
-                                    Ignore::name};
-  for (std::size_t i = 0; i < 5; ++i)
+  const std::string_view names[] = {Coulomb::name, Frictionless::name, Stick::name,   Perfect::name,
+                                    Ignore::name,  Adhesion::name,     Viscous::name, VelocityFriction::name};
+  for (std::size_t i = 0; i < 8; ++i)
     for (std::size_t j = 0; j < i; ++j) CHECK(names[i] != names[j]);
-  for (const auto text : {Coulomb::description, Frictionless::description, Stick::description,
-                          Perfect::description, Ignore::description})
+  for (const auto text :
+       {Coulomb::description, Frictionless::description, Stick::description, Perfect::description,
+        Ignore::description, Adhesion::description, Viscous::description, VelocityFriction::description})
     CHECK(!text.empty());
 }

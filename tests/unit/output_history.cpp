@@ -36,7 +36,8 @@ bool same_bits(const HistoryRow& a, const HistoryRow& b) {
 
 TEST_CASE("history columns come in the order that the output contract states") {
   const TemporaryFolder folder;
-  const Scene scene = small_scene(Space::plane_strain);
+  Scene scene = small_scene(Space::plane_strain);
+  scene.contact.pairs.push_back({false, {2, 0}, {}});
   HistoryFile file(folder.path(), scene);
   HistoryRow row;
   row.step = 7;
@@ -46,6 +47,9 @@ TEST_CASE("history columns come in the order that the output contract states") {
   row.bodies[0].mass = 0.125;
   row.boundary_force = {{10, 20, 0}};
   row.rigid_force = {{}, {}, {30, 40, 0}};
+  row.rigid_moment = {{}, {}, {0, 0, 50}};
+  row.pair_force = {{60, 70, 0}};
+  row.pair_friction = {80};
   row.body_force_work = 5;
   row.mean_stress = {6, 7, 8, 9, 0, 0};
   file.append(row);
@@ -61,6 +65,7 @@ TEST_CASE("history columns come in the order that the output contract states") {
     for (const char c : body) expected += c == '@' ? name : std::string(1, c);
   expected += ",floor.force_x_N,floor.force_y_N,punch.force_x_N,punch.force_y_N,body_force_work_J";
   expected += ",all.mean_stress_xx_Pa,all.mean_stress_yy_Pa,all.mean_stress_zz_Pa,all.mean_stress_xy_Pa";
+  expected += ",punch.moment_z_Nm,punch+left.force_x_N,punch+left.force_y_N,punch+left.friction_J";
   CHECK(lines[0] == expected);
 
   const auto names = split(lines[0]), cells = split(lines[1]);
@@ -77,6 +82,9 @@ TEST_CASE("history columns come in the order that the output contract states") {
   CHECK(value("floor.force_y_N") == "20");
   CHECK(value("punch.force_x_N") == "30");
   CHECK(value("body_force_work_J") == "5");
+  CHECK(value("punch.moment_z_Nm") == "50");
+  CHECK(value("punch+left.force_y_N") == "70");
+  CHECK(value("punch+left.friction_J") == "80");
   CHECK(value("all.mean_stress_xy_Pa") == "9");
 }
 
@@ -90,7 +98,7 @@ TEST_CASE("history has six stresses and three force components in 3-D") {
   CHECK(lines[0].find("left.mean_stress_xy_Pa,left.mean_stress_yz_Pa,left.mean_stress_xz_Pa,left.mass_kg") !=
         std::string::npos);
   CHECK(lines[0].find("left.z_m,left.vx,left.vy,left.vz") != std::string::npos);
-  CHECK(split(lines[0]).size() == 10 + 3 * 13 + 3 + 3 + 1 + 6);
+  CHECK(split(lines[0]).size() == 10 + 3 * 13 + 3 + 3 + 1 + 6 + 3);
   CHECK(split(lines[1]).size() == split(lines[0]).size());
 }
 

@@ -19,13 +19,14 @@ TEST_CASE("a misspelt key, word or material name suggests the right one") {
         "scene.yaml:8:1: outptu: unknown key. Did you mean 'output'?");
   CHECK(fault(plain_scene() + "contact: {law: columb}\n") ==
         "scene.yaml:8:16: contact.law: not known here (one of coulomb, frictionless, stick, perfect, "
-        "ignore), got 'columb'. "
+        "ignore, adhesion, velocity_friction, viscous), got 'columb'. "
         "Did you mean 'coulomb'?");
   CHECK(fault(replaced(plain_scene(), "material: steel", "material: stele")) ==
         "scene.yaml:7:74: bodies.0.material: not known here (one of steel), got 'stele'. Did you mean "
         "'steel'?");
   CHECK(fault(plain_scene() + "boundaries: {lfet: wall}\n") ==
-        "scene.yaml:8:20: boundaries.lfet: not a face of the grid, and not a map {box, direction, speed}, "
+        "scene.yaml:8:20: boundaries.lfet: not a face of the grid, and not a map {box | node, direction, "
+        "speed}, "
         "got 'wall'. "
         "Did you mean 'left'?");
   CHECK(holds(fault(plain_scene() + "method: {update: flpi}\n"), "Did you mean 'flip'?"));

@@ -47,7 +47,9 @@ TEST_CASE("the defaults of contact follow the normal") {
     return parse(plain_scene() + "contact: " + keys + "\n").contact;
   };
   CHECK_FALSE(contact("none").active);
-  CHECK(contact("{normal: smoothed_logistic_regression}").penalty == 1e-2);
+  CHECK(contact("{normal: smoothed_logistic_regression}").penalty == 1e-7);
+  CHECK(contact("{normal: smoothed_logistic_regression}").persistent);
+  CHECK(contact("{normal: smoothed_logistic_regression}").fields == ManyFields::simultaneous);
   CHECK(contact("{normal: smoothed_logistic_regression}").warm_start);
   CHECK_FALSE(contact("{law: stick}").warm_start);
   CHECK(contact("{normal: smoothed_logistic_regression}").advance_separation);

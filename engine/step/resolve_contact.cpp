@@ -1,0 +1,335 @@
+#include <omp.h>
+
+#include <algorithm>
+
+#include "engine/plan/contact_law.hpp"
+#include "engine/step/contact.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// One law for every pair: nothing is looked up.
+template <class Law>
+struct OneLaw {
+  const Law& law;
+  static constexpr bool by_pair = false;
+  template <class F>
+  void with(int, int, F f) const {
+    f(law);
+  }
+};
+
+/// The law of each pair from the table.
+struct LawsByPair {
+  const PairTable& table;
+  const std::vector<AnyLaw>& laws;
+  static constexpr bool by_pair = true;
+  template <class F>
+  void with(int field_a, int field_b, F f) const {
+    std::visit(f, laws[static_cast<std::size_t>(table.pair[table.at(field_a, field_b)] + 1)]);
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
+    : spec_(scene.contact),
+      pairs_(plan.pairs),
+      cell_(scene.grid.cell),
+      cell_volume_(cell_volume(scene)),
+      keep_velocity_change_(plan.paired),
+      first_correction_stays_(plan.first_correction_stays),
+      geometry_(plan.contact_geometry),
+      exact_fields_(plan.exact_fields) {
+  moving_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  laws_.push_back(make_law(spec_, cell_));
+  for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
+}
+
+template <int Dim>
+void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
+  if (pairs_.empty())
+    std::visit(
+        [&](const auto& law) {
+          resolve_all(state, OneLaw<std::decay_t<decltype(law)>>{law}, correction, dt);
+        },
+        laws_.front());
+  else
+    resolve_all(state, LawsByPair{pairs_, laws_}, correction, dt);
+}
+
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+  std::uint64_t solved = 0, lumped = 0;
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    auto outcome = PairOutcome::lump;
+    if (node.pair_begin < node.entry_end) {
+      outcome = resolve_pairs(state, correction, dt, node);
+      solved += outcome == PairOutcome::solved;
+      lumped += outcome == PairOutcome::lump;
+    }
+    if (spec_.fields == ManyFields::simultaneous && node.field_end - node.field_begin > 2) {
+      const bool settled = resolve_together(state, laws, correction, dt, node);
+      solved += settled;
+      lumped += !settled;
+    } else if (outcome == PairOutcome::lump) {
+      resolve_each(state, laws, correction, dt, node);
+    }
+    apply(state, correction, dt, node);
+  }
+  if (correction == Correction::final) {
+    list_.counters.pair_nodes += solved;
+    list_.counters.pair_fallbacks += lumped;
+  }
+  if (correction == Correction::final || first_correction_stays_) book(state);
+}
+
+/// The other field of an entry; of a lump the one with the largest volume, whose law then holds for the whole
+/// (N20 after Eq. 50).
+template <int Dim>
+int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  if (entry.b >= 0) return entry.b;
+  if (node.rigid >= 0) return node.rigid;
+  const double* volume = state.nodes.column(Nodal::volume);
+  int largest = -1;
+  double most = -1;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    const double v = volume[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+    if (k != entry.a && v > most) largest = k, most = v;
+  }
+  return largest;
+}
+
+/// All fields of a node, or the two of a pair.
+template <int Dim>
+typename Contact<Dim>::Total Contact<Dim>::together(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                    int a, int b) const {
+  Total sum;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (b >= 0 && k != a && k != b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    sum.mass += state.nodes.column(Nodal::mass)[slot];
+    sum.momentum += state.nodes.vector(Nodal::momentum, slot);
+  }
+  return sum;
+}
+
+/// Field a against the others of `all`; a rigid body has m_b → ∞ and keeps its velocity.
+template <int Dim>
+typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                  int a, const Total& all) const {
+  const auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const double m_a = mass[slot_of(a)];
+  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(a));
+  if (node.rigid >= 0) {
+    const int r = slot_of(node.rigid);
+    return {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
+  }
+  return {(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
+}
+
+template <int Dim>
+double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                   Correction correction, double dt) const {
+  double separation = entry.separation;
+  if (entry.touched) separation -= spec_.hysteresis * cell_;
+  if (correction == Correction::final && spec_.advance_separation)
+    separation += meeting.stick.dot(entry.normal) * dt / meeting.reduced;  // NN Eq. 3.56
+  return separation;
+}
+
+/// Contact area of an entry, m² (of the scene's thickness in 2-D).
+///
+/// volume_gradient: g = Σ G_pi V_p = ∫ N_i n dS over the surface of a field, so that g_a·n and −g_b·n are
+/// each the node's share of a surface; over a flat interface they add up to its area exactly, since Σ N_i
+/// = 1. The smaller one leaves out what the other has beyond the edge of this one. nodal_volume: sqrt(2 Ω_min
+/// Ω_tot)/h (theory §4), exact for linear functions and an interface along the grid.
+template <int Dim>
+double Contact<Dim>::area(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  const bool by_volume = spec_.area == AreaKind::nodal_volume;
+  double own = 0, rest = 0;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    const double sign = k == entry.a ? 1 : -1;
+    (k == entry.a ? own : rest) +=
+        by_volume ? state.nodes.column(Nodal::volume)[slot]
+                  : sign * state.nodes.vector(Nodal::volume_gradient, slot).dot(entry.normal);
+  }
+  if (by_volume) return std::sqrt(2 * std::min(own, rest) * (own + rest)) / cell_;
+  return std::max(0.0, std::min(own, rest));
+}
+
+/// Impulses of all entries but the explicit pairs, from the momenta before any of them changes.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                                const ContactNode<Dim>& node) {
+  const auto field_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  const Total all = together(state, node);
+  for (int e = node.entry_begin; e < node.pair_begin; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const Meeting meeting = meet(state, node, entry.a, all);
+    const double separation = separation_of(entry, meeting, correction, dt);
+    const auto act = [&](const auto& law) {
+      using Law = std::decay_t<decltype(law)>;
+      double area_time = 0;
+      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
+      entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time);
+      entry.friction_work = friction_work_of(entry, meeting.stick, entry.impulse, meeting.reduced, law);
+    };
+    if constexpr (Laws::by_pair)
+      laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
+    else
+      laws.with(0, 0, act);
+    entry.touching = !entry.impulse.isZero(0);
+  }
+  rest(node.pair_begin, node.entry_end);
+}
+
+/// The impulse of one entry by itself.
+///
+/// A pair that touched and now would part is held by the first correction (`persistent`): contact ends where
+/// the forces pull, not where noise does. Over a step in which only the second correction acts, its force
+/// does work on the parting velocity, F·½ v_rel Δt > 0; with both, the surfaces' mean relative velocity is
+/// zero along n and no energy comes from the contact.
+template <int Dim>
+template <class Law>
+Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                                  Correction correction, const Law& law, double area_time) const {
+  const Vec<Dim> free =
+      resolve_pair<Dim>(meeting.stick, entry.normal, separation, law, meeting.reduced, area_time);
+  const double along = meeting.stick.dot(entry.normal);
+  const bool holds = Law::scope == LawScope::contact && correction == Correction::initial &&
+                     spec_.persistent && entry.touched && separation < 0 && along > 0;
+  return holds ? Vec<Dim>(along * entry.normal) : free;
+}
+
+/// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
+/// its law with the velocities that all of them leave. Gauss–Seidel over the pairs: each in turn is given the
+/// impulse that its law demands while the others stay, until none changes. Every impulse has its
+/// counter-impulse, so momentum is conserved at any stage.
+/// @return whether it settled to 1e-9 of the largest impulse
+template <int Dim>
+template <class Laws>
+bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, Correction correction,
+                                    double dt, const ContactNode<Dim>& node) {
+  constexpr int kSweeps = 100;
+  const int count = node.field_end - node.field_begin;
+  auto& fields = moving_[static_cast<std::size_t>(omp_get_thread_num())];
+  fields.resize(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + k)];
+    const double mass = state.nodes.column(Nodal::mass)[slot];
+    const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
+    fields[static_cast<std::size_t>(k)] = {state.nodes.vector(Nodal::momentum, slot) / mass,
+                                           rigid ? 0.0 : 1 / mass};
+  }
+  rest(node.entry_begin, node.entry_end);
+  for (int e = node.entry_begin; e < node.entry_end;
+       ++e) {  // separations at the end of the step, before contact
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.advanced = separation_of(entry, meeting_of(fields, entry), correction, dt);
+  }
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    double largest = 0, change = 0;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      Meeting meeting = meeting_of(fields, entry);
+      meeting.stick += entry.impulse;
+      Vec<Dim> impulse = Vec<Dim>::Zero();
+      const auto act = [&](const auto& law) {
+        double area_time = 0;
+        if constexpr (std::decay_t<decltype(law)>::uses_area) area_time = area(state, node, entry) * dt;
+        impulse = impulse_of(entry, meeting, entry.advanced, correction, law, area_time);
+        entry.friction_work = friction_work_of(entry, meeting.stick, impulse, meeting.reduced, law);
+      };
+      if constexpr (Laws::by_pair)
+        laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
+                  list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, act);
+      else
+        laws.with(0, 0, act);
+      const Vec<Dim> step = impulse - entry.impulse;
+      auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
+      a.velocity += a.inverse_mass * step;
+      b.velocity -= b.inverse_mass * step;
+      entry.impulse = impulse;
+      entry.touching = !impulse.isZero(0);
+      largest = std::max(largest, impulse.squaredNorm());
+      change = std::max(change, step.squaredNorm());
+    }
+    if (change <= 1e-18 * largest) return true;
+  }
+  return false;
+}
+
+/// What a needs to move with b, as the two move now.
+template <int Dim>
+typename Contact<Dim>::Meeting Contact<Dim>::meeting_of(const std::vector<Moving>& fields,
+                                                        const ContactEntry<Dim>& entry) {
+  const auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
+  const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
+  return {reduced * (b.velocity - a.velocity), reduced};
+}
+
+/// Work that an impulse's tangential part takes from the sliding that remains, J.
+template <int Dim>
+template <class Law>
+double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, const Vec<Dim>& stick,
+                                      const Vec<Dim>& impulse, double reduced, const Law&) {
+  if (Law::scope != LawScope::contact && Law::scope != LawScope::bonded) return 0;
+  const Vec<Dim> tangential = impulse - impulse.dot(entry.normal) * entry.normal;
+  return tangential.dot(stick - impulse) / reduced;
+}
+
+/// No contact at the entries [begin, end).
+template <int Dim>
+void Contact<Dim>::rest(int begin, int end) {
+  for (int e = begin; e < end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.touching = false;
+    entry.friction_work = 0;
+    entry.impulse.setZero();
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
+                         const ContactNode<Dim>& node) const {
+  auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto change = [&](int k, const Vec<Dim>& impulse) {
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
+    if (correction == Correction::final)
+      nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
+    else if (keep_velocity_change_)
+      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
+  };
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (!entry.touching) continue;
+    change(entry.a, entry.impulse);
+    if (entry.b >= 0 && entry.b != node.rigid) change(entry.b, -entry.impulse);
+  }
+}
+
+// Here: the members that this file defines.
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

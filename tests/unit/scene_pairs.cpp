@@ -1,0 +1,109 @@
+/// Laws, pairs and rotations as a scene writes them.
+
+#include <doctest/doctest.h>
+
+#include "engine/scene/catalogue.hpp"
+#include "scene_helpers.hpp"
+
+using namespace mpmfast;
+using namespace mpmfast::test;
+
+namespace {
+
+/// Two materials, a rigid tool, three bodies of which two share a velocity field.
+std::string three_bodies(const std::string& more, const std::string& tool = "") {
+  return "space: plane_strain\ngrid: {size: [30 mm, 20 mm], cell: 1 mm}\ntime: {end: 1 ms}\nmaterials:\n"
+         "  steel: {model: linear_elastic, density: 7800 kg/m^3, young: 210 GPa, poisson: 0.3}\n"
+         "  wood: {model: linear_elastic, density: 600 kg/m^3, young: 10 GPa, poisson: 0.3}\n"
+         "  rigid: {model: rigid}\nbodies:\n"
+         "  - {name: a, box: {from: [1 mm, 1 mm], to: [4 mm, 4 mm]}, material: steel}\n"
+         "  - {name: b, box: {from: [6 mm, 1 mm], to: [9 mm, 4 mm]}, material: wood, field: pair}\n"
+         "  - {name: c, box: {from: [11 mm, 1 mm], to: [14 mm, 4 mm]}, material: wood, field: pair}\n"
+         "  - {name: tool, box: {from: [1 mm, 10 mm], to: [9 mm, 12 mm]}, material: rigid" +
+         tool + "}\n" + more;
+}
+
+}  // namespace
+
+TEST_CASE("a pair of bodies or materials has its law, and what it leaves out from the default") {
+  const Scene scene = parse(three_bodies(
+      "contact:\n  law: adhesion\n  friction: 0.3\n  normal_strength: 2 MPa\n  shear_strength: 3 MPa\n"
+      "  corrections: 1\n  fields: pairs\n  area: nodal_volume\n"
+      "  pairs:\n    - {between: [tool, pair], friction: 0.1}\n    - {materials: [wood, steel], law: "
+      "viscous, "
+      "viscosity: 1.5 Pa*s, film: 0.1 mm}\n    - {between: [a, tool], law: velocity_friction, "
+      "static_friction: 0.5, decay_speed: 2 m/s}\n"));
+  const auto& pairs = scene.contact.pairs;
+  REQUIRE(pairs.size() == 3);
+  CHECK(pairs[0].between == std::array<int, 2>{3, 1});
+  CHECK(pairs[0].law.law == LawKind::adhesion);
+  CHECK(pairs[0].law.friction == 0.1);
+  CHECK(pairs[0].law.normal_strength == 2e6);
+  CHECK(pairs[1].materials);
+  CHECK(pairs[1].law.film == 1e-4);
+  CHECK(pairs[2].law.friction == 0.3);
+  CHECK(pairs[2].law.decay_speed == 2);
+  CHECK(scene.contact.corrections == 1);
+  CHECK(scene.contact.fields == ManyFields::pairs);
+  CHECK(scene.contact.area == AreaKind::nodal_volume);
+  CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+}
+
+TEST_CASE("faults of laws and pairs are found where they stand") {
+  const auto contact = [](const std::string& text) { return fault(three_bodies("contact: " + text + "\n")); };
+  CHECK(holds(contact("{law: stick, viscosity: 1 Pa*s}"),
+              "contact.viscosity: the law 'stick' has no viscosity"));
+  CHECK(holds(contact("{law: viscous, film: 1 mm}"), "contact.viscosity: missing (a viscosity)"));
+  CHECK(holds(contact("{law: viscous, film: 1 mm, viscosity: 1 Pa}"), "'Pa' is a pressure"));
+  CHECK(holds(contact("{friction: 0.4, static_friction: 0.3}"), "static friction 0.3 is less than"));
+  CHECK(holds(contact("{law: adhesion, normal_strength: 0 Pa, shear_strength: 1 Pa}"), "must be positive"));
+  CHECK(holds(contact("{corrections: 3}"), "not a whole number from 1 to 2"));
+  CHECK(holds(contact("{fields: pairs, normal: average_gradient}"), "explicit pairs are found from"));
+  const auto pair = [&](const std::string& text) { return contact("{pairs: [" + text + "]}"); };
+  CHECK(holds(pair("{between: [a, x]}"),
+              "contact.pairs.0.between.1: not known here (one of a, b, c, tool, pair)"));
+  CHECK(holds(pair("{between: [b, c]}"), "the velocity field 'pair' does not meet itself"));
+  CHECK(holds(pair("{between: [a]}"), "not a list of two bodies"));
+  CHECK(holds(pair("{law: stick}"), "either between two bodies or of two materials"));
+  CHECK(holds(pair("{between: [a, b]}, {between: [c, a]}"),
+              "contact.pairs.1.between: this pair has a law already"));
+  CHECK(holds(pair("{materials: [wood, oak]}"), "one of steel, wood, rigid"));
+  CHECK(holds(pair("{between: [a, b], normal: own}"), "unknown key"));
+  CHECK(holds(contact("{pairs: {between: [a, b]}}"), "not a list of maps"));
+}
+
+TEST_CASE("a rotation belongs to a rigid body, about a point, in time") {
+  const std::string turning =
+      ", velocity: [1 m/s, 0], rotation: {about: [5 mm, 11 mm], speed: [[0 s, 0 "
+      "rad/s], [1 ms, 180 deg/s]]}";
+  const Scene scene = parse(three_bodies("", turning));
+  REQUIRE(scene.bodies[3].rotation);
+  CHECK(scene.bodies[3].rotation->about[1] == 0.011);
+  CHECK(scene.bodies[3].rotation->speed.value[1] == doctest::Approx(3.14159265358979));
+  CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+  CHECK(holds(
+      fault(replaced(three_bodies(""), "material: steel}", "material: steel, rotation: {about: [0, 0]}}")),
+      "bodies.0.rotation: a rotation is for rigid bodies only"));
+  CHECK(holds(fault(three_bodies("", ", rotation: {speed: 1 rad/s}")), "bodies.3.rotation.about: missing"));
+  CHECK(holds(fault(three_bodies("", ", rotation: {about: [0, 0], speed: 1 m/s}")), "'m/s' is a velocity"));
+}
+
+TEST_CASE("a condition on a node stands at the nearest node of the grid") {
+  const Scene scene =
+      parse(three_bodies("boundaries: {pin: {node: [2.4 mm, 3.6 mm], direction: x, speed: 1 m/s}}\n"));
+  const auto& box = std::get<VelocityBoxSpec>(scene.boundaries[0].condition);
+  CHECK(box.lower[0] == doctest::Approx(2e-3));
+  CHECK(box.upper[1] == doctest::Approx(4e-3));
+  CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+  CHECK(holds(fault(three_bodies("boundaries: {pin: {node: [2 mm, 33 mm], direction: x, speed: 1 m/s}}\n")),
+              "no node of the grid lies there in y"));
+}
+
+TEST_CASE("every law and choice of contact is listed with its keys") {
+  const auto laws = catalogue("laws");
+  REQUIRE(laws.size() == 8);
+  CHECK(laws[0].keys == "friction = 0, static_friction = 0");
+  CHECK(laws[7].keys == "viscosity, film");
+  CHECK(catalogue("areas").size() == 2);
+  CHECK(catalogue("fields").size() == 3);
+}
