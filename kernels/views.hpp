@@ -16,6 +16,7 @@ struct ParticleView {
   double* deformation[Dim * Dim];   ///< row-major F
   double* stress[kSymmetric<Dim>];  ///< Kirchhoff
   double* edges[Dim * Dim];         ///< half-edge vectors of CPDI domains
+  double* slopes[Dim * Dim];        ///< of the velocity about the particle, row-major (APIC)
   double* mass;
   double* volume;  ///< undeformed
   double* wave_speed;

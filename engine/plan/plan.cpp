@@ -7,15 +7,18 @@ namespace mpmfast {
 namespace {
 
 void plan_method(const MethodSpec& method, Plan& plan) {
-  plan.update = method.update == UpdateKind::flip  ? ParticleUpdate::flip
-                : method.update == UpdateKind::pic ? ParticleUpdate::pic
-                                                   : ParticleUpdate::xpic;
-  plan.order = method.update == UpdateKind::xpic ? method.xpic_order : 1;
+  plan.update = method.update == UpdateKind::flip   ? ParticleUpdate::flip
+                : method.update == UpdateKind::pic  ? ParticleUpdate::pic
+                : method.update == UpdateKind::apic ? ParticleUpdate::apic
+                                                    : ParticleUpdate::xpic;
+  plan.full_mass = method.update == UpdateKind::fmpm;  // gathered as XPIC is
+  plan.order = plan.update == ParticleUpdate::xpic ? method.xpic_order : 1;
   plan.position = method.update == UpdateKind::flip            ? PositionUpdate::grid
                   : method.position == PositionKind::grid      ? PositionUpdate::grid
                   : method.position == PositionKind::trapezoid ? PositionUpdate::trapezoid
                                                                : PositionUpdate::particle;
   plan.strain_first = method.strain == StrainKind::first ? 1 : method.strain == StrainKind::last ? 0 : 0.5;
+  static_assert(kAllTerms == MethodSpec::kAllTerms);
   plan.deformation_terms = method.deformation_terms;
 }
 
@@ -37,7 +40,9 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
-  if (plan.basis == BasisKind::lcpdi) plan.particle_columns.push_back(Quantity::domain_edges);
+  if (plan.basis == BasisKind::lcpdi || plan.basis == BasisKind::qcpdi)
+    plan.particle_columns.push_back(Quantity::domain_edges);
+  if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
@@ -68,7 +73,7 @@ void list_passes(const Scene& scene, Plan& plan) {
   p.push_back("momentum update with reactions");
   if (plan.contact) p.push_back("second contact correction");
   if (plan.order > 1)
-    p.push_back("XPIC: " + std::to_string(plan.order - 1) +
+    p.push_back((plan.full_mass ? "FMPM: " : "XPIC: ") + std::to_string(plan.order - 1) +
                 (plan.paired ? " passes over v* and dv*" : " passes over v*"));
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
 }
@@ -83,9 +88,10 @@ Plan make_plan(const Scene& scene) {
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
   plan.contact = plan.fields.size() > 1 && scene.contact.law != LawKind::ignore;
-  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction;
-  plan.first_correction_stays = plan.update == ParticleUpdate::pic ||
-                                (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction);
+  plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction;
+  plan.first_correction_stays =
+      plan.update == ParticleUpdate::pic || plan.update == ParticleUpdate::apic ||
+      (plan.update == ParticleUpdate::xpic && (plan.full_mass || !scene.method.contact_correction));
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
   list_passes(scene, plan);

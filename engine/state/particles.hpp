@@ -21,9 +21,10 @@ enum class Quantity {
   mass,
   initial_volume,
   wave_speed,
-  domain_edges
+  domain_edges,
+  velocity_slopes
 };
-inline constexpr int kQuantities = 8;
+inline constexpr int kQuantities = 9;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -44,6 +45,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force"},
     {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
+    {Quantity::velocity_slopes, "velocity_slopes", "1/s", 4, 9, "APIC (row-major C = B/D)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).
