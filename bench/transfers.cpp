@@ -26,6 +26,7 @@ struct Block : Running<Dim> {
     passes->shape_domains(state);
     state.nodes.plan(state.nodes.quantities(), true);  // room for Δv*, though nothing is in contact
     this->advance(2);
+    passes->sort(state);  // wide supports may have drifted out of their windows
     work = PassWork<Dim>(basis, state.tiling.slots() / this->particles());
   }
 };

@@ -13,12 +13,6 @@
 
 namespace mpmfast {
 
-/// Coordinate d of the n-th node of a K-cube, from its first node.
-template <int K>
-constexpr int node_step(int n, int d) {
-  return n / power(K, d) % K;
-}
-
 /// x_p − x_first in cells, for particle k of a chunk.
 template <int Dim, int K>
 inline void place_in_support(const ChunkWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
@@ -31,16 +25,24 @@ inline void place_in_support(const ChunkWeights<Dim, K>& w, const ChunkGeometry<
 }
 
 /// Scatters a record that varies linearly over the nodes: window_i += S_pi (a + Σ_d s_d b_d) with s the steps
-/// from the first node to i.
+/// from the first node to i, summed up row by row.
 template <int Dim, int K>
 inline void scatter_linear(const ChunkWeights<Dim, K>& w, int k, Record a, const Record (&b)[Dim],
                            Record* window) {
   Record* target = window + w.first[k];
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) {
-    Record sum = a;
-    for (int d = 0; d < Dim; ++d) sum += static_cast<double>(node_step<K>(n, d)) * b[d];
-    target[window_offset<Dim, K>(n)] += w.value[n][k] * sum;
+  Record plane = a;
+  for (int z = 0; z < (Dim == 3 ? K : 1); ++z) {
+    Record row = plane;
+    for (int y = 0; y < K; ++y) {
+      Record node = row;
+#pragma GCC unroll 4
+      for (int x = 0; x < K; ++x) {
+        target[(z * kWindowSide + y) * kWindowSide + x] += w.value[(z * K + y) * K + x][k] * node;
+        node += b[0];
+      }
+      row += b[1];
+    }
+    plane += b[Dim - 1];
   }
 }
 
@@ -49,10 +51,21 @@ template <int Dim, int K>
 inline void gather_moments(const ChunkWeights<Dim, K>& w, int k, const Record* window, Record (&out)[Dim]) {
   const Record* source = window + w.first[k];
   for (auto& o : out) o = Record{};
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) {
-    const Record share = w.value[n][k] * source[window_offset<Dim, K>(n)];
-    for (int d = 0; d < Dim; ++d) out[d] += static_cast<double>(node_step<K>(n, d)) * share;
+  for (int z = 0; z < (Dim == 3 ? K : 1); ++z) {
+    Record plane{};
+    for (int y = 0; y < K; ++y) {
+      Record row{};
+#pragma GCC unroll 4
+      for (int x = 0; x < K; ++x) {
+        const Record share =
+            w.value[(z * K + y) * K + x][k] * source[(z * kWindowSide + y) * kWindowSide + x];
+        row += share;
+        out[0] += static_cast<double>(x) * share;
+      }
+      plane += row;
+      out[1] += static_cast<double>(y) * row;
+    }
+    if constexpr (Dim == 3) out[2] += static_cast<double>(z) * plane;
   }
 }
 
