@@ -2,24 +2,23 @@
 
 #include "bench/support.hpp"
 #include "bench/work.hpp"
+#include "engine/scene/names.hpp"
 
 namespace {
 
 using namespace mpmfast;
 using namespace mpmfast::bench;
 
-constexpr const char* kBasisNames[] = {"linear", "ugimp", "lcpdi", "bspline2"};  // as BasisKind
-
 /// A strained block of one field on which any pass may be called again and again: XPIC, so that all columns
-/// exist.
+/// exist, or APIC.
 template <int Dim>
 struct Block : Running<Dim> {
   std::unique_ptr<Passes<Dim>> passes;
   PassWork<Dim> work;
 
-  Block(int threads, BasisKind basis)
-      : Running<Dim>(threads, parse_scene(block_yaml<Dim>(kBasisNames[static_cast<int>(basis)], "xpic(2)"),
-                                          "block.yaml")),
+  Block(int threads, BasisKind basis, const char* update)
+      : Running<Dim>(threads,
+                     parse_scene(block_yaml<Dim>(std::string(name_of(kBases, basis)), update), "block.yaml")),
         passes(make_passes<Dim>(basis)),
         work(basis, 0) {
     auto& state = this->step.state();
@@ -27,14 +26,16 @@ struct Block : Running<Dim> {
     passes->shape_domains(state);
     state.nodes.plan(state.nodes.quantities(), true);  // room for Δv*, though nothing is in contact
     this->advance(2);
+    passes->sort(state);  // wide supports may have drifted out of their windows
     work = PassWork<Dim>(basis, state.tiling.slots() / this->particles());
   }
 };
 
 /// Times `pass(block)` and reports particles/s with the rates of the least bytes and flops.
 template <int Dim, class Pass>
-void time_pass(benchmark::State& state, BasisKind basis, Pass pass, Work (*least)(const Block<Dim>&)) {
-  Block<Dim> block(static_cast<int>(state.range(0)), basis);
+void time_pass(benchmark::State& state, BasisKind basis, Pass pass, Work (*least)(const Block<Dim>&),
+               const char* word = "xpic(2)") {
+  Block<Dim> block(static_cast<int>(state.range(0)), basis, word);
   for (auto _ : state) pass(block, state);
   const Work work = least(block);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(block.particles()));
@@ -57,6 +58,13 @@ void project(benchmark::State& state, BasisKind basis) {
 }
 
 template <int Dim>
+void project_affine(benchmark::State& state, BasisKind basis) {
+  time_pass<Dim>(
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state()); },
+      [](const Block<Dim>& block) { return block.work.project_affine(); }, "apic");
+}
+
+template <int Dim>
 void strain_and_force(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
       state, basis,
@@ -73,6 +81,17 @@ void update(benchmark::State& state, BasisKind basis) {
         block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
       },
       [](const Block<Dim>& block) { return block.work.update(update_vectors(Update)); });
+}
+
+template <int Dim>
+void update_affine(benchmark::State& state, BasisKind basis) {
+  time_pass<Dim>(
+      state, basis,
+      [](auto& block, auto&) {
+        const UpdateRule rule{ParticleUpdate::apic, PositionUpdate::particle, kInstant, 0, 2};
+        block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
+      },
+      [](const Block<Dim>& block) { return block.work.update_affine(); }, "apic");
 }
 
 template <int Dim, bool Paired>
@@ -104,7 +123,7 @@ void sort(benchmark::State& state, BasisKind basis) {
 template <int Dim>
 void list_passes(BasisKind basis) {
   const auto add = [&](const char* pass, void (*run)(benchmark::State&, BasisKind)) {
-    const std::string name = fmt::format("{}/{}/{}d", pass, kBasisNames[static_cast<int>(basis)], Dim);
+    const std::string name = fmt::format("{}/{}/{}d", pass, name_of(kBases, basis), Dim);
     benchmark::RegisterBenchmark(name.c_str(), run, basis)
         ->ArgName("threads")
         ->Arg(1)
@@ -119,12 +138,15 @@ void list_passes(BasisKind basis) {
   add("xpic_plain", xpic<Dim, false>);
   add("xpic_paired", xpic<Dim, true>);
   add("sort", sort<Dim>);
+  if (basis != BasisKind::bspline2 && basis != BasisKind::bspline3) return;
+  add("project_apic", project_affine<Dim>);
+  add("update_apic", update_affine<Dim>);
 }
 
 [[maybe_unused]] const bool listed = [] {
-  for (BasisKind basis : {BasisKind::linear, BasisKind::ugimp, BasisKind::lcpdi, BasisKind::bspline2}) {
-    list_passes<2>(basis);
-    list_passes<3>(basis);
+  for (const auto& basis : kBases) {
+    list_passes<2>(basis.value);
+    list_passes<3>(basis.value);
   }
   return true;
 }();

@@ -35,6 +35,11 @@ class PassWork {
     return {bytes(where() + doubles<Dim>({Quantity::mass, Quantity::velocity}), 2 * (1 + Dim)),
             values() + Dim + scatter(1 + Dim)};
   }
+  /// APIC: slopes beside the velocity.
+  Work project_affine() const {
+    const Work plain = project();
+    return {plain.bytes + 8.0 * Dim * Dim, plain.flops + Dim * (3.0 * Dim + nodes() * 2.0)};
+  }
   Work strain_and_force() const {
     const int rows =
         2 * doubles<Dim>({Quantity::deformation_gradient}) +
@@ -44,12 +49,17 @@ class PassWork {
   }
   /// @param vectors  gathered from the nodes: 2 (FLIP) or 3 (XPIC)
   Work update(int vectors) const {
-    const bool convected = basis_ == BasisKind::lcpdi;
+    const bool convected = is_convected();
     int rows = where() + doubles<Dim>({Quantity::position, Quantity::wave_speed}) +
                2 * doubles<Dim>({Quantity::velocity});
     if (convected) rows += doubles<Dim>({Quantity::domain_edges, Quantity::deformation_gradient});
     return {bytes(rows, vectors * Dim),
             values() + scatter(vectors * Dim) + 10 * Dim + (convected ? 4 * Dim * Dim : 0)};
+  }
+  /// APIC: the moments of the velocity beside it.
+  Work update_affine() const {
+    const Work plain = update(2);
+    return {plain.bytes + 8.0 * Dim * Dim, plain.flops + scatter(Dim * Dim) + 3.0 * Dim * Dim};
   }
   /// @param vectors  v* alone (1) or with Δv* (2)
   Work xpic(int vectors) const {
@@ -69,30 +79,38 @@ class PassWork {
   /// Counted in kernels/materials/neo_hookean.hpp, with 70 for the logarithm and the exponential.
   static constexpr int kNeoHookean = Dim == 2 ? 125 : 185;
 
-  int support() const { return basis_ == BasisKind::linear ? 2 : 3; }  // lCPDI: of most of its domains
+  bool is_convected() const { return basis_ == BasisKind::lcpdi || basis_ == BasisKind::qcpdi; }
+  int support() const {  // CPDI: of most of its domains
+    return basis_ == BasisKind::linear                                   ? 2
+           : basis_ == BasisKind::qcpdi || basis_ == BasisKind::bspline3 ? 4
+                                                                         : 3;
+  }
   int nodes() const { return power(support(), Dim); }
   double scatter(int components) const { return 2.0 * nodes() * components; }
 
   /// What places a particle on the grid.
   int where() const {
-    return doubles<Dim>({Quantity::position}) +
-           (basis_ == BasisKind::lcpdi ? doubles<Dim>({Quantity::domain_edges}) : 0);
+    return doubles<Dim>({Quantity::position}) + (is_convected() ? doubles<Dim>({Quantity::domain_edges}) : 0);
   }
   double bytes(int rows, int nodal_rows) const { return 8.0 * (rows + slots_ * nodal_rows); }
 
   /// Values of one-dimensional functions (with their derivatives), and their products.
   double one_dimensional() const {
-    return Dim * (basis_ == BasisKind::linear ? 4.0 : basis_ == BasisKind::ugimp ? 26.0 : 14.0);
+    return Dim * (basis_ == BasisKind::linear     ? 4.0
+                  : basis_ == BasisKind::ugimp    ? 26.0
+                  : basis_ == BasisKind::bspline3 ? 27.0
+                                                  : 14.0);
   }
-  /// lCPDI: hats at the corners, their products, summed.
+  /// CPDI: hats or quadratic splines at the corners, their products, summed.
   double corners(int sums) const {
-    return kCorners<Dim> * (Dim * (Dim + 2.0 * support()) + nodes() * (Dim - 1.0 + sums));
+    const double each = basis_ == BasisKind::lcpdi ? 2.0 : 8.0;
+    return kCorners<Dim> * (Dim * (Dim + each * support()) + nodes() * (Dim - 1.0 + sums));
   }
   double values() const {
-    return basis_ == BasisKind::lcpdi ? corners(1) + nodes() : one_dimensional() + nodes() * (Dim - 1.0);
+    return is_convected() ? corners(1) + nodes() : one_dimensional() + nodes() * (Dim - 1.0);
   }
   double gradients() const {
-    if (basis_ == BasisKind::lcpdi) return corners(Dim) + nodes() * Dim * 2.0 * Dim;
+    if (is_convected()) return corners(Dim) + nodes() * Dim * 2.0 * Dim;
     return one_dimensional() + nodes() * Dim * (Dim - 1.0);
   }
 

@@ -17,6 +17,7 @@ struct ParticleView {
   double* stress[kSymmetric<Dim>];  ///< Kirchhoff
   double* edges[Dim * Dim];         ///< half-edge vectors of CPDI domains
   double* reference_position[Dim];
+  double* slopes[Dim * Dim];        ///< of the velocity about the particle, row-major (APIC)
   double* mass;
   double* volume;  ///< undeformed
   double* wave_speed;

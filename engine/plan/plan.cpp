@@ -9,15 +9,18 @@ namespace mpmfast {
 namespace {
 
 void plan_method(const MethodSpec& method, Plan& plan) {
-  plan.update = method.update == UpdateKind::flip  ? ParticleUpdate::flip
-                : method.update == UpdateKind::pic ? ParticleUpdate::pic
-                                                   : ParticleUpdate::xpic;
-  plan.order = method.update == UpdateKind::xpic ? method.xpic_order : 1;
+  plan.update = method.update == UpdateKind::flip   ? ParticleUpdate::flip
+                : method.update == UpdateKind::pic  ? ParticleUpdate::pic
+                : method.update == UpdateKind::apic ? ParticleUpdate::apic
+                                                    : ParticleUpdate::xpic;
+  plan.full_mass = method.update == UpdateKind::fmpm;  // gathered as XPIC is
+  plan.order = plan.update == ParticleUpdate::xpic ? method.xpic_order : 1;
   plan.position = method.update == UpdateKind::flip            ? PositionUpdate::grid
                   : method.position == PositionKind::grid      ? PositionUpdate::grid
                   : method.position == PositionKind::trapezoid ? PositionUpdate::trapezoid
                                                                : PositionUpdate::particle;
   plan.strain_first = method.strain == StrainKind::first ? 1 : method.strain == StrainKind::last ? 0 : 0.5;
+  static_assert(kAllTerms == MethodSpec::kAllTerms);
   plan.deformation_terms = method.deformation_terms;
 }
 
@@ -78,7 +81,9 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
-  if (plan.basis == BasisKind::lcpdi) plan.particle_columns.push_back(Quantity::domain_edges);
+  if (plan.basis == BasisKind::lcpdi || plan.basis == BasisKind::qcpdi)
+    plan.particle_columns.push_back(Quantity::domain_edges);
+  if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
@@ -100,7 +105,7 @@ void list_passes(Plan& plan) {
   p.push_back("momentum update with reactions");
   if (plan.contact) p.push_back("second contact correction");
   if (plan.order > 1)
-    p.push_back("XPIC: " + std::to_string(plan.order - 1) +
+    p.push_back((plan.full_mass ? "FMPM: " : "XPIC: ") + std::to_string(plan.order - 1) +
                 (plan.paired ? " passes over v* and dv*" : " passes over v*"));
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
 }
@@ -119,14 +124,15 @@ Plan make_plan(const Scene& scene) {
   plan.contact_geometry = any_law(scene.contact, uses_geometry);
   plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
   plan.first_correction = scene.contact.corrections == 2;
-  plan.paired = plan.contact && plan.order > 1 && scene.method.contact_correction &&
+  plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&
                 !scene.method.own_filter && plan.first_correction;
   plan.own_filter = scene.method.own_filter;
   if (plan.contact)
     plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
   plan.first_correction_stays =
-      plan.update == ParticleUpdate::pic ||
-      (plan.update == ParticleUpdate::xpic && !scene.method.contact_correction && !scene.method.own_filter);
+      plan.update == ParticleUpdate::pic || plan.update == ParticleUpdate::apic ||
+      (plan.update == ParticleUpdate::xpic &&
+       (plan.full_mass || (!scene.method.contact_correction && !scene.method.own_filter)));
   for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
   plan_columns(scene, plan);
   list_passes(plan);

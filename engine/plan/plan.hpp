@@ -18,7 +18,8 @@ struct Plan {
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};
-  int order = 1;            ///< m of XPIC(m)
+  int order = 1;            ///< m of XPIC(m) and FMPM(m)
+  bool full_mass = false;   ///< FMPM: the series filters v⁺ instead of v and what it changes by
   double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
   int deformation_terms = 2;
   bool contact = false;  ///< more than one velocity field, and a law that acts

@@ -57,8 +57,9 @@ std::vector<CatalogueEntry> boundaries() {
 }  // namespace
 
 std::vector<std::string> catalogue_topics() {
-  return {"materials",  "bases", "updates", "strains", "positions", "normals",    "separations",
-          "detections", "laws",  "areas",   "fields",  "shapes",    "boundaries", "pictures"};
+  return {"materials", "bases",      "updates", "strains", "deformation_terms",
+          "positions", "normals",    "separations", "detections", "laws",
+          "areas",     "fields",     "shapes",  "boundaries", "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -66,6 +67,7 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "bases") return words_of(kBases);
   if (topic == "updates") return words_of(kUpdates);
   if (topic == "strains") return words_of(kStrains);
+  if (topic == "deformation_terms") return words_of(kDeformationTerms);
   if (topic == "positions") return words_of(kPositions);
   if (topic == "normals") return words_of(kNormals);
   if (topic == "separations") return words_of(kSeparations);

@@ -21,19 +21,25 @@ inline constexpr std::array<Word<Space>, 2> kSpaces{{
     {Space::three_dimensional, "3d", "three dimensions"},
 }};
 
-inline constexpr std::array<Word<BasisKind>, 4> kBases{{
+inline constexpr std::array<Word<BasisKind>, 6> kBases{{
     {BasisKind::linear, "linear", "classic: linear functions at the particle's point; a baseline"},
     {BasisKind::ugimp, "ugimp", "generalised interpolation over the undeformed particle domain (default)"},
     {BasisKind::lcpdi, "lcpdi", "linear functions over the domain convected with the deformation"},
+    {BasisKind::qcpdi, "qcpdi", "quadratic B-splines over the domain convected with the deformation: smooth"},
     {BasisKind::bspline2, "bspline2", "quadratic B-splines at the particle's point"},
+    {BasisKind::bspline3, "bspline3", "cubic B-splines at the particle's point"},
 }};
 
-/// xpic is written with its order, xpic(5).
-inline constexpr std::array<Word<UpdateKind>, 3> kUpdates{{
+/// xpic and fmpm are written with their order, xpic(5).
+inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
     {UpdateKind::flip, "flip", "particles take the grid's acceleration; no dissipation (default)"},
     {UpdateKind::pic, "pic", "particles take the grid's velocity; strong damping"},
     {UpdateKind::xpic, "xpic(m)",
      "order m = 2..20: removes noise that the grid cannot see, little dissipation"},
+    {UpdateKind::fmpm, "fmpm(m)",
+     "order m = 2..20: as pic through an inverse of the full mass matrix; loses less than xpic(m)"},
+    {UpdateKind::apic, "apic",
+     "pic with an affine velocity about each particle: keeps angular momentum; bspline2 and bspline3 only"},
 }};
 
 inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
@@ -46,6 +52,13 @@ inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
     {PositionKind::grid, "grid", "particles move with the grid's midpoint velocity (default)"},
     {PositionKind::trapezoid, "trapezoid", "particles move with the mean of old and new velocity"},
     {PositionKind::particle, "particle", "particles move with their new velocity"},
+}};
+
+/// What is kept of exp(Δt ∇v) after the identity.
+inline constexpr std::array<Word<int>, 3> kDeformationTerms{{
+    {1, "1", "F advances by I + dt grad v"},
+    {2, "2", "the same with the square of dt grad v (default)"},
+    {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
 inline constexpr std::array<Word<NormalKind>, 9> kNormals{{

@@ -7,9 +7,9 @@ namespace mpmfast {
 
 namespace {
 
-/// flip, pic or xpic(m).
+/// flip, pic, apic, xpic(m) or fmpm(m).
 void read_update(const Value& value, MethodSpec& method) {
-  constexpr const char* kExpected = "not an update (flip, pic, or xpic(m) with m = 2..20)";
+  constexpr const char* kExpected = "not an update (flip, pic, apic, or xpic(m) or fmpm(m) with m = 2..20)";
   if (!value.is(Node::Kind::scalar)) return value.complain(kExpected);
   const std::string& text = value.node().scalar;
   method.xpic_order = 1;
@@ -21,9 +21,17 @@ void read_update(const Value& value, MethodSpec& method) {
     method.update = UpdateKind::pic;
     return;
   }
+  if (text == "apic") {
+    if (method.basis != BasisKind::bspline2 && method.basis != BasisKind::bspline3)
+      value.report(
+          "apic needs basis: bspline2 or bspline3 (the second moment of its weights must be constant)");
+    method.update = UpdateKind::apic;
+    method.position = PositionKind::particle;
+    return;
+  }
   const std::string name = text.substr(0, text.find('('));
-  if (name != "xpic") {
-    const std::vector<std::string> known{"flip", "pic", "xpic"};
+  if (name != "xpic" && name != "fmpm") {
+    const std::vector<std::string> known{"flip", "pic", "apic", "xpic", "fmpm"};
     return value.complain(kExpected, did_you_mean(name, known));
   }
   int order = 0;
@@ -32,10 +40,10 @@ void read_update(const Value& value, MethodSpec& method) {
   const char* const last = text.data() + text.size() - 1;
   const bool whole = closed && std::from_chars(first, last, order).ptr == last && *first != '0';
   if (!whole || order < 2 || order > 20) {
-    return value.complain("xpic needs its order (xpic(m) with m = 2..20)",
-                          order == 1 ? "xpic(1) is pic" : "");
+    return value.complain(name + " needs its order (" + name + "(m) with m = 2..20)",
+                          order == 1 ? name + "(1) is pic" : "");
   }
-  method.update = UpdateKind::xpic;
+  method.update = name == "xpic" ? UpdateKind::xpic : UpdateKind::fmpm;
   method.xpic_order = order;
 }
 
@@ -53,11 +61,14 @@ void read_method(MapReader& top, MethodSpec& method) {
     if (method.update == UpdateKind::flip && *chosen != PositionKind::grid) {
       position->complain("flip moves particles with the grid (position: grid)");
     }
+    if (method.update == UpdateKind::apic && *chosen != PositionKind::particle) {
+      position->complain("apic moves particles with their velocity (position: particle)");
+    }
     method.position = *chosen;
   }
   map.boolean("contact_correction", method.contact_correction);
   map.boolean("own_filter", method.own_filter);
-  map.integer("deformation_terms", 1, 2, method.deformation_terms);
+  map.word("deformation_terms", kDeformationTerms, method.deformation_terms);
   map.finish();
 }
 

@@ -18,8 +18,8 @@ namespace mpmfast {
 using Vec3 = std::array<double, 3>;
 
 enum class Space { plane_strain, three_dimensional };
-enum class BasisKind { linear, ugimp, lcpdi, bspline2 };
-enum class UpdateKind { flip, pic, xpic };
+enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
+enum class UpdateKind { flip, pic, xpic, fmpm, apic };
 /// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
 enum class StrainKind { first, last, average };
 /// How XPIC and PIC move particles: with the grid's midpoint velocity, with ½(V_old + V_new), with V_new.
@@ -75,13 +75,15 @@ struct TimeSpec {
 struct MethodSpec {
   BasisKind basis = BasisKind::ugimp;
   UpdateKind update = UpdateKind::flip;
-  int xpic_order = 1;              ///< m of XPIC(m), 2..20 when update is xpic
+  int xpic_order = 1;              ///< m of XPIC(m) and FMPM(m), 2..20 when update is one of these
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
-  PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid
-  int deformation_terms = 2;                   ///< terms of exp(Δt ∇v) kept after the identity: 1 or 2
+  PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid, APIC with its velocity
+  /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, or kAllTerms.
+  int deformation_terms = 2;
+  static constexpr int kAllTerms = 0;
 };
 
 /// N20 Eq. 18.

@@ -80,16 +80,17 @@ std::string head_text(const Scene& scene) {
 }
 
 std::string method_text(const MethodSpec& method) {
-  const std::string update = method.update == UpdateKind::xpic
-                                 ? fmt::format("xpic({})", method.xpic_order)
-                                 : std::string(name_of(kUpdates, method.update));
+  const bool ordered = method.update == UpdateKind::xpic || method.update == UpdateKind::fmpm;
+  const std::string update =
+      ordered ? fmt::format("{}({})", method.update == UpdateKind::xpic ? "xpic" : "fmpm", method.xpic_order)
+              : std::string(name_of(kUpdates, method.update));
   return fmt::format(
       "method:\n  basis: {}\n  update: {}\n  strain: {}\n  position: {}\n  contact_correction: {}\n  "
       "own_filter: {}\n"
       "  deformation_terms: {}\n",
       name_of(kBases, method.basis), update, name_of(kStrains, method.strain),
       name_of(kPositions, method.position), method.contact_correction, method.own_filter,
-      method.deformation_terms);
+      name_of(kDeformationTerms, method.deformation_terms));
 }
 
 struct ModelText {

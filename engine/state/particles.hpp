@@ -22,9 +22,10 @@ enum class Quantity {
   initial_volume,
   wave_speed,
   domain_edges,
-  reference_position
+  reference_position,
+  velocity_slopes
 };
-inline constexpr int kQuantities = 9;
+inline constexpr int kQuantities = 10;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -46,6 +47,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
     {Quantity::reference_position, "reference_position", "m", 2, 3, "displacements"},
+    {Quantity::velocity_slopes, "velocity_slopes", "1/s", 4, 9, "APIC (row-major C = B/D)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).

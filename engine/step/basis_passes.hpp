@@ -12,6 +12,7 @@
 
 #include "engine/step/fit_contact.hpp"
 #include "engine/step/passes.hpp"
+#include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/project.hpp"
 #include "kernels/transfer/update.hpp"
 #include "kernels/transfer/xpic.hpp"
@@ -50,8 +51,9 @@ class BasisPasses final : public Passes<Dim> {
       const TileContext<Dim> c{&view, &nowhere, &one, state.bodies.data(), &state.grid};
       const NodeIndex<Dim> first =
           Basis::first_node(chunk_geometry(c, one, static_cast<std::uint32_t>(p), 1), 0);
-      for (int d = 0; d < Dim; ++d)
-        first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] = first[d];
+      for (int d = 0; d < Dim; ++d)  // the tiling puts what it takes for the first node at offset 1 … 4
+        first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] =
+            first[d] + 1 - kSortedOffset<Basis>;
     }
     state.tiling.build(state.particles, first_node_, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
@@ -62,9 +64,17 @@ class BasisPasses final : public Passes<Dim> {
     out.column[0] = state.nodes.column(Nodal::mass);
     for (int d = 0; d < Dim; ++d) out.column[1 + d] = state.nodes.column(Nodal::momentum, d);
     outside_.assign(rooms_.size(), 0);
+    [[maybe_unused]] const bool affine = state.particles.has(Quantity::velocity_slopes);
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      if (!project_tile<Dim, Basis>(c, room.project, out))
-        outside_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
+      int& outside = outside_[static_cast<std::size_t>(omp_get_thread_num())];
+      if (outside) return;  // all of it will be done again
+      bool inside;
+      if constexpr (Basis::kSpread > 0)
+        inside = affine ? project_affine_tile<Dim, Basis>(c, room.project, out)
+                        : project_tile<Dim, Basis>(c, room.project, out);
+      else
+        inside = project_tile<Dim, Basis>(c, room.project, out);
+      if (!inside) outside = 1;
     });
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
   }

@@ -10,7 +10,11 @@ std::unique_ptr<Passes<Dim>> make_ugimp_passes();
 template <int Dim>
 std::unique_ptr<Passes<Dim>> make_lcpdi_passes();
 template <int Dim>
+std::unique_ptr<Passes<Dim>> make_qcpdi_passes();
+template <int Dim>
 std::unique_ptr<Passes<Dim>> make_bspline2_passes();
+template <int Dim>
+std::unique_ptr<Passes<Dim>> make_bspline3_passes();
 
 template <int Dim>
 std::unique_ptr<Passes<Dim>> make_passes(BasisKind basis) {
@@ -21,8 +25,12 @@ std::unique_ptr<Passes<Dim>> make_passes(BasisKind basis) {
       return make_ugimp_passes<Dim>();
     case BasisKind::lcpdi:
       return make_lcpdi_passes<Dim>();
+    case BasisKind::qcpdi:
+      return make_qcpdi_passes<Dim>();
     case BasisKind::bspline2:
       return make_bspline2_passes<Dim>();
+    case BasisKind::bspline3:
+      return make_bspline3_passes<Dim>();
   }
   return nullptr;
 }

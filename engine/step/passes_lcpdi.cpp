@@ -1,5 +1,5 @@
 #include "engine/step/basis_passes.hpp"
-#include "kernels/basis/lcpdi.hpp"
+#include "kernels/basis/cpdi.hpp"
 
 namespace mpmfast {
 

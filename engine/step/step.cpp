@@ -172,7 +172,7 @@ void Step<Dim>::start_velocities() {
   clock_.time(Pass::nodes, [&] {
     auto& nodes = state_.nodes;
     const double* mass = nodes.column(Nodal::mass);
-    const bool xpic = plan_.order > 1;
+    const bool xpic = plan_.order > 1 && !plan_.full_mass;
     for_each_slot([&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
         const double* p = nodes.column(Nodal::momentum, d);
@@ -245,7 +245,9 @@ void Step<Dim>::end_velocities(double dt) {
 
 /// series = m (v − v*), v* = Σ_{k=2..m} (−1)^k (v*_k + (m−1)/m Δv*_{k−1}), with v*_k = (m+1−k)/k S⁺S v*_{k−1}
 /// and Δv*_k = (m−k)/k S⁺S Δv*_{k−1} (N20 Eq. 42 to 44); S⁺ is the extrapolation within a field, divided by
-/// its mass.
+/// its mass. FMPM(m) (Nairn and Hammerquist 2021) takes the first m terms of M⁻¹p⁺ = Σ_k (I − S⁺S)^k v⁺, M
+/// the full mass matrix, for the particles' velocity: this is m (v⁺ − v⁺*) with the same recursion. The
+/// update adds a Δt to the series, hence it is taken off here.
 template <int Dim>
 void Step<Dim>::filter_velocities() {
   if (plan_.order < 2) return;
@@ -256,9 +258,12 @@ void Step<Dim>::filter_velocities() {
   const bool paired = plan_.paired && !contact_.list().nodes.empty();
   clock_.time(Pass::nodes, [&] {
     for_each_slot([&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        for (std::int64_t i = begin; i < end; ++i)
-          nodes.column(Nodal::series, d)[i] = m * nodes.column(Nodal::star, d)[i];
+      for (int d = 0; d < Dim; ++d) {
+        double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
+        const double *v = nodes.column(Nodal::velocity, d), *jump = nodes.column(Nodal::force, d);
+        if (plan_.full_mass) std::copy(v + begin, v + end, star + begin);
+        for (std::int64_t i = begin; i < end; ++i) series[i] = m * star[i] - (plan_.full_mass ? jump[i] : 0);
+      }
     });
   });
   for (int k = 2; k <= m; ++k) {

@@ -1,7 +1,8 @@
 #pragma once
 
-/// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic B-spline.
-/// To add one: a struct with kSupport, first_node and weights, and a line in engine/step/passes.cpp.
+/// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic and cubic B-splines.
+/// To add one: a struct with kSupport, kSpread, first_node, weights and reach, and a line in
+/// engine/step/passes.cpp.
 
 #include <cmath>
 
@@ -12,6 +13,8 @@ namespace mpmfast {
 /// Classic MPM: hat functions at the particle's point.
 struct LinearFunction {
   static constexpr int kSupport = 2;
+  /// Σ_i w_i (r_i − r)² in cells², where it is the same for every r; else 0.
+  static constexpr double kSpread = 0;
   /// Lowest node of the support for coordinate r in cells.
   template <class V>
   static V first_node(V r) {
@@ -34,6 +37,7 @@ struct LinearFunction {
 /// − l and (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
 struct UGimpFunction {
   static constexpr int kSupport = 3;
+  static constexpr double kSpread = 0;
   template <class V>
   static V first_node(V r) {
     return floor_of(r - 0.5);
@@ -61,6 +65,7 @@ struct UGimpFunction {
 /// Quadratic B-spline at the particle's point.
 struct BSpline2Function {
   static constexpr int kSupport = 3;
+  static constexpr double kSpread = 0.25;
   template <class V>
   static V first_node(V r) {
     return floor_of(r - 0.5);
@@ -78,11 +83,36 @@ struct BSpline2Function {
   static double reach(double) { return 1.5; }
 };
 
+/// Cubic B-spline at the particle's point.
+struct BSpline3Function {
+  static constexpr int kSupport = 4;
+  static constexpr double kSpread = 1.0 / 3.0;
+  template <class V>
+  static V first_node(V r) {
+    return floor_of(r) - 1.0;
+  }
+  template <class V>
+  static void weights(V s, double, V (&w)[4], V (&g)[4]) {
+    const V above = s - 1.0, below = 2.0 - s;  // distances from the two nodes around r
+    const V above2 = above * above, below2 = below * below;
+    w[0] = (1.0 / 6.0) * below2 * below;
+    w[1] = (2.0 / 3.0) - above2 * (1.0 - 0.5 * above);
+    w[2] = (2.0 / 3.0) - below2 * (1.0 - 0.5 * below);
+    w[3] = (1.0 / 6.0) * above2 * above;
+    g[0] = -0.5 * below2;
+    g[1] = above * (1.5 * above - 2.0);
+    g[2] = below * (2.0 - 1.5 * below);
+    g[3] = 0.5 * above2;
+  }
+  static double reach(double) { return 2.0; }
+};
+
 /// Tensor product of a one-dimensional function.
 template <int Dim, class Function>
 struct SeparableBasis {
   static constexpr int kMinSupport = Function::kSupport, kMaxSupport = Function::kSupport;
   static constexpr bool kConvected = false;  ///< needs no half-edge vectors
+  static constexpr double kSpread = Function::kSpread;
 
   /// Stages the weights of a chunk. @return false if a support leaves the window.
   template <Wanted W = Wanted::both, int K>
@@ -156,5 +186,7 @@ template <int Dim>
 using UGimpBasis = SeparableBasis<Dim, UGimpFunction>;
 template <int Dim>
 using BSpline2Basis = SeparableBasis<Dim, BSpline2Function>;
+template <int Dim>
+using BSpline3Basis = SeparableBasis<Dim, BSpline3Function>;
 
 }  // namespace mpmfast

@@ -30,6 +30,13 @@ struct ChunkGeometry {
 /// Which weights a pass needs: the others are not computed.
 enum class Wanted { values, gradients, both };
 
+/// The sort puts a particle into the tile where its support begins at this node of the window, or at one of
+/// the kTileSide − 1 after it. Until the next sort it may drift as far as the window goes: with supports of 3
+/// nodes by one node either way, of 4 by one downwards, of 5 not at all (a support that leaves the window is
+/// seen, and sorted anew).
+template <class Basis>
+inline constexpr int kSortedOffset = Basis::kMaxSupport <= kWindowSide - kTileSide ? 1 : 0;
+
 /// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] +
 /// window_offset(n).
 template <int Dim, int K>

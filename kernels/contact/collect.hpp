@@ -71,7 +71,7 @@ inline void collect_tile(const TileContext<Dim>& c, const NodeIndex<Dim>& node, 
                          CloudRoom<Dim>& room) {
   int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
   for (int d = 0; d < Dim; ++d) {
-    const int at = node[d] - c.tile->window[d] - 1;  // cell numbers start at offset 1
+    const int at = node[d] - c.tile->window[d] - kSortedOffset<Basis>;  // where cell numbers start
     low[d] = at - Basis::kMaxSupport > 0 ? at - Basis::kMaxSupport : 0;
     high[d] = at + 1 < kTileSide - 1 ? at + 1 : kTileSide - 1;
     if (low[d] > high[d]) return;

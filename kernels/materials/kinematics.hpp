@@ -4,6 +4,7 @@
 /// strain: F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
 
 #include "kernels/dimension.hpp"
+#include "kernels/materials/matrix_exponential.hpp"
 #include "kernels/simd/lanes.hpp"
 
 namespace mpmfast {
@@ -73,10 +74,14 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
   }
 }
 
-/// F ← (I + Δt L [+ ½ Δt² L²]) F, the exponential of the velocity gradient to one or two terms.
+/// As `terms`: the whole exponential.
+inline constexpr int kAllTerms = 0;
+
+/// F ← (I + Δt L [+ ½ Δt² L²]) F, the exponential of the velocity gradient to one or two terms, or all of it.
 /// @param l row-major velocity gradient, 1/s
 template <int Dim, class V>
 inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
+  if (terms == kAllTerms) return advance_by_exponential<Dim>(l, dt, f);
   V a[Dim * Dim], g[Dim * Dim];
   for (int i = 0; i < Dim * Dim; ++i) a[i] = dt * l[i];
   if (terms > 1) {

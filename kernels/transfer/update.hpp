@@ -3,11 +3,12 @@
 /// @file Nodes to particles: velocities, positions, and (strain last) strains at the end of a step (theory
 /// §3).
 
+#include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/strain_force.hpp"
 
 namespace mpmfast {
 
-enum class ParticleUpdate { flip, pic, xpic };
+enum class ParticleUpdate { flip, pic, xpic, apic };
 enum class PositionUpdate { grid, trapezoid, particle };
 
 struct UpdateRule {
@@ -41,8 +42,9 @@ struct TileReport {
   bool lost = false;  ///< a particle is not finite or outside the allowed box
 };
 
-/// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41).
-/// Positions: grid X ← X + Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new.
+/// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41; FMPM
+/// alike); APIC: as PIC, and the slopes about the particle. Positions: grid X ← X + Δt(S v⁺ − ½ S aΔt);
+/// trapezoid ½(V_old + V_new); particle V_new.
 /// @param nodes  v⁺, aΔt (and m(v − v*) when NV is 3)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>
@@ -66,6 +68,10 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
         for (int r = 0; r < NR; ++r)
           for (int k = 0; k < count; ++k) values[r][k] = gather_values(w, k, window.at[r]);
         unstack<Dim, NR>(values, count, reinterpret_cast<double(&)[4 * NR][kChunk<Dim>]>(room.value));
+        if constexpr (Basis::kSpread > 0 && NV == 2) {
+          if (rule.velocity == ParticleUpdate::apic)
+            gather_slopes<Dim, Basis>(c, run, w, begin, count, window.at[0], values[0], room);
+        }
         if (rule.dt_strain > 0) {
           Basis::template stage<Wanted::gradients>(chunk_geometry(c, run, begin, count), w);
           // v⁺ comes first in the window, so its gradient is that of the first record.

@@ -83,7 +83,7 @@ output: {frames: 0, history: 10}
 }
 
 TEST_CASE("a 3-D impact of a sphere on a corner keeps its particles") {
-  for (const char* basis : {"ugimp", "lcpdi"}) {
+  for (const char* basis : {"ugimp", "lcpdi", "qcpdi", "bspline3"}) {
     CAPTURE(std::string(basis));
     survive(scene_from(R"(
 space: 3d

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "kernels/basis/lcpdi.hpp"
+#include "kernels/basis/cpdi.hpp"
 
 namespace mpmfast {
 namespace {
@@ -12,7 +12,7 @@ TEST_CASE(
   constexpr int kRoom = 4 * kLanes;
   alignas(64) double x[2][kRoom], edge[4][kRoom];
   for (int k = 0; k < kRoom; ++k) {
-    x[0][k] = x[1][k] = 2.5;
+    x[0][k] = x[1][k] = 2.3;
     edge[0][k] = edge[3][k] = k < 3 ? 0.25 : 0.99;  // narrow in the chunk, wide after it
     edge[1][k] = edge[2][k] = 0;
   }
@@ -22,8 +22,10 @@ TEST_CASE(
   g.inverse_cell = 1;
   g.count = 3;
   CHECK(LcpdiBasis<2>::chunk_support(g) == 3);
+  CHECK(QcpdiBasis<2>::chunk_support(g) == 4);
   g.count = 4;
   CHECK(LcpdiBasis<2>::chunk_support(g) == 4);
+  CHECK(QcpdiBasis<2>::chunk_support(g) == 5);
 }
 
 }  // namespace

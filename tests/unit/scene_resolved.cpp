@@ -93,6 +93,13 @@ TEST_CASE("the resolved scene keeps every kind of shape, boundary, table and cho
       "thickness: 1/3 mm\n");
 }
 
+TEST_CASE("the resolved scene keeps the words of every method") {
+  for (const char* method :
+       {"basis: bspline3, update: apic, deformation_terms: exponential", "basis: bspline2, update: apic",
+        "basis: qcpdi, update: xpic(2)", "update: fmpm(3), position: trapezoid"})
+    check_fixed_point(plain_scene() + "method: {" + method + "}\n");
+}
+
 TEST_CASE("the resolved scene keeps solid shapes") {
   check_fixed_point(
       solid_scene() +

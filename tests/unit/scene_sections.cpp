@@ -34,12 +34,37 @@ TEST_CASE("every update moves particles with the grid unless the scene says othe
   CHECK(method("update: xpic(5)").xpic_order == 5);
   CHECK(method("update: xpic(5)").position == PositionKind::grid);
   CHECK(method("update: xpic(20), position: particle").position == PositionKind::particle);
+  CHECK(method("update: fmpm(4)").update == UpdateKind::fmpm);
+  CHECK(method("update: fmpm(4)").xpic_order == 4);
+  CHECK(holds(fault(plain_scene() + "method: {update: fmpm(1)}\n"), "fmpm(1) is pic"));
+  CHECK(method("basis: bspline3, update: apic").position == PositionKind::particle);
+  CHECK(method("basis: bspline2, update: apic, position: particle").update == UpdateKind::apic);
   for (const char* wrong :
        {"xpic", "xpic(1)", "xpic(21)", "xpic(05)", "xpic()", "xpic(5", "xpic(-2)", "xpic(5) "}) {
     CHECK_MESSAGE(holds(fault(plain_scene() + "method: {update: '" + wrong + "'}\n"), "method.update: "),
                   wrong);
   }
   CHECK(holds(fault(plain_scene() + "method: {position: particle}\n"), "flip moves particles with the grid"));
+  for (const char* basis : {"linear", "ugimp", "lcpdi", "qcpdi"})
+    CHECK(holds(fault(plain_scene() + "method: {update: apic, basis: " + basis + "}\n"),
+                "method.update: apic needs basis: bspline2 or bspline3"));
+  CHECK(holds(fault(plain_scene() + "method: {update: apic, basis: bspline2, position: grid}\n"),
+              "method.position: apic moves particles with their velocity"));
+  CHECK(holds(fault(plain_scene() + "method: {update: apic(2), basis: bspline2}\n"), "method.update: "));
+}
+
+TEST_CASE("the deformation advances by one term, by two, or by the exponential") {
+  const auto terms = [](const std::string& word) {
+    return parse(plain_scene() + "method: {deformation_terms: " + word + "}\n").method.deformation_terms;
+  };
+  CHECK(parse(plain_scene()).method.deformation_terms == 2);
+  CHECK(terms("1") == 1);
+  CHECK(terms("2") == 2);
+  CHECK(terms("exponential") == MethodSpec::kAllTerms);
+  for (const char* wrong : {"0", "3", "exponentail", "[1]"})
+    CHECK_MESSAGE(holds(fault(plain_scene() + "method: {deformation_terms: " + wrong + "}\n"),
+                        "method.deformation_terms: "),
+                  wrong);
 }
 
 TEST_CASE("the defaults of contact follow the normal") {

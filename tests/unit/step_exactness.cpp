@@ -46,15 +46,29 @@ void check_momentum(const std::vector<Override>& overrides) {
 
 template <int Dim>
 void check_all_momenta() {
-  for (const char* update : {"flip", "pic", "xpic(3)"})
+  for (const char* update : {"flip", "pic", "xpic(3)", "fmpm(3)"})
     for (const char* contact : {"{law: coulomb, friction: 0.3}", "{law: stick, normal: average_gradient}",
                                 "{law: frictionless, normal: smoothed_logistic_regression}"})
-      for (const char* basis : {"ugimp", "lcpdi"}) {
+      for (const char* basis : {"ugimp", "lcpdi", "qcpdi"}) {
         CAPTURE(std::string(update));
         CAPTURE(std::string(contact));
         CAPTURE(std::string(basis));
         check_momentum<Dim>({{"method.update", update}, {"contact", contact}, {"method.basis", basis}});
       }
+}
+
+TEST_CASE("momentum is conserved to round-off through an impact with B-splines and APIC") {
+  for (const char* basis : {"bspline2", "bspline3"})
+    for (const char* update : {"xpic(3)", "apic"}) {
+      CAPTURE(std::string(basis));
+      CAPTURE(std::string(update));
+      const std::vector<Override> overrides{{"method.update", update},
+                                            {"method.basis", basis},
+                                            {"method.deformation_terms", "exponential"},
+                                            {"contact", "{law: coulomb, friction: 0.3}"}};
+      check_momentum<2>(overrides);
+      check_momentum<3>(overrides);
+    }
 }
 
 TEST_CASE("momentum is conserved to round-off through an impact of two fields (2-D)") {
@@ -103,6 +117,18 @@ TEST_CASE("a perfect interface reproduces one field to round-off over 200 steps 
 TEST_CASE("a perfect interface reproduces one field to round-off over 200 steps of an impact (3-D)") {
   check_all_perfect<3>("");
 }
+TEST_CASE("a perfect interface reproduces one field to round-off with smooth bases, APIC, exponential F") {
+  for (const char* basis : {"lcpdi", "qcpdi", "bspline2", "bspline3"})
+    for (const char* update : {"flip", "apic"}) {
+      if (update == std::string("apic") && std::string(basis).substr(0, 7) != "bspline") continue;
+      CAPTURE(std::string(basis));
+      CAPTURE(std::string(update));
+      const std::vector<Override> overrides{
+          {"method.basis", basis}, {"method.update", update}, {"method.deformation_terms", "exponential"}};
+      check_perfect<2>(overrides, "");
+      check_perfect<3>(overrides, "");
+    }
+}
 TEST_CASE("a perfect interface reproduces one field to round-off between a floor and a piston") {
   check_all_perfect<2>(
       "boundaries: {left: {piston: 20 m/s, direction: right, position: 1 mm}, bottom: fixed}\n");
@@ -146,8 +172,9 @@ bodies: [{name: a, box: {from: [3.3 mm, 3.2 mm, 3.1 mm], to: [6.3 mm, 6.2 mm, 6.
 
 template <int Dim>
 void check_all_translations() {
-  for (const char* basis : {"linear", "ugimp", "lcpdi", "bspline2"})
-    for (const char* update : {"flip", "pic", "xpic(4)"}) check_translation<Dim>(basis, update);
+  for (const char* basis : {"linear", "ugimp", "lcpdi", "qcpdi", "bspline2", "bspline3"})
+    for (const char* update : {"flip", "pic", "xpic(4)", "fmpm(4)"}) check_translation<Dim>(basis, update);
+  for (const char* basis : {"bspline2", "bspline3"}) check_translation<Dim>(basis, "apic");
 }
 
 TEST_CASE("a translating block keeps its shape and velocity (2-D)") { check_all_translations<2>(); }

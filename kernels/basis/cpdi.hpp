@@ -1,11 +1,12 @@
 #pragma once
 
-/// @file Linear CPDI (Sadeghirad et al. 2011): the particle's domain is the parallelogram or parallelepiped
-/// with half-edge vectors r_k, convected by F. The grid function is replaced by its multilinear interpolation
-/// from the 2^Dim corners x_c = x_p + Σ_k s_ck r_k (s_ck = ±1), whose mean and mean gradient over the domain
-/// are exact:
+/// @file CPDI (Sadeghirad et al. 2011): the particle's domain is the parallelogram or parallelepiped with
+/// half-edge vectors r_k, convected by F. The grid function is replaced by its multilinear interpolation from
+/// the 2^Dim corners x_c = x_p + Σ_k s_ck r_k (s_ck = ±1), whose mean and mean gradient over the domain are
+/// exact:
 ///   S_pi = 2^−Dim Σ_c N_i(x_c),   G_pi = R^−T 2^−Dim Σ_c s_c N_i(x_c),   R = [r_1 … r_Dim].
-/// In 2-D this is Sadeghirad's formula with full edge vectors.
+/// In 2-D and with linear N_i this is Sadeghirad's formula with full edge vectors. lCPDI has linear grid
+/// functions, qCPDI quadratic B-splines (N20 §4.3), whose slopes do not jump where a corner crosses a node.
 
 #include <cmath>
 
@@ -13,11 +14,39 @@
 
 namespace mpmfast {
 
-template <int Dim>
-struct LcpdiBasis {
-  static constexpr int kMinSupport = 3, kMaxSupport = 4;
+/// Linear grid functions.
+struct HatCorner {
+  static constexpr int kSupport = 2;   ///< nodes on which a point has weight
+  static constexpr double kReach = 1;  ///< cells: the function is non-zero at smaller distances
+  static constexpr double kLead = 0;   ///< the first of these nodes is floor(x − kLead)
+  /// The function at distance t, in cells.
+  template <class V>
+  static V at(V t) {
+    return larger(1.0 - magnitude(t), broadcast<V>(0.0));
+  }
+};
+
+/// Quadratic B-splines: ½(3/2 − |t|)², less 3/2 (½ − |t|)² in the middle piece, where that makes ¾ − t².
+struct QuadraticCorner {
+  static constexpr int kSupport = 3;
+  static constexpr double kReach = 1.5;
+  static constexpr double kLead = 0.5;
+  template <class V>
+  static V at(V t) {
+    const V a = magnitude(t), outer = larger(1.5 - a, broadcast<V>(0.0)),
+            inner = larger(0.5 - a, broadcast<V>(0.0));
+    return 0.5 * outer * outer - 1.5 * inner * inner;
+  }
+};
+
+/// @tparam Corner the one-dimensional grid function at the corners
+template <int Dim, class Corner>
+struct CpdiBasis {
+  static constexpr int kMinSupport = Corner::kSupport + 1, kMaxSupport = Corner::kSupport + 2;
   static constexpr bool kConvected = true;
-  /// Half extent, in cells, beyond which a domain is scaled down: 4 nodes a side then always suffice.
+  static constexpr double kSpread = 0;  ///< differs from domain to domain
+  /// Half extent, in cells, beyond which a domain is scaled down: kMaxSupport nodes a side then always
+  /// suffice.
   static constexpr double kMaxExtent = 0.999;
 
   /// The half-edge vectors R = F diag(l), scaled as a whole where the domain would outgrow kMaxExtent cells.
@@ -48,23 +77,28 @@ struct LcpdiBasis {
       for (int d = 0; d < Dim; ++d) {
         Lanes extent = broadcast<Lanes>(0.0);
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
-        const Lanes node = floor_of(r[d] - extent);
+        const Lanes lowest = r[d] - extent - Corner::kLead;
+        Lanes node = floor_of(lowest);
+        if constexpr (kSortedOffset<CpdiBasis> == 0) {
+          // There is no room for what round-off lets stick out: a weight below 1e-17 is left out instead.
+          const double window = g.window[d];
+          node = node < window ? floor_of(lowest + 2 * kEdge) : node;
+        }
         store_lanes(&first[d][k], node);
         r[d] -= node;
       }
       Lanes plane[power(K, 2)][kCorners<Dim>],
           last[K][kCorners<Dim>];  // N_x N_y and (3-D) N_z at the corners
       for (int c = 0; c < kCorners<Dim>; ++c) {
-        Lanes hat[Dim][K];
+        Lanes weight[Dim][K];
         for (int d = 0; d < Dim; ++d) {
           Lanes x = r[d];
           for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-          for (int i = 0; i < K; ++i)
-            hat[d][i] = larger(1.0 - magnitude(x - double(i)), broadcast<Lanes>(0.0));
+          for (int i = 0; i < K; ++i) weight[d][i] = Corner::at(x - double(i));
         }
-        for (int n = 0; n < K * K; ++n) plane[n][c] = hat[0][n % K] * hat[1][n / K];
+        for (int n = 0; n < K * K; ++n) plane[n][c] = weight[0][n % K] * weight[1][n / K];
         if constexpr (Dim == 3)
-          for (int i = 0; i < K; ++i) last[i][c] = hat[2][i];
+          for (int i = 0; i < K; ++i) last[i][c] = weight[2][i];
       }
       Lanes inverse[Dim][Dim];
       if constexpr (W != Wanted::values) {
@@ -91,9 +125,9 @@ struct LcpdiBasis {
     return place_in_window<Dim, K>(first, g, out.first);
   }
 
-  /// 3 nodes a side while every domain of the chunk spans at most two cells, else 4. The lanes beyond the
-  /// chunk must not count: another thread may be moving those particles, and sums over 3 and over 4 nodes
-  /// round differently.
+  /// kMinSupport nodes a side while the corners of every domain of the chunk begin their supports at two
+  /// neighbouring nodes at most, else kMaxSupport. The lanes beyond the chunk must not count: another thread
+  /// may be moving those particles, and sums over more and over fewer nodes round differently.
   static int chunk_support(const ChunkGeometry<Dim>& g) {
     IntLanes lane;
     for (int i = 0; i < kLanes; ++i) lane[i] = i;
@@ -105,10 +139,11 @@ struct LcpdiBasis {
       for (int d = 0; d < Dim; ++d) {
         Lanes extent = broadcast<Lanes>(0.0);
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
-        wide |= counts & (floor_of(r[d] + extent) - floor_of(r[d] - extent) > 1.0);
+        wide |= counts &
+                (floor_of(r[d] + extent - Corner::kLead) - floor_of(r[d] - extent - Corner::kLead) > 1.0);
       }
     }
-    return any_of(wide) ? 4 : 3;
+    return any_of(wide) ? kMaxSupport : kMinSupport;
   }
 
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
@@ -116,8 +151,8 @@ struct LcpdiBasis {
     for (int d = 0; d < Dim; ++d) {
       double extent = 0;
       for (int j = 0; j < Dim; ++j) extent += std::abs(g.edge[Dim * d + j][k]);
-      node[d] =
-          static_cast<int>(std::floor((g.position[d][k] - g.origin[d] - extent) * g.inverse_cell + kEdge));
+      const double lowest = (g.position[d][k] - g.origin[d] - extent) * g.inverse_cell - Corner::kLead;
+      node[d] = static_cast<int>(std::floor(lowest + kEdge));
     }
     return node;
   }
@@ -131,7 +166,7 @@ struct LcpdiBasis {
       for (int d = 0; d < Dim; ++d) {
         Lanes x = r[d] - static_cast<double>(node[d]);
         for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-        margin = smaller(margin, 1.0 - kEdge - magnitude(x));
+        margin = smaller(margin, Corner::kReach - kEdge - magnitude(x));
       }
       best = larger(best, margin);
     }
@@ -189,5 +224,10 @@ struct LcpdiBasis {
     }
   }
 };
+
+template <int Dim>
+using LcpdiBasis = CpdiBasis<Dim, HatCorner>;
+template <int Dim>
+using QcpdiBasis = CpdiBasis<Dim, QuadraticCorner>;
 
 }  // namespace mpmfast
