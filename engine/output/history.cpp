@@ -53,6 +53,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     if (is_rigid(scene, scene.bodies[b])) add(scene.bodies[b].name, "force_", "_N");
   names.push_back("body_force_work_J");
   add_stress_names(names, scene, "all");
+  names.push_back("dissipated_J");
   return names;
 }
 
@@ -102,6 +103,7 @@ void HistoryFile::append(const HistoryRow& row) {
       line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
   line.add(row.body_force_work);
   line.add(row.mean_stress, tensor);
+  line.add(row.dissipated);
   errno = 0;
   file_ << line.end() << std::flush;
   if (!file_) throw_file_error("write", path_);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/plan/materials.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -38,6 +40,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
   if (plan.basis == BasisKind::lcpdi) plan.particle_columns.push_back(Quantity::domain_edges);
+  for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);

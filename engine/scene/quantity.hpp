@@ -11,10 +11,24 @@
 namespace mpmfast {
 
 /// What a number of the scene measures.
-enum class Measure { number, length, time, mass, velocity, acceleration, density, pressure, angle };
+enum class Measure {
+  number,
+  length,
+  time,
+  mass,
+  velocity,
+  acceleration,
+  density,
+  pressure,
+  angle,
+  temperature,
+  heat_capacity,
+  rate
+};
+inline constexpr int kMeasures = 12;
 
-/// Exponents of metre, kilogram, second and radian.
-using Dimensions = std::array<int, 4>;
+/// Exponents of metre, kilogram, second, radian and kelvin.
+using Dimensions = std::array<int, 5>;
 
 struct QuantityKind {
   const char* name;   ///< "a length"

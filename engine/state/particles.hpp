@@ -21,9 +21,14 @@ enum class Quantity {
   mass,
   initial_volume,
   wave_speed,
-  domain_edges
+  domain_edges,
+  dissipated_energy,
+  internal_energy,
+  plastic_strain,
+  temperature,
+  elastic_strain
 };
-inline constexpr int kQuantities = 8;
+inline constexpr int kQuantities = 13;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -44,6 +49,12 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force"},
     {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
+    {Quantity::dissipated_energy, "dissipated_energy", "J/m^3", 1, 1, "plastic work, viscous heat"},
+    {Quantity::internal_energy, "internal_energy", "J/m^3", 1, 1, "equation of state"},
+    {Quantity::plastic_strain, "plastic_strain", "-", 1, 1, "plastic flow"},
+    {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening"},
+    {Quantity::elastic_strain, "elastic_strain", "-", 4, 6,
+     "plastic flow (isochoric elastic B, xx yy zz xy yz xz)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).

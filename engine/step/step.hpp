@@ -44,7 +44,8 @@ class Step {
   const PassClock& clock() const { return clock_; }
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
-  double stored_energy() const;
+  double stored_energy();
+  double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
  private:
   void sort_if_due();
