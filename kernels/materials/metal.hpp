@@ -86,7 +86,8 @@ struct Metal {
   /// @return plastic work, J/m³: the elastic energy 3/2 G dm that the return takes out, by its rate at the
   /// end, (3m² − ½d:d) dm = ½ m d(d:d) − d(det d). (The difference over the return counts the trial's
   /// overshoot twice: it misses by the first order of the step.) To the order of the elastic strain it is σ_y
-  /// x.
+  /// x. The shear energy that sudden melting lets go, a thousandth of the plastic work before it, is not
+  /// seen.
   template <int Dim, class V>
   V flow(double dt, MaterialState<Dim, V>& state, V (&b)[kSymmetric<Dim>]) const {
     constexpr int kRounds = 5;

@@ -196,6 +196,19 @@ TEST_CASE("Johnson-Cook: the strength of the formula, rate and heat included") {
         doctest::Approx(0.9 * fast.state.dissipated / kCook.heat_capacity).epsilon(1e-9));
 }
 
+TEST_CASE("Johnson-Cook: above the melting point nothing holds shear") {
+  Sample<3, ElasticJohnsonCook> copper(kCook);
+  for (int k = 0; k < 10; ++k) copper.strain(shear<3>(1), 1e-4);  // elastic
+  REQUIRE(copper.state.plastic_strain == 0);
+  const double stored = copper.energy();
+  copper.state.temperature = 1400;
+  copper.strain(Mat<3>::Zero(), 1e-4);
+  CHECK(copper.von_mises() < 1e-9 * kCook.shear);
+  CHECK(copper.energy() < 1e-9 * stored);
+  CHECK(copper.state.plastic_strain > 0);
+  CHECK(std::isfinite(copper.state.dissipated));
+}
+
 TEST_CASE("lanes of plastic particles get the results of one by one, whatever their neighbours do") {
   std::mt19937_64 draw(9);
   Sample<2, ElasticJohnsonCook> each[kLanes] = {
