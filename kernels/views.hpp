@@ -8,6 +8,13 @@
 
 namespace mpmfast {
 
+/// Pointers to the columns of evolving material state (materials/evolving.hpp).
+template <int Dim>
+struct StateView {
+  double *dissipated, *internal_energy, *plastic_strain, *temperature;
+  double* elastic_strain[kSymmetric<Dim>];
+};
+
 /// Pointers to the particle columns (SI); those that a plan does not allocate are null.
 template <int Dim>
 struct ParticleView {
@@ -21,6 +28,7 @@ struct ParticleView {
   double* mass;
   double* volume;  ///< undeformed
   double* wave_speed;
+  StateView<Dim> state;
 };
 
 /// Consecutive particles of one body in one tile, sorted by cell.

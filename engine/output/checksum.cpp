@@ -46,7 +46,9 @@ std::string checksum(const Particles<Dim>& particles) {
   hash.add(particles.id().data());
   hash.add(particles.body().data());
   for (const Quantity quantity :
-       {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress}) {
+       {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress,
+        Quantity::dissipated_energy, Quantity::internal_energy, Quantity::plastic_strain,
+        Quantity::temperature, Quantity::elastic_strain}) {
     if (!particles.has(quantity)) continue;
     for (int k = 0; k < Particles<Dim>::components(quantity); ++k) hash.add(particles.column(quantity, k));
   }

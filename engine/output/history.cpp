@@ -72,6 +72,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     add(owner, "force_", "_N");
     names.push_back(owner + ".friction_J");
   }
+  names.push_back("dissipated_J");
   return names;
 }
 
@@ -131,6 +132,7 @@ void HistoryFile::append(const HistoryRow& row) {
     line.add(k < row.pair_force.size() ? row.pair_force[k] : Vec3{}, dim);
     line.add(k < row.pair_friction.size() ? row.pair_friction[k] : 0.0);
   }
+  line.add(row.dissipated);
   errno = 0;
   file_ << line.end() << std::flush;
   if (!file_) throw_file_error("write", path_);

@@ -25,6 +25,7 @@ struct HistoryRow {
   std::uint64_t step = 0;
   double time = 0, dt = 0;
   double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
+  double dissipated = 0;  ///< plastic work and viscous heat
   Vec3 momentum{};
   std::array<double, 6> mean_stress{};  ///< Pa, as Body::mean_stress, over all bodies that deform
   struct Body {

@@ -78,6 +78,19 @@ void add_volume(const Particles<Dim>& particles, const std::vector<std::uint32_t
   file.add_point_data("volume", volume);
 }
 
+/// Evolving state that users know.
+template <int Dim>
+void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+  for (const Quantity quantity : {Quantity::dissipated_energy, Quantity::internal_energy,
+                                  Quantity::plastic_strain, Quantity::temperature}) {
+    if (!particles.has(quantity)) continue;
+    std::vector<float> values(order.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      values[i] = static_cast<float>(particles.column(quantity)[order[i]]);
+    file.add_point_data(std::string(kQuantityTable[static_cast<std::size_t>(quantity)].name), values);
+  }
+}
+
 std::string pvd_text(const std::vector<std::pair<double, std::string>>& frames) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
@@ -105,6 +118,7 @@ void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
   if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
   if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
   if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
+  add_state(particles, order, file);
   const std::string name = fmt::format("particles/{:06}.vtu", frames_.size());
   file.write(folder_ / name, time);
   frames_.emplace_back(time, name);

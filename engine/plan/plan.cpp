@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/plan/contact_law.hpp"
+#include "engine/plan/materials.hpp"
 
 namespace mpmfast {
 
@@ -84,6 +85,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.basis == BasisKind::lcpdi || plan.basis == BasisKind::qcpdi)
     plan.particle_columns.push_back(Quantity::domain_edges);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
+  for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/plan/materials.hpp"
 #include "engine/scene/diagnostic.hpp"
 #include "engine/scene/geometry.hpp"
 #include "engine/scene/time_table.hpp"
@@ -11,21 +12,6 @@
 namespace mpmfast {
 
 namespace {
-
-Material make_material(const MaterialSpec& spec) {
-  if (const auto* m = std::get_if<NeoHookeanSpec>(&spec.model))
-    return NeoHookean{m->density, m->bulk, m->shear};
-  if (const auto* m = std::get_if<LinearElasticSpec>(&spec.model)) {
-    const double shear = m->young / (2 * (1 + m->poisson));
-    return LinearElastic{m->density, m->young * m->poisson / ((1 + m->poisson) * (1 - 2 * m->poisson)),
-                         shear};
-  }
-  return NeoHookean{};
-}
-
-double density_of(const MaterialSpec& spec) {
-  return std::visit([](const auto& m) { return m.density; }, spec.model);
-}
 
 [[noreturn]] void refuse(const Scene& scene, std::size_t body, std::string message) {
   throw SceneError({Diagnostic{scene.file.string(), 0, 0, fmt::format("bodies.{}", scene.bodies[body].name),
@@ -46,6 +32,40 @@ void for_each_deformable(const State<Dim>& state, const F& f) {
   }
 }
 
+/// The evolving state of particle p, as far as its law has columns.
+template <class Law, int Dim>
+MaterialState<Dim, double> state_of(const StateView<Dim>& columns, std::size_t p) {
+  MaterialState<Dim, double> state{};
+  detail::for_each_state_column<Dim, Law>(columns, state,
+                                          [&](const double* column, double& value) { value = column[p]; });
+  return state;
+}
+
+/// Every particle of an evolving law starts at rest.
+template <int Dim>
+void start_history(State<Dim>& state) {
+  const StateView<Dim> columns = state.view().state;
+  for_each_deformable(state, [&]<class Law>(std::size_t p, const Law& law, const double(&)[Dim * Dim]) {
+    if constexpr (Evolving<Law>) {
+      auto rest = resting_state<Dim, double>(law.start_temperature);
+      detail::for_each_state_column<Dim, Law>(columns, rest,
+                                              [&](double* column, double value) { column[p] = value; });
+    }
+  });
+}
+
+/// Σ V0 density over all particles in order of their ids; density as for_each_deformable calls it.
+template <int Dim, class F>
+double sum_by_id(const State<Dim>& state, const F& density) {
+  std::vector<double> by_id(state.particles.size(), 0.0);
+  for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
+    by_id[state.particles.id()[p]] = state.particles.column(Quantity::initial_volume)[p] * density(p, law, f);
+  });
+  double sum = 0;
+  for (double w : by_id) sum += w;
+  return sum;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -60,7 +80,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.tiling.set_domain(nodes);
   state.body_field = plan.body_field;
   state.field_rigid = plan.field_rigid;
-  for (const auto& m : scene.materials) state.materials.push_back(make_material(m));
+  for (const auto& m : scene.materials) state.materials.push_back(make_material(m, scene.grid.cell));
 
   std::vector<Seeds> seeds;
   std::size_t count = 0;
@@ -105,14 +125,24 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
       ++p;
     }
   }
+  start_history(state);
   refresh_stress(state);
 }
 
+/// An evolving law answers to a step that strains nothing, which leaves its state as it is.
 template <int Dim>
 void refresh_stress(State<Dim>& state) {
-  for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
+  const StateView<Dim> columns = state.view().state;
+  for_each_deformable(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
     double tau[kSymmetric<Dim>], c2;
-    law.template stress<Dim>(f, tau, c2);
+    if constexpr (Evolving<Law>) {
+      constexpr double still[Dim * Dim] = {};
+      const double j = determinant<Dim>(f);
+      MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
+      law.template advance<Dim>(StrainStep<Dim, double>{still, f, j, j, 0.0, 1.0}, evolving, tau, c2);
+    } else {
+      law.template stress<Dim>(f, tau, c2);
+    }
     for (int s = 0; s < kSymmetric<Dim>; ++s)
       state.particles.column(Quantity::kirchhoff_stress, s)[p] = tau[s];
     state.particles.column(Quantity::wave_speed)[p] = std::sqrt(c2);
@@ -120,22 +150,31 @@ void refresh_stress(State<Dim>& state) {
 }
 
 template <int Dim>
-double stored_energy(const State<Dim>& state) {
-  std::vector<double> by_id(state.particles.size(), 0.0);
-  for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
-    by_id[state.particles.id()[p]] =
-        state.particles.column(Quantity::initial_volume)[p] * law.template energy<Dim>(f);
+double stored_energy(State<Dim>& state) {
+  const StateView<Dim> columns = state.view().state;
+  return sum_by_id(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
+    if constexpr (Evolving<Law>)
+      return law.template energy<Dim>(f, state_of<Law>(columns, p));
+    else
+      return law.template energy<Dim>(f);
   });
-  double sum = 0;
-  for (double w : by_id) sum += w;
-  return sum;
+}
+
+template <int Dim>
+double dissipated_energy(State<Dim>& state) {
+  if (!state.particles.has(Quantity::dissipated_energy)) return 0;
+  const double* dissipated = state.particles.column(Quantity::dissipated_energy);
+  return sum_by_id(state,
+                   [&](std::size_t p, const auto&, const double(&)[Dim * Dim]) { return dissipated[p]; });
 }
 
 template void seed<2>(const Scene&, const Plan&, State<2>&);
 template void seed<3>(const Scene&, const Plan&, State<3>&);
 template void refresh_stress<2>(State<2>&);
 template void refresh_stress<3>(State<3>&);
-template double stored_energy<2>(const State<2>&);
-template double stored_energy<3>(const State<3>&);
+template double stored_energy<2>(State<2>&);
+template double stored_energy<3>(State<3>&);
+template double dissipated_energy<2>(State<2>&);
+template double dissipated_energy<3>(State<3>&);
 
 }  // namespace mpmfast

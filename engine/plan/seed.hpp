@@ -12,12 +12,17 @@ namespace mpmfast {
 template <int Dim>
 void seed(const Scene& scene, const Plan& plan, State<Dim>& state);
 
-/// Recomputes every particle's stress and wave speed from its F.
+/// Recomputes every particle's stress and wave speed from its F and its evolving state.
 template <int Dim>
 void refresh_stress(State<Dim>& state);
 
-/// Σ V0 W over all particles in order of their ids, J.
+/// Σ V0 W over all particles in order of their ids, J: what is recoverable, and under an equation of state
+/// the energy of the heat that isentropic compression makes.
 template <int Dim>
-double stored_energy(const State<Dim>& state);
+double stored_energy(State<Dim>& state);
+
+/// Plastic work and viscous heat of all particles so far, J.
+template <int Dim>
+double dissipated_energy(State<Dim>& state);
 
 }  // namespace mpmfast

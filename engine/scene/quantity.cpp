@@ -74,7 +74,7 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
 }
 
 std::string name_of(const Dimensions& dimensions) {
-  for (int k = 1; k <= static_cast<int>(Measure::viscosity); ++k) {
+  for (int k = 1; k < kMeasures; ++k) {
     const QuantityKind& kind = kind_of(static_cast<Measure>(k));
     if (kind.dimensions == dimensions) return kind.name;
   }

@@ -22,11 +22,15 @@ enum class Measure {
   pressure,
   angle,
   angular_velocity,
-  viscosity
+  viscosity,
+  temperature,
+  heat_capacity,
+  rate
 };
+inline constexpr int kMeasures = 14;
 
-/// Exponents of metre, kilogram, second and radian.
-using Dimensions = std::array<int, 4>;
+/// Exponents of metre, kilogram, second, radian and kelvin.
+using Dimensions = std::array<int, 5>;
 
 struct QuantityKind {
   const char* name;   ///< "a length"

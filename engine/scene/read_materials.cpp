@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <string>
 
 #include "engine/scene/sections.hpp"
@@ -8,25 +10,17 @@ namespace {
 
 constexpr Limit kPoisson{"in (-1, 0.5)", -1, 0.5, true, true};
 
-/// Bulk and shear modulus, or Young's modulus and Poisson's ratio in their place.
 decltype(MaterialSpec::model) read_neo_hookean(MapReader& map) {
   NeoHookeanSpec spec;
   map.need_quantity("density", Measure::density, kPositive, spec.density);
-  const auto bulk = map.find("bulk"), shear = map.find("shear");
-  const auto young = map.find("young"), poisson = map.find("poisson");
-  const bool by_moduli = bulk && shear && !young && !poisson;
-  const bool by_young = young && poisson && !bulk && !shear;
-  if (by_moduli) {
-    spec.bulk = bulk->quantity(Measure::pressure, kPositive).value_or(0);
-    spec.shear = shear->quantity(Measure::pressure, kPositive).value_or(0);
-  } else if (by_young) {
-    const double modulus = young->quantity(Measure::pressure, kPositive).value_or(0);
-    const double ratio = poisson->quantity(Measure::number, kPoisson).value_or(0);
-    spec.bulk = modulus / (3 * (1 - 2 * ratio));
-    spec.shear = modulus / (2 * (1 + ratio));
-  } else {
-    map.value().report("needs either bulk and shear or young and poisson");
-  }
+  read_moduli(map, "bulk", spec.bulk, spec.shear);
+  return spec;
+}
+
+decltype(MaterialSpec::model) read_logarithmic(MapReader& map) {
+  LogarithmicNeoHookeanSpec spec;
+  map.need_quantity("density", Measure::density, kPositive, spec.density);
+  read_moduli(map, "lambda", spec.lambda, spec.shear);
   return spec;
 }
 
@@ -46,11 +40,44 @@ decltype(MaterialSpec::model) read_rigid(MapReader& map) {
 
 }  // namespace
 
+void read_moduli(MapReader& map, const char* volumetric, double& modulus, double& shear) {
+  const auto first = map.find(volumetric), second = map.find("shear");
+  const auto young = map.find("young"), poisson = map.find("poisson");
+  const bool lame = std::string(volumetric) == "lambda";
+  if (first && second && !young && !poisson) {
+    modulus = first->quantity(Measure::pressure, lame ? kNotNegative : kPositive).value_or(0);
+    shear = second->quantity(Measure::pressure, kPositive).value_or(0);
+  } else if (young && poisson && !first && !second) {
+    const double e = young->quantity(Measure::pressure, kPositive).value_or(0);
+    const double ratio = poisson->quantity(Measure::number, kPoisson).value_or(0);
+    shear = e / (2 * (1 + ratio));
+    modulus = lame ? 2 * shear * ratio / (1 - 2 * ratio) : e / (3 * (1 - 2 * ratio));
+  } else {
+    map.value().report(fmt::format("needs either {} and shear or young and poisson", volumetric));
+  }
+}
+
 const std::vector<MaterialKind>& material_kinds() {
   static const std::vector<MaterialKind> kKinds{
       {"neo_hookean", "density, bulk, shear (or young, poisson)", "large elastic strains", read_neo_hookean},
       {"linear_elastic", "density, young, poisson", "infinitesimal strains and turns only",
        read_linear_elastic},
+      {"logarithmic_neo_hookean", "density, lambda, shear (or young, poisson)",
+       "large elastic strains, pressure by ln J", read_logarithmic},
+      {"mie_gruneisen",
+       "density, bulk, gruneisen, hugoniot_slope, heat_capacity, shear = 0, linear_viscosity = 0, "
+       "quadratic_viscosity = 0, temperature = 293 K",
+       "shocks: equation of state, elastic shear, artificial viscosity", read_mie_gruneisen},
+      {"j2_plasticity",
+       "density, bulk, shear (or young, poisson), yield, hardening = 0, equation_of_state: {gruneisen, "
+       "hugoniot_slope, linear_viscosity, quadratic_viscosity}, taylor_quinney = 0.9",
+       "metal with linear hardening at large strains; with heat_capacity under an equation of state",
+       read_j2_plasticity},
+      {"johnson_cook",
+       "density, bulk, shear (or young, poisson), yield, hardening, exponent, melt, heat_capacity, "
+       "rate_factor = 0, reference_rate = 1 s^-1, softening = 1, taylor_quinney = 0.9, temperature = 293 K, "
+       "reference = temperature, equation_of_state",
+       "metal whose strength depends on strain, rate and heat", read_johnson_cook},
       {"rigid", "density = 1000 kg/m^3", "moves as its body's velocity says, never deforms", read_rigid},
   };
   return kKinds;
@@ -68,7 +95,7 @@ void read_materials(MapReader& top, std::vector<MaterialSpec>& materials) {
     MaterialSpec material{key.text, NeoHookeanSpec{}};
     if (!is_name(key.text)) value.report("not a name (letters, digits, '_' and '-')");
     MapReader map(value, "a map {model, density, …}");
-    const auto model = map.need("model", "one of neo_hookean, linear_elastic, rigid");
+    const auto model = map.need("model", fmt::format("one of {}", fmt::join(models, ", ")));
     const int index = model ? model->word_index(models) : -1;
     if (index >= 0) {
       material.model = material_kinds()[static_cast<std::size_t>(index)].read(map);

@@ -94,6 +94,33 @@ struct NeoHookeanSpec {
 struct LinearElasticSpec {
   double density = 0, young = 0, poisson = 0;  ///< kg/m³, Pa, –
 };
+/// K24 Eq. 46.
+struct LogarithmicNeoHookeanSpec {
+  double density = 0, lambda = 0, shear = 0;  ///< kg/m³, Pa, Pa
+};
+/// N20 Eq. 51, 52.
+struct EquationOfStateSpec {
+  double gruneisen = 0, hugoniot_slope = 0;              ///< γ0, S1
+  double linear_viscosity = 0, quadratic_viscosity = 0;  ///< A1, A2
+};
+struct LinearHardeningSpec {
+  double yield = 0, hardening = 0;  ///< Pa
+};
+/// (A + B αⁿ)(1 + C ln(rate/reference_rate))(1 − T*ᵐ).
+struct JohnsonCookSpec {
+  double yield = 0, hardening = 0, exponent = 0;    ///< A, B (Pa), n
+  double rate_factor = 0, reference_rate = 1;       ///< C, 1/s
+  double softening = 1, reference = 293, melt = 0;  ///< m, K, K
+};
+/// Finite strains of a metal: an elastic or Mie–Grüneisen volume, an elastic or plastic shear.
+struct MetalSpec {
+  double density = 0, bulk = 0, shear = 0;  ///< kg/m³, Pa, Pa
+  std::optional<EquationOfStateSpec> equation_of_state;
+  std::variant<std::monostate, LinearHardeningSpec, JohnsonCookSpec> strength;
+  double heat_capacity = 0;     ///< J/(kg K); 0 where no temperature is followed
+  double taylor_quinney = 0.9;  ///< share of plastic work that heats
+  double temperature = 293;     ///< K, at the start
+};
 /// Particles that move as their body says and never deform.
 struct RigidSpec {
   double density = 1000;  ///< kg/m³, only weighs the nodal mean of several rigid particles
@@ -101,7 +128,7 @@ struct RigidSpec {
 
 struct MaterialSpec {
   std::string name;
-  std::variant<NeoHookeanSpec, LinearElasticSpec, RigidSpec> model;
+  std::variant<NeoHookeanSpec, LinearElasticSpec, RigidSpec, LogarithmicNeoHookeanSpec, MetalSpec> model;
 };
 
 struct BoxShape {

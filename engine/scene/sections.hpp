@@ -60,6 +60,11 @@ struct MaterialKind {
   decltype(MaterialSpec::model) (*read)(MapReader& map);
 };
 const std::vector<MaterialKind>& material_kinds();
+/// `volumetric` (bulk or lambda) and shear, or young and poisson in their place.
+void read_moduli(MapReader& map, const char* volumetric, double& modulus, double& shear);
+decltype(MaterialSpec::model) read_mie_gruneisen(MapReader& map);
+decltype(MaterialSpec::model) read_j2_plasticity(MapReader& map);
+decltype(MaterialSpec::model) read_johnson_cook(MapReader& map);
 
 /// A number that some laws have.
 struct LawParameter {
@@ -79,6 +84,9 @@ std::optional<Vec3> read_direction(const Value& value, int dimension, bool any);
 /// The vector with length 1; one that has it to round-off is kept as it is, so that reading what was written
 /// changes nothing. Nothing for a zero vector.
 std::optional<Vec3> unit_vector(const Vec3& vector);
+
+/// The keys of a metal.
+std::string metal_text(const MetalSpec& metal);
 
 /// The scene with every default, in the format that parse_scene reads.
 std::string write_scene(const Scene& scene);

@@ -19,7 +19,8 @@ struct NamedUnit {
   Unit unit;
 };
 
-constexpr Dimensions kLength{1, 0, 0, 0}, kMass{0, 1, 0, 0}, kTime{0, 0, 1, 0}, kAngle{0, 0, 0, 1};
+constexpr Dimensions kLength{1, 0, 0, 0}, kMass{0, 1, 0, 0}, kTime{0, 0, 1, 0}, kAngle{0, 0, 0, 1},
+    kTemperature{0, 0, 0, 0, 1};
 constexpr Dimensions kForce{1, 1, -2, 0}, kPressure{-1, 1, -2, 0}, kEnergy{2, 1, -2, 0};
 
 const NamedUnit kUnits[] = {
@@ -37,6 +38,7 @@ const NamedUnit kUnits[] = {
     {"kPa", {1e3, 1, kPressure}}, {"MPa", {1e6, 1, kPressure}},
     {"GPa", {1e9, 1, kPressure}}, {"bar", {1e5, 1, kPressure}},
     {"rad", {1, 1, kAngle}},      {"deg", {3.14159265358979323846, 180, kAngle}},
+    {"K", {1, 1, kTemperature}},
 };
 
 const QuantityKind kKinds[] = {
@@ -51,6 +53,9 @@ const QuantityKind kKinds[] = {
     {"an angle", "rad, deg", "rad", kAngle},
     {"an angular velocity", "rad/s, deg/s", "rad/s", {0, 0, -1, 1}},
     {"a viscosity", "Pa*s", "Pa*s", {-1, 1, -1, 0}},
+    {"a temperature", "K", "K", kTemperature},
+    {"a heat capacity", "J/kg/K", "J/kg/K", {2, 0, -2, 0, -1}},
+    {"a rate", "s^-1, us^-1", "s^-1", {0, 0, -1}},
 };
 
 /// The typographic forms that people paste: µ, °, ·, ², ³.
@@ -89,7 +94,8 @@ bool apply(const std::string& symbol, int exponent, Unit& unit) {
       unit.multiplier *= exponent > 0 ? named.unit.multiplier : named.unit.divisor;
       unit.divisor *= exponent > 0 ? named.unit.divisor : named.unit.multiplier;
     }
-    for (std::size_t d = 0; d < 4; ++d) unit.dimensions[d] += exponent * named.unit.dimensions[d];
+    for (std::size_t d = 0; d < unit.dimensions.size(); ++d)
+      unit.dimensions[d] += exponent * named.unit.dimensions[d];
     return true;
   }
   return false;

@@ -104,6 +104,12 @@ struct ModelText {
                        quantity_text(m.density, Measure::density), quantity_text(m.young, Measure::pressure),
                        m.poisson);
   }
+  std::string operator()(const LogarithmicNeoHookeanSpec& m) const {
+    return fmt::format("model: logarithmic_neo_hookean, density: {}, lambda: {}, shear: {}",
+                       quantity_text(m.density, Measure::density), quantity_text(m.lambda, Measure::pressure),
+                       quantity_text(m.shear, Measure::pressure));
+  }
+  std::string operator()(const MetalSpec& m) const { return metal_text(m); }
   std::string operator()(const RigidSpec& m) const {
     return fmt::format("model: rigid, density: {}", quantity_text(m.density, Measure::density));
   }

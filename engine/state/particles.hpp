@@ -23,9 +23,14 @@ enum class Quantity {
   wave_speed,
   domain_edges,
   reference_position,
-  velocity_slopes
+  velocity_slopes,
+  dissipated_energy,
+  internal_energy,
+  plastic_strain,
+  temperature,
+  elastic_strain
 };
-inline constexpr int kQuantities = 10;
+inline constexpr int kQuantities = 15;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -48,6 +53,12 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
     {Quantity::reference_position, "reference_position", "m", 2, 3, "displacements"},
     {Quantity::velocity_slopes, "velocity_slopes", "1/s", 4, 9, "APIC (row-major C = B/D)"},
+    {Quantity::dissipated_energy, "dissipated_energy", "J/m^3", 1, 1, "plastic work, viscous heat"},
+    {Quantity::internal_energy, "internal_energy", "J/m^3", 1, 1, "equation of state"},
+    {Quantity::plastic_strain, "plastic_strain", "-", 1, 1, "plastic flow"},
+    {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening"},
+    {Quantity::elastic_strain, "elastic_strain", "-", 4, 6,
+     "plastic flow (isochoric elastic B, xx yy zz xy yz xz)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).

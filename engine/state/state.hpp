@@ -2,20 +2,14 @@
 
 /// @file All memory of a running scene.
 
-#include <variant>
 #include <vector>
 
+#include "engine/state/materials.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
 #include "engine/state/tiling.hpp"
-#include "kernels/materials/linear_elastic.hpp"
-#include "kernels/materials/neo_hookean.hpp"
 
 namespace mpmfast {
-
-/// A constitutive law with its parameters. A new law is one more entry here and one in
-/// engine/plan/materials.cpp.
-using Material = std::variant<NeoHookean, LinearElastic>;
 
 template <int Dim>
 struct State {
@@ -48,6 +42,11 @@ struct State {
     columns(Quantity::mass, &v.mass, 1);
     columns(Quantity::initial_volume, &v.volume, 1);
     columns(Quantity::wave_speed, &v.wave_speed, 1);
+    columns(Quantity::dissipated_energy, &v.state.dissipated, 1);
+    columns(Quantity::internal_energy, &v.state.internal_energy, 1);
+    columns(Quantity::plastic_strain, &v.state.plastic_strain, 1);
+    columns(Quantity::temperature, &v.state.temperature, 1);
+    columns(Quantity::elastic_strain, v.state.elastic_strain, kSymmetric<Dim>);
     return v;
   }
 };

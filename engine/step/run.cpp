@@ -34,16 +34,18 @@ class Marks {
   int next_ = 1;
 };
 
-/// The balance kinetic + stored + friction − work of boundaries and body forces, and how far it has drifted.
+/// The balance kinetic + stored + dissipated + friction − work of boundaries and body forces, and how far it
+/// has drifted.
 class EnergyBalance {
  public:
   void add(const HistoryRow& row) {
-    const double balance = row.kinetic + row.stored + row.friction - row.boundary_work - row.body_force_work;
+    const double balance =
+        row.kinetic + row.stored + row.dissipated + row.friction - row.boundary_work - row.body_force_work;
     if (!started_) first_ = balance;
     started_ = true;
     drift_ = balance - first_;
-    scale_ = std::max(
-        {scale_, row.kinetic + row.stored, std::abs(row.boundary_work), std::abs(row.body_force_work)});
+    scale_ = std::max({scale_, row.kinetic + row.stored + row.dissipated, std::abs(row.boundary_work),
+                       std::abs(row.body_force_work)});
   }
   double error() const { return scale_ > 0 ? drift_ / scale_ : 0; }
 
@@ -128,6 +130,7 @@ class Run {
     row.dt = dt;
     const Sums<Dim>& sums = step_.sums();
     row.stored = step_.stored_energy();
+    row.dissipated = step_.dissipated_energy();
     row.friction = sums.friction_work;
     row.boundary_work = sums.boundary_work;
     row.body_force_work = sums.body_force_work;

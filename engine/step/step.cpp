@@ -353,8 +353,13 @@ void Step<Dim>::book(double dt) {
 }
 
 template <int Dim>
-double Step<Dim>::stored_energy() const {
+double Step<Dim>::stored_energy() {
   return mpmfast::stored_energy(state_);
+}
+
+template <int Dim>
+double Step<Dim>::dissipated_energy() {
+  return mpmfast::dissipated_energy(state_);
 }
 
 /// Names the particle with the smallest id that is not finite, outside the grid or without volume.

@@ -50,7 +50,8 @@ class Step {
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
-  double stored_energy() const;
+  double stored_energy();
+  double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
  private:
   const State<Dim>& seeded(const Scene& scene);

@@ -77,12 +77,31 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
 /// As `terms`: the whole exponential.
 inline constexpr int kAllTerms = 0;
 
-/// F ← (I + Δt L [+ ½ Δt² L²]) F, the exponential of the velocity gradient to one or two terms, or all of it.
+/// The largest eigenvalue of B over directions in the plane (2-D: exact) or an upper bound of it (3-D): mean
+/// + 2p with 6p² = dev B : dev B.
+template <int Dim, class V>
+inline V largest_stretch_squared(const V (&b)[kSymmetric<Dim>]) {
+  if constexpr (Dim == 2) {
+    const V mean = 0.5 * (b[0] + b[1]), half = 0.5 * (b[0] - b[1]);
+    return mean + square_root(half * half + b[3] * b[3]);
+  } else {
+    const V mean = (b[0] + b[1] + b[2]) * (1.0 / 3.0), d0 = b[0] - mean, d1 = b[1] - mean, d2 = b[2] - mean;
+    const V deviator = d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (b[3] * b[3] + b[4] * b[4] + b[5] * b[5]);
+    return mean + 2.0 * square_root(deviator * (1.0 / 6.0));
+  }
+}
+
+/// The increment a of F ← (I + a) F over a step: Δt L [+ ½ Δt² L²], the exponential of the velocity gradient
+/// to one or two terms, or all of it.
 /// @param l row-major velocity gradient, 1/s
 template <int Dim, class V>
-inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
-  if (terms == kAllTerms) return advance_by_exponential<Dim>(l, dt, f);
-  V a[Dim * Dim], g[Dim * Dim];
+inline void deformation_increment(const V (&l)[Dim * Dim], double dt, int terms, V (&a)[Dim * Dim]) {
+  if (terms == kAllTerms) {
+    for (int i = 0; i < Dim * Dim; ++i) a[i] = broadcast<V>(i % (Dim + 1) == 0 ? 1.0 : 0.0);
+    advance_by_exponential<Dim>(l, dt, a);
+    for (int d = 0; d < Dim; ++d) a[(Dim + 1) * d] -= 1.0;
+    return;
+  }
   for (int i = 0; i < Dim * Dim; ++i) a[i] = dt * l[i];
   if (terms > 1) {
     V square[Dim * Dim];
@@ -94,6 +113,12 @@ inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V
       }
     for (int i = 0; i < Dim * Dim; ++i) a[i] += 0.5 * square[i];
   }
+}
+
+/// F ← (I + a) F.
+template <int Dim, class V>
+inline void deform(const V (&a)[Dim * Dim], V (&f)[Dim * Dim]) {
+  V g[Dim * Dim];
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) {
       V s = f[Dim * i + j];
@@ -101,6 +126,57 @@ inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V
       g[Dim * i + j] = s;
     }
   for (int i = 0; i < Dim * Dim; ++i) f[i] = g[i];
+}
+
+/// F ← (I + Δt L [+ ½ Δt² L²]) F, or exp(Δt L) F.
+template <int Dim, class V>
+inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
+  if (terms == kAllTerms) return advance_by_exponential<Dim>(l, dt, f);
+  V a[Dim * Dim];
+  deformation_increment<Dim>(l, dt, terms, a);
+  deform<Dim>(a, f);
+}
+
+/// Component of the symmetric tensor storage that holds (i, j).
+template <int Dim>
+constexpr int symmetric_index(int i, int j) {
+  return i == j ? i : (Dim == 2 ? 3 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5);
+}
+
+/// (I + a) b (I + a)ᵀ; plane strain leaves zz alone.
+template <int Dim, class V>
+inline void push_forward(const V (&a)[Dim * Dim], const V (&b)[kSymmetric<Dim>], V (&out)[kSymmetric<Dim>]) {
+  V half[Dim * Dim];  // (I + a) b
+  for (int i = 0; i < Dim; ++i)
+    for (int j = 0; j < Dim; ++j) {
+      V s = b[symmetric_index<Dim>(i, j)];
+      for (int k = 0; k < Dim; ++k) s += a[Dim * i + k] * b[symmetric_index<Dim>(k, j)];
+      half[Dim * i + j] = s;
+    }
+  for (int c = 0; c < kSymmetric<Dim>; ++c) out[c] = b[c];
+  for (int i = 0; i < Dim; ++i)
+    for (int j = i; j < Dim; ++j) {
+      V s = half[Dim * i + j];
+      for (int k = 0; k < Dim; ++k) s += half[Dim * i + k] * a[Dim * j + k];
+      out[symmetric_index<Dim>(i, j)] = s;
+    }
+}
+
+/// d : d.
+template <int Dim, class V>
+inline V contraction(const V (&d)[kSymmetric<Dim>]) {
+  V s = d[3] * d[3];
+  for (int c = 4; c < kSymmetric<Dim>; ++c) s += d[c] * d[c];
+  return d[0] * d[0] + d[1] * d[1] + d[2] * d[2] + 2.0 * s;
+}
+
+template <int Dim, class V>
+inline V symmetric_determinant(const V (&d)[kSymmetric<Dim>]) {
+  if constexpr (Dim == 2)
+    return d[2] * (d[0] * d[1] - d[3] * d[3]);
+  else
+    return d[0] * (d[1] * d[2] - d[4] * d[4]) - d[3] * (d[3] * d[2] - d[4] * d[5]) +
+           d[5] * (d[3] * d[4] - d[1] * d[5]);
 }
 
 }  // namespace mpmfast

@@ -2,60 +2,17 @@
 
 /// @file Velocity gradient, strain and stress of the particles, and the internal force on the nodes.
 
-#include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/strain_chunk.hpp"
 #include "kernels/transfer/window.hpp"
-#include "kernels/views.hpp"
 
 namespace mpmfast {
 
 template <int Dim, class Basis>
-struct StrainForceRoom {
+struct StrainForceRoom : StrainRoom<Dim> {
   WeightRoom<Dim, Basis> weights;
   Window<Dim, 1> velocity, force;
-  Record gathered[Dim][kChunk<Dim>];                  ///< ∂v/∂x_d of a particle, components of v
-  alignas(64) double gradient[4 * Dim][kChunk<Dim>];  ///< the same, [4 d + component]
-  alignas(64) double deformation[Dim * Dim][kChunk<Dim>];
-  alignas(64) double stress[kSymmetric<Dim>][kChunk<Dim>];
-  alignas(64) double wave_speed[kChunk<Dim>];
-  alignas(64) double jacobian[kChunk<Dim>];
+  Record gathered[Dim][kChunk<Dim>];  ///< ∂v/∂x_d of a particle, components of v
 };
-
-/// Component of the symmetric tensor storage that holds (i, j).
-template <int Dim>
-constexpr int symmetric_index(int i, int j) {
-  return i == j ? i : (Dim == 2 ? 3 : i + j == 1 ? 3 : i + j == 3 ? 4 : 5);
-}
-
-/// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
-/// exponential, τ and c by the material's law; all columns written back.
-/// @return smallest J of the chunk
-template <int Dim, class Material, class Room>
-inline double strain_chunk(const ParticleView<Dim>& p, const Material& material, std::uint32_t begin,
-                           int count, double dt, int terms, Room& room) {
-  for (int k = 0; k < count; k += kLanes) {
-    Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j) {
-        l[Dim * i + j] = load_lanes(&room.gradient[4 * j + i][k]);
-        f[Dim * i + j] = load_lanes(p.deformation[Dim * i + j] + begin + k);
-      }
-    advance_deformation<Dim>(l, dt, terms, f);
-    material.template stress<Dim>(f, tau, c2);
-    for (int e = 0; e < Dim * Dim; ++e) store_lanes(&room.deformation[e][k], f[e]);
-    for (int s = 0; s < kSymmetric<Dim>; ++s) store_lanes(&room.stress[s][k], tau[s]);
-    store_lanes(&room.wave_speed[k], square_root(c2));
-    store_lanes(&room.jacobian[k], determinant<Dim>(f));
-  }
-  const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
-  for (int e = 0; e < Dim * Dim; ++e) std::memcpy(p.deformation[e] + begin, room.deformation[e], bytes);
-  for (int s = 0; s < kSymmetric<Dim>; ++s) std::memcpy(p.stress[s] + begin, room.stress[s], bytes);
-  std::memcpy(p.wave_speed + begin, room.wave_speed, bytes);
-  double smallest = room.jacobian[0];
-  for (int k = 1; k < count; ++k) smallest = room.jacobian[k] < smallest ? room.jacobian[k] : smallest;
-  for (int k = 0; k < count; ++k)
-    if (!(room.jacobian[k] > 0)) smallest = -1;  // catches NaN, which the comparison above lets pass
-  return smallest;
-}
 
 /// Velocity gradients of a chunk, ∇v_p = Σ_i v_i ⊗ G_pi (N20 Eq. 28), staged in room.gradient.
 template <int Dim, int K, class Room>

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "kernels/materials/linear_elastic.hpp"
+#include "kernels/materials/logarithmic_neo_hookean.hpp"
 #include "kernels/materials/neo_hookean.hpp"
 
 using namespace mpmfast;
@@ -20,6 +21,7 @@ using Draw = std::mt19937_64;
 
 constexpr NeoHookean kSolid{1000, 2450e6, 940e6};
 constexpr LinearElastic kLinear{1000, 1800e6, 940e6};
+constexpr LogarithmicNeoHookean kLogarithmic{1010, 104.4e6, 26.1e6};
 
 double uniform(Draw& draw, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(draw);
@@ -113,13 +115,12 @@ double acoustic(const Law& law, const Mat<Dim>& f, const Vec<Dim>& m, const Vec<
 
 // W of one term is about 1e9 J/m³; a difference of step 1e-3 leaves 1e-13·1e9/1e-3 = 0.1 Pa of round-off and
 // 1e-12·(fifth derivative) of truncation: 1e-8 of the moduli is ample for both.
-TEST_CASE_TEMPLATE("neo-Hookean: the Kirchhoff stress is the derivative of W along exp(ε e) F", D, TwoD,
-                   ThreeD) {
-  constexpr int Dim = D::value;
+template <int Dim, class Law>
+void check_stress(const Law& law, double modulus) {
   Draw draw(1);
   for (int k = 0; k < 200; ++k) {
     const Mat<Dim> f = random_deformation<Dim>(draw);
-    const Mat<3> tau = stress<Dim>(kSolid, f);
+    const Mat<3> tau = stress<Dim>(law, f);
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j) {
         // exp(ε e_i⊗e_j) is I + ε e_i⊗e_j off the diagonal, and e^ε on it.
@@ -127,12 +128,17 @@ TEST_CASE_TEMPLATE("neo-Hookean: the Kirchhoff stress is the derivative of W alo
             [&](double e) {
               Mat<Dim> step = Mat<Dim>::Identity();
               step(i, j) = i == j ? std::exp(e) : e;
-              return energy<Dim>(kSolid, Mat<Dim>(step * f));
+              return energy<Dim>(law, Mat<Dim>(step * f));
             },
             1e-3);
-        CHECK(std::abs(tau(i, j) - slope) < 1e-8 * (kSolid.bulk + tau.norm()));
+        CHECK(std::abs(tau(i, j) - slope) < 1e-8 * (modulus + tau.norm()));
       }
   }
+}
+TEST_CASE_TEMPLATE("neo-Hookean: the Kirchhoff stress is the derivative of W along exp(ε e) F", D, TwoD,
+                   ThreeD) {
+  check_stress<D::value>(kSolid, kSolid.bulk);
+  check_stress<D::value>(kLogarithmic, kLogarithmic.lambda);
 }
 
 TEST_CASE("neo-Hookean: plane strain is the 3-D law with F_zz = 1, out-of-plane stress included") {
@@ -167,6 +173,9 @@ TEST_CASE_TEMPLATE("undeformed: no stress, no energy, c² = (K + 4G/3)/ρ or (λ
   CHECK(stress<Dim>(kSolid, identity, &c2).norm() < 1e-15 * kSolid.bulk);
   CHECK(std::abs(energy<Dim>(kSolid, identity)) < 1e-15 * kSolid.bulk);
   CHECK(c2 >= (kSolid.bulk + 4.0 / 3.0 * kSolid.shear) / kSolid.density * (1 - 1e-14));
+  CHECK(stress<Dim>(kLogarithmic, identity, &c2).norm() < 1e-15 * kLogarithmic.lambda);
+  CHECK(std::abs(energy<Dim>(kLogarithmic, identity)) < 1e-15 * kLogarithmic.lambda);
+  CHECK(c2 == doctest::Approx((104.4e6 + 2 * 26.1e6) / 1010).epsilon(1e-14));
   CHECK(stress<Dim>(kLinear, identity, &c2).norm() == 0);
   CHECK(energy<Dim>(kLinear, identity) == 0);
   CHECK(c2 == doctest::Approx((kLinear.lambda + 2 * kLinear.shear) / kLinear.density).epsilon(1e-14));
@@ -202,14 +211,19 @@ TEST_CASE_TEMPLATE("neo-Hookean: no longitudinal wave outruns the stated speed",
   Draw draw(6);
   for (int k = 0; k < 100; ++k) {
     const Mat<Dim> f = random_deformation<Dim>(draw);
-    double c2, fastest = 0;
+    double c2, fastest = 0, c2_logarithmic, fastest_logarithmic = 0;
     stress<Dim>(kSolid, f, &c2);
+    stress<Dim>(kLogarithmic, f, &c2_logarithmic);
     for (int s = 0; s < 300; ++s) {
       const Vec<Dim> n = random_direction<Dim>(draw);
       fastest = std::max(fastest, acoustic<Dim>(kSolid, f, n, n) / kSolid.density);
+      fastest_logarithmic =
+          std::max(fastest_logarithmic, acoustic<Dim>(kLogarithmic, f, n, n) / kLogarithmic.density);
     }
     CHECK(fastest <= c2 * (1 + 1e-8));
+    CHECK(fastest_logarithmic <= c2_logarithmic * (1 + 1e-8));
     if (Dim == 2) CHECK(fastest > c2 * (1 - 1e-3));  // exact in 2-D, but for the finite sample
+    if (Dim == 2) CHECK(fastest_logarithmic > c2_logarithmic * (1 - 1e-3));
   }
 }
 

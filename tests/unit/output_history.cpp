@@ -52,6 +52,7 @@ TEST_CASE("history columns come in the order that the output contract states") {
   row.pair_friction = {80};
   row.body_force_work = 5;
   row.mean_stress = {6, 7, 8, 9, 0, 0};
+  row.dissipated = 11;
   file.append(row);
 
   const auto lines = lines_of(read_text(folder.path() / "history.csv"));
@@ -66,6 +67,7 @@ TEST_CASE("history columns come in the order that the output contract states") {
   expected += ",floor.force_x_N,floor.force_y_N,punch.force_x_N,punch.force_y_N,body_force_work_J";
   expected += ",all.mean_stress_xx_Pa,all.mean_stress_yy_Pa,all.mean_stress_zz_Pa,all.mean_stress_xy_Pa";
   expected += ",punch.moment_z_Nm,punch+left.force_x_N,punch+left.force_y_N,punch+left.friction_J";
+  expected += ",dissipated_J";
   CHECK(lines[0] == expected);
 
   const auto names = split(lines[0]), cells = split(lines[1]);
@@ -86,6 +88,7 @@ TEST_CASE("history columns come in the order that the output contract states") {
   CHECK(value("punch+left.force_y_N") == "70");
   CHECK(value("punch+left.friction_J") == "80");
   CHECK(value("all.mean_stress_xy_Pa") == "9");
+  CHECK(value("dissipated_J") == "11");
 }
 
 TEST_CASE("history has six stresses and three force components in 3-D") {
@@ -98,7 +101,7 @@ TEST_CASE("history has six stresses and three force components in 3-D") {
   CHECK(lines[0].find("left.mean_stress_xy_Pa,left.mean_stress_yz_Pa,left.mean_stress_xz_Pa,left.mass_kg") !=
         std::string::npos);
   CHECK(lines[0].find("left.z_m,left.vx,left.vy,left.vz") != std::string::npos);
-  CHECK(split(lines[0]).size() == 10 + 3 * 13 + 3 + 3 + 1 + 6 + 3);
+  CHECK(split(lines[0]).size() == 10 + 3 * 13 + 3 + 3 + 1 + 6 + 3 + 1);
   CHECK(split(lines[1]).size() == split(lines[0]).size());
 }
 

@@ -1,0 +1,41 @@
+#pragma once
+
+/// @file Compressible neo-Hookean solid of K24 Eq. 46.
+
+#include "kernels/dimension.hpp"
+#include "kernels/materials/kinematics.hpp"
+#include "kernels/simd/math.hpp"
+
+namespace mpmfast {
+
+/// W = ½μ(I1 − 3) − μ ln J + ½λ (ln J)², so that τ = Jσ = μ(B − I) + λ ln J I  (K24 Eq. 46).
+struct LogarithmicNeoHookean {
+  double density = 0;  ///< kg/m³, undeformed
+  double lambda = 0;   ///< Lamé's first constant, Pa
+  double shear = 0;    ///< μ, Pa
+
+  /// Wave speed: δL = n⊗n gives ρ0 c² = δτ_nn − τ_nn = μ(B_nn + 1) + λ(1 − ln J), largest where B_nn is;
+  /// shear waves have μ B_nn, which remains where ln J > 1 makes the first fall below it.
+  template <int Dim, class V>
+  void stress(const V (&f)[Dim * Dim], V (&tau)[kSymmetric<Dim>], V& wave_speed_squared) const {
+    V b[kSymmetric<Dim>];
+    left_cauchy_green<Dim>(f, b);
+    const V log_j = logarithm(determinant<Dim>(f));
+    for (int c = 0; c < 3; ++c) tau[c] = shear * (b[c] - 1.0) + lambda * log_j;
+    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = shear * b[c];
+    const V stretch = largest_stretch_squared<Dim>(b);
+    const V modulus = shear * stretch + larger(shear + lambda * (1.0 - log_j), broadcast<V>(0.0));
+    wave_speed_squared = modulus * (1.0 / density);
+  }
+
+  /// Stored energy per undeformed volume, J/m³.
+  template <int Dim, class V>
+  V energy(const V (&f)[Dim * Dim]) const {
+    V b[kSymmetric<Dim>];
+    left_cauchy_green<Dim>(f, b);
+    const V log_j = logarithm(determinant<Dim>(f));
+    return 0.5 * shear * (b[0] + b[1] + b[2] - 3.0) + log_j * (0.5 * lambda * log_j - shear);
+  }
+};
+
+}  // namespace mpmfast

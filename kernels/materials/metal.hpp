@@ -1,0 +1,119 @@
+#pragma once
+
+/// @file Finite-strain metals: a volumetric law and a yield strength over the neo-Hookean shear of N20
+/// Eq. 18.
+
+#include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/volume.hpp"
+#include "kernels/materials/yield.hpp"
+
+namespace mpmfast {
+
+/// τ = G dev(b̄) − J(p + q) I. Without yield b̄ = J^{−2/3} F Fᵀ; with it b̄ is the isochoric elastic left
+/// Cauchy–Green tensor of Simo (1988): carried by the step, b̄' = |f|^{−2/3} f b̄ fᵀ with f = I + a, then
+/// returned radially to the von Mises surface √(3/2)|dev τ| = σ_y.
+template <class Volume, class Yield>
+struct Metal {
+  static constexpr StateColumns kColumns{Volume::kHeats || Yield::kPlastic, Volume::kHeats, Yield::kPlastic,
+                                         Volume::kHeats || Yield::kThermal, Yield::kPlastic};
+  double density = 0;  ///< kg/m³, undeformed
+  double shear = 0;    ///< G, Pa
+  Volume volume{};
+  Yield yield{};
+  double heat_capacity = 1;        ///< ρ0 c_v, J/(m³ K)
+  double heat_share = 0.9;         ///< of plastic work that becomes heat (Taylor and Quinney)
+  double start_temperature = 293;  ///< K
+
+  template <int Dim, class V>
+  void advance(const StrainStep<Dim, V>& step, MaterialState<Dim, V>& state, V (&tau)[kSymmetric<Dim>],
+               V& wave_speed_squared) const {
+    V b[kSymmetric<Dim>];
+    V work = broadcast<V>(0.0);
+    isochoric_strain(step, state, b);
+    if constexpr (Yield::kPlastic) {
+      work = flow<Dim>(step.dt, state, b);
+      for (int c = 0; c < kSymmetric<Dim>; ++c) state.elastic_strain[c] = b[c];
+      state.dissipated += work;
+      if constexpr (Yield::kThermal && !Volume::kHeats)
+        state.temperature += heat_share / heat_capacity * work;
+    }
+    const auto response = volume.respond(step, density, heat_capacity, work, V(heat_share * work), state);
+    const V trace = b[0] + b[1] + b[2];
+    for (int c = 0; c < 3; ++c) tau[c] = shear * (b[c] - trace * (1.0 / 3.0)) - response.pressure;
+    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = shear * b[c];
+    // As in neo_hookean.hpp; det b̄ = 1. Plastic flow only slows waves down.
+    const V smallest = smallest_stretch_squared<Dim>(b, broadcast<V>(1.0));
+    const V modulus = response.modulus + shear * (trace * (5.0 / 9.0) - smallest * (1.0 / 3.0));
+    const V elastic = modulus * (1.0 / density), viscous = response.viscous;
+    const V bound = viscous + square_root(viscous * viscous + elastic);
+    wave_speed_squared = bound * bound;
+  }
+
+  /// Recoverable energy per undeformed volume, J/m³.
+  template <int Dim, class V>
+  V energy(const V (&f)[Dim * Dim], const MaterialState<Dim, V>& state) const {
+    const V j = determinant<Dim>(f);
+    V trace;
+    if constexpr (Yield::kPlastic) {
+      trace = state.elastic_strain[0] + state.elastic_strain[1] + state.elastic_strain[2];
+    } else {
+      V b[kSymmetric<Dim>];
+      left_cauchy_green<Dim>(f, b);
+      trace = (b[0] + b[1] + b[2]) * isochoric_factor(j);
+    }
+    return 0.5 * shear * (trace - 3.0) + volume.template energy<Dim>(j, state);
+  }
+
+ private:
+  template <int Dim, class V>
+  static void isochoric_strain(const StrainStep<Dim, V>& step, const MaterialState<Dim, V>& state,
+                               V (&b)[kSymmetric<Dim>]) {
+    V scale;
+    if constexpr (Yield::kPlastic) {
+      push_forward<Dim>(step.increment, state.elastic_strain, b);
+      scale = isochoric_factor(step.volume_now / step.volume_before);
+    } else {
+      left_cauchy_green<Dim>(step.deformation, b);
+      scale = isochoric_factor(step.volume_now);
+    }
+    for (int c = 0; c < kSymmetric<Dim>; ++c) b[c] *= scale;
+  }
+
+  /// Radial return: dev b̄ shrinks by σ_y/q along its direction, x of equivalent plastic strain with
+  /// q − 3Ḡx = σ_y, Ḡ = G tr(b̄)/3. The mean m of b̄ then follows from det(d + m I) = 1,
+  /// m³ − ½(d:d) m + det d = 1 (d = dev b̄): Newton's method from the trial's mean, above the root, where the
+  /// cubic is convex; five rounds reach round-off from any trial below tr b̄ = 6.
+  /// @return plastic work, J/m³: the elastic energy 3/2 G dm that the return takes out, by its rate at the
+  /// end, (3m² − ½d:d) dm = ½ m d(d:d) − d(det d). (The difference over the return counts the trial's
+  /// overshoot twice: it misses by the first order of the step.) To the order of the elastic strain it is σ_y
+  /// x. The shear energy that sudden melting lets go, a thousandth of the plastic work before it, is not
+  /// seen.
+  template <int Dim, class V>
+  V flow(double dt, MaterialState<Dim, V>& state, V (&b)[kSymmetric<Dim>]) const {
+    constexpr int kRounds = 5;
+    const V zero = broadcast<V>(0.0);
+    const V mean = (b[0] + b[1] + b[2]) * (1.0 / 3.0);
+    V d[kSymmetric<Dim>];
+    for (int c = 0; c < kSymmetric<Dim>; ++c) d[c] = c < 3 ? b[c] - mean : b[c];
+    const V trial = shear * square_root(1.5 * contraction<Dim>(d)), slope = 3.0 * shear * mean;
+    const V x = yield.increment(trial, slope, state.plastic_strain, state.temperature, dt);
+    const auto flows = x > zero;
+    const V scale = flows ? 1.0 - slope * x / trial : broadcast<V>(1.0);
+    const V trial_half = 0.5 * contraction<Dim>(d), trial_third = symmetric_determinant<Dim>(d);
+    const V half = scale * scale * trial_half, third = scale * scale * scale * trial_third - 1.0;
+    V m = mean;
+    for (int k = 0; k < kRounds; ++k) m -= ((m * m - half) * m + third) / (3.0 * m * m - half);
+    for (int c = 0; c < kSymmetric<Dim>; ++c) b[c] = flows ? (c < 3 ? scale * d[c] + m : scale * d[c]) : b[c];
+    state.plastic_strain += x;
+    const V share = scale * (1.0 - scale);
+    return 1.5 * shear * share * (2.0 * m * trial_half - 3.0 * scale * trial_third) / (3.0 * m * m - half);
+  }
+};
+
+using MieGruneisen = Metal<GruneisenVolume, NoYield>;
+using MieGruneisenPlastic = Metal<GruneisenVolume, LinearHardening>;
+using MieGruneisenJohnsonCook = Metal<GruneisenVolume, JohnsonCook>;
+using ElasticPlastic = Metal<ElasticVolume, LinearHardening>;
+using ElasticJohnsonCook = Metal<ElasticVolume, JohnsonCook>;
+
+}  // namespace mpmfast

@@ -1,0 +1,100 @@
+#pragma once
+
+/// @file Yield strength of metals. `increment` solves the consistency condition of radial return,
+///   g(x) = q − 3Ḡ x − σ_y(α + x, x/Δt, T) = 0  for the equivalent plastic strain x ≥ 0 of the step,
+/// with q the von Mises measure of the trial Kirchhoff stress.
+
+#include "kernels/materials/evolving.hpp"
+#include "kernels/simd/math.hpp"
+
+namespace mpmfast {
+
+/// No yield: the shear response is elastic.
+struct NoYield {
+  static constexpr bool kPlastic = false, kThermal = false;
+};
+
+/// σ_y = Y + H α.
+struct LinearHardening {
+  static constexpr bool kPlastic = true, kThermal = false;
+  double yield = 0;      ///< Y, Pa
+  double hardening = 0;  ///< H, Pa
+
+  template <class V>
+  V strength(V plastic_strain, V, V) const {
+    return yield + hardening * plastic_strain;
+  }
+  template <class V>
+  V increment(V trial, V slope, V plastic_strain, V, double) const {
+    return larger(trial - (yield + hardening * plastic_strain), broadcast<V>(0.0)) / (slope + hardening);
+  }
+};
+
+/// Johnson and Cook (1983): σ_y = (A + B αⁿ)(1 + C ln max(α̇/ε̇0, 1))(1 − T*ᵐ), T* = (T − T0)/(T_m − T0) in
+/// [0, 1].
+struct JohnsonCook {
+  static constexpr bool kPlastic = true, kThermal = true;
+  double yield = 0, hardening = 0, exponent = 1;  ///< A, B (Pa), n
+  double rate_factor = 0, reference_rate = 1;     ///< C, ε̇0 (1/s)
+  double softening = 1, reference = 0, melt = 1;  ///< m, T0, T_m (K)
+
+  template <class V>
+  V thermal_share(V temperature) const {
+    const V zero = broadcast<V>(0.0), one = broadcast<V>(1.0);
+    const V t = smaller(larger((temperature - reference) * (1.0 / (melt - reference)), zero), one);
+    return t > 0.0 ? 1.0 - exponential(softening * logarithm(larger(t, broadcast<V>(1e-300)))) : one;
+  }
+
+  template <class V>
+  V strength(V plastic_strain, V rate, V temperature) const {
+    V derivative;
+    return static_strength(plastic_strain, derivative) * rate_share(rate) * thermal_share(temperature);
+  }
+
+  /// Newton's method kept in a bracket: g falls from g(0) > 0 to g(q/3Ḡ) < 0. A lane stops when its own g has
+  /// vanished, so that its neighbours do not matter.
+  template <class V>
+  V increment(V trial, V slope, V plastic_strain, V temperature, double dt) const {
+    const V zero = broadcast<V>(0.0), thermal = thermal_share(temperature);
+    V derivative;
+    const V rest = static_strength(plastic_strain, derivative) * thermal;
+    V low = zero, high = larger(trial, zero) / slope;
+    V x = (trial - rest) / (slope + derivative * thermal);
+    const auto yields = trial > rest;
+    x = (x > low) & (x <= high) ? x : 0.5 * high;
+    constexpr int kMost = 60;  // bisection alone would need them; Newton takes about five
+    for (int k = 0; k < kMost; ++k) {
+      const V rate = x * (1.0 / dt);
+      const V base = static_strength(plastic_strain + x, derivative), share = rate_share(rate);
+      const V rate_slope = rate > reference_rate ? rate_factor / x : zero;
+      const V g = trial - slope * x - base * share * thermal;
+      const auto open = yields & (magnitude(g) > 1e-13 * trial);
+      if (!any_open(open)) break;
+      low = g > 0.0 ? x : low;
+      high = g > 0.0 ? high : x;
+      const V newton = x + g / (slope + thermal * (derivative * share + base * rate_slope));
+      const V next = (newton > low) & (newton <= high) ? newton : 0.5 * (low + high);
+      x = open ? next : x;
+    }
+    return yields ? x : zero;
+  }
+
+ private:
+  static bool any_open(bool open) { return open; }
+  static bool any_open(IntLanes open) { return any_of(open); }
+
+  /// A + B αⁿ and its derivative.
+  template <class V>
+  V static_strength(V plastic_strain, V& derivative) const {
+    const V a = larger(plastic_strain, broadcast<V>(1e-12));
+    const V grown = hardening * exponential(exponent * logarithm(a));
+    derivative = exponent * grown / a;
+    return yield + grown;
+  }
+  template <class V>
+  V rate_share(V rate) const {
+    return 1.0 + rate_factor * logarithm(larger(rate * (1.0 / reference_rate), broadcast<V>(1.0)));
+  }
+};
+
+}  // namespace mpmfast
