@@ -51,7 +51,7 @@ const Overrides kMidCell{{"bodies.0.box.to", "[40 mm, 52.5 mm]"},
                          {"bodies.1.box.to", "[22.5 mm, 100 mm]"},
                          {"bodies.2.box.from", "[22.5 mm, 52.5 mm]"}};
 
-TEST_CASE("three materials: lumped contact is near one field, and no block enters another") {
+TEST_CASE("three materials: lumped contact is near one field, and the upper blocks do not enter each other") {
   // At the meeting point each field faces the lump of the two others, whose normal lies between those of its
   // two surfaces: it parts the upper blocks. Smoothing spreads that normal over the nodes around.
   struct Reached {
