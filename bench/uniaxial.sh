@@ -1,8 +1,16 @@
 #!/bin/sh
-# Error against cost of the contact methods on configs/uniaxial.yaml, as a table: bench/uniaxial.sh build/release/mpmfast
-# Error: largest difference of the mean axial stress from one velocity field with the same update, from 1 % strain on.
+# Error against cost of the contact methods on configs/uniaxial.yaml, as a table:
+#   bench/uniaxial.sh build/release/mpmfast [CELL_MM [PLANE_MM...]]
+# Error: largest difference of the mean axial stress from one velocity field with the same particles and update, from 1 %
+# strain on. PLANE_MM: heights of the contact plane; by default on a grid line and in the middle of a cell of 5 mm, so
+# "5 51 51.7 53.6" gives three other places, "2.5" half the cell size.
 set -eu
 program=$(realpath "$1")
+shift
+cell=5
+[ $# -eq 0 ] || { cell=$1; shift; }
+[ $# -gt 0 ] || set -- 50 52.5
+planes=$*
 scene="$(cd "$(dirname "$0")/.." && pwd)/configs/uniaxial.yaml"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -12,7 +20,7 @@ simulate() {
   folder=$1
   shift
   set -- $(printf -- '--set %s ' "$@")
-  "$program" run "$scene" --threads 1 --progress none --force --out "$work/$folder" --set output.frames=0 "$@" \
+  "$program" run "$scene" --threads 1 --progress none --force --out "$work/$folder" --set output.frames=0 --set grid.cell="$cell mm" "$@" \
     > "$work/log" 2>&1 || true
 }
 
@@ -39,15 +47,15 @@ value() { sed -n "s/^ *\"$2\": \([-0-9.e+]*\).*/\1/p" "$work/$1/run.json" | head
 
 echo "| update | contact | plane | error to 10 % | error to 20 % | reaches | wall s | energy error |"
 echo "|---|---|---|---|---|---|---|---|"
-for update in flip "xpic(2)" "xpic(5)"; do
-  simulate "one" "method.update=$update" contact=none
-  for contact in logistic_regression smoothed_logistic_regression average_gradient; do
-    for plane in 50 52.5; do
-      simulate two "method.update=$update" "contact.normal=$contact" "bodies.0.box.to=[0.04,$(awk "BEGIN{print $plane/1000}")]" \
-        "bodies.1.box.from=[0,$(awk "BEGIN{print $plane/1000}")]"
-      where="grid line"
-      [ "$plane" = 50 ] || where="mid-cell"
-      echo "| $update | $contact | $where | $(compare two one) | $(printf "%.1f" "$(value two wall_s)") | $(printf "%.1e" "$(value two energy_error)") |"
+for plane in $planes; do
+  height=$(awk "BEGIN { print $plane / 1000 }")
+  lower="bodies.0.box.to=[0.04,$height]"
+  upper="bodies.1.box.from=[0,$height]"
+  for update in flip "xpic(2)" "xpic(5)"; do
+    simulate one "method.update=$update" contact=none "$lower" "$upper"
+    for contact in logistic_regression smoothed_logistic_regression average_gradient; do
+      simulate two "method.update=$update" "contact.normal=$contact" "$lower" "$upper"
+      echo "| $update | $contact | $plane mm | $(compare two one) | $(printf "%.1f" "$(value two wall_s)") | $(printf "%.1e" "$(value two energy_error)") |"
     done
   done
 done

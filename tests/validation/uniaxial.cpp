@@ -105,5 +105,90 @@ TEST_CASE("uniaxial: on supports of 4 nodes a side, plain LR needs no smoothing:
   }
 }
 
+/// The two blocks with their contact plane at another height, mm.
+std::vector<Override> plane_at(const char* height) {
+  const std::string y = height;
+  return {{"bodies.0.box.to", "[40 mm, " + y + " mm]"}, {"bodies.1.box.from", "[0 mm, " + y + " mm]"}};
+}
+
+std::vector<Override> operator+(std::vector<Override> a, const std::vector<Override>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Error to `limit` of one method on `scene` against one field of the same particles.
+double contact_error(const std::vector<Override>& scene, const char* update, const char* normal,
+                     double limit) {
+  const auto own = scene + std::vector<Override>{{"method.update", update}};
+  const Outcome one = uniaxial(own + std::vector<Override>{{"contact", "none"}});
+  const Outcome two = uniaxial(own + std::vector<Override>{{"contact.normal", normal}});
+  REQUIRE(one.failure == "");
+  CHECK(two.failure == "");
+  CHECK(strain_of(two.summary.time) > 0.2);
+  return error(two.history, one.history, limit);
+}
+
+const char* const kPlain = "logistic_regression";
+const char* const kSmoothed = "smoothed_logistic_regression";
+
+TEST_CASE("uniaxial: a contact plane in no special place of its cell") {
+  CHECK(contact_error(plane_at("51.7"), "flip", kSmoothed, 0.2) < 0.005);  // measured 0.02 %
+}
+
+TEST_CASE("slow: uniaxial: three other places of the contact plane") {
+  for (const char* height : {"51", "51.7", "53.6"}) {
+    CAPTURE(std::string(height));
+    CHECK(contact_error(plane_at(height), "flip", kPlain, 0.15) < 0.01);     // measured 0.83, 0.87, 0.97 %
+    CHECK(contact_error(plane_at(height), "flip", kSmoothed, 0.2) < 0.005);  // 0.02, 0.02, 0.10 %
+    CHECK(contact_error(plane_at(height), "xpic(5)", kSmoothed, 0.2) < 0.0024);  // 0.10, 0.13, 0.07 %
+  }
+}
+
+TEST_CASE("slow: uniaxial: half the cell size") {
+  for (const char* height : {"50", "51.25"}) {
+    CAPTURE(std::string(height));
+    const auto scene = plane_at(height) + std::vector<Override>{{"grid.cell", "2.5 mm"}};
+    CHECK(contact_error(scene, "flip", kPlain, 0.15) < 0.01);         // measured 0.63, 0.59 %
+    CHECK(contact_error(scene, "flip", kSmoothed, 0.2) < 0.005);      // 0.03, 0.05 %
+    CHECK(contact_error(scene, "xpic(5)", kSmoothed, 0.2) < 0.0024);  // 0.12, 0.07 %
+  }
+}
+
+TEST_CASE("slow: uniaxial: a quarter of the cell size") {
+  const auto scene = plane_at("50") + std::vector<Override>{{"grid.cell", "1.25 mm"}};
+  CHECK(contact_error(scene, "flip", kSmoothed, 0.2) < 0.005);  // measured 0.011 %
+}
+
+/// The scene with x and y exchanged: pressed from the right.
+const std::vector<Override> kOnItsSide{
+    {"grid.origin", "[0 mm, -10 mm]"},
+    {"grid.size", "[100 mm, 60 mm]"},
+    {"bodies.0.box.to", "[50 mm, 40 mm]"},
+    {"bodies.1.box.from", "[50 mm, 0 mm]"},
+    {"bodies.1.box.to", "[100 mm, 40 mm]"},
+    {"boundaries", "{left: fixed, right: {piston: 0.9622 m/s, direction: left, held: true}}"}};
+
+/// Largest relative difference of the axial stress between the scene and itself on its side, to 5 % strain.
+double side_difference(const char* update, const char* normal) {
+  const std::vector<Override> own{{"method.update", update},
+                                  {"contact.normal", normal},
+                                  {"time.end", "5.2 ms"},
+                                  {"output.history", "52"}};
+  const Outcome upright = uniaxial(own), aside = uniaxial(own + kOnItsSide);
+  REQUIRE(upright.failure == "");
+  REQUIRE(aside.failure == "");
+  const auto &a = upright.history.at("all.mean_stress_yy_Pa"), &b = aside.history.at("all.mean_stress_xx_Pa");
+  REQUIRE(a.size() == b.size());
+  double largest = 0;
+  for (std::size_t k = 10; k < a.size(); ++k) largest = std::max(largest, std::abs(b[k] / a[k] - 1));
+  return largest;
+}
+
+TEST_CASE("uniaxial: turned by 90 degrees in the grid it gives the same stress") {
+  // Measured: no difference in the nine digits of the history.
+  CHECK(side_difference("flip", kPlain) < 1e-8);
+  CHECK(side_difference("xpic(5)", kSmoothed) < 1e-8);
+}
+
 }  // namespace
 }  // namespace mpmfast

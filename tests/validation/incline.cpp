@@ -1,0 +1,196 @@
+// Sliding, sticking and rolling down a plane, along the grid and turned through it, against rigid mechanics.
+
+#include <fmt/format.h>
+
+#include "tests/turned.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+constexpr double kGravity = 9.81, kRamp = 0.2;  // m/s², s
+
+std::string pair(const Vec<2>& v) { return fmt::format("[{}, {}]", v[0], v[1]); }
+
+/// ∫∫ of gravity's share dt dt: what a body that starts with the ramp has gone per unit of acceleration.
+double path_per_acceleration(double t) {
+  return kRamp * kRamp / 6 + kRamp / 2 * (t - kRamp) + (t - kRamp) * (t - kRamp) / 2;
+}
+
+struct Slope {
+  double angle = 30;  ///< degrees, between gravity and the plane's normal
+  double friction = 0.2;
+  double turned = 0;                ///< degrees, of the whole scene in the grid
+  std::vector<Override> overrides;  ///< of the method
+};
+
+using Overrides = std::vector<Override>;
+const Overrides kExact{{"contact.normal", "specified"}};  // its direction is that of the plane
+const Overrides kPlain{{"contact.normal", "logistic_regression"}};
+const Overrides kSmoothed{{"contact.normal", "smoothed_logistic_regression"}};
+/// Smoothed over the neighbours, but with the plain form's penalty.
+const Overrides kSmoothedOnly{{"contact.normal", "smoothed_logistic_regression"},
+                              {"contact.penalty", "1e-7"}};
+
+Overrides operator+(Overrides a, const Overrides& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+Overrides method(const char* update, const char* basis) {
+  return {{"method.update", update}, {"method.basis", basis}};
+}
+
+/// Path along the plane of body 1 of incline.yaml or rolling_disk.yaml, m.
+double path(const char* file, const Slope& slope) {
+  const double theta = slope.angle * kDegree, turned = -slope.turned * kDegree;
+  const Mat<2> rotation = Eigen::Rotation2Dd(turned).toRotationMatrix();
+  const Vec<2> along = rotation * Vec<2>(1, 0), into = rotation * Vec<2>(0, -1);
+  const Vec<2> gravity = kGravity * (std::sin(theta) * along + std::cos(theta) * into);
+  Overrides overrides{{"gravity.acceleration", pair(gravity)},
+                      {"contact.friction", fmt::format("{}", slope.friction)},
+                      {"grid.origin", "[-0.5 m, -2 m]"},
+                      {"grid.size", "[5 m, 5 m]"}};
+  overrides = overrides + slope.overrides;
+  if (slope.overrides.front().second == "specified")
+    overrides.push_back({"contact.specified_normal", pair(into)});  // into the rigid body
+  const Scene scene = scene_file(file, overrides);
+  Step<2> step(scene);
+  if (turned != 0) turn(step, turned, Vec<2>(1.5, 0.5));
+  const Vec<2> start = body_motion(step.state().particles, 1).centre;
+  while (step.state().time < scene.time.end)
+    step.advance(std::min(step.stable_dt(), scene.time.end - step.state().time));
+  return (body_motion(step.state().particles, 1).centre - start).dot(along);
+}
+
+/// Relative error of the path of the sliding block.
+double slide_error(const Slope& slope) {
+  const double theta = slope.angle * kDegree;
+  const double acceleration = kGravity * (std::sin(theta) - slope.friction * std::cos(theta));
+  return path("incline.yaml", slope) / (acceleration * path_per_acceleration(1)) - 1;
+}
+
+/// What a block that ought to stick has gone, relative to the path without friction.
+double creep(const Slope& slope) {
+  const double free = kGravity * std::sin(slope.angle * kDegree) * path_per_acceleration(1);
+  return path("incline.yaml", slope) / free;
+}
+
+const double kAngles[] = {20, 30, 45}, kFrictions[] = {0, 0.2, 0.3};
+
+/// Largest error over the nine slopes.
+double largest_slide_error(const Overrides& overrides, double turned) {
+  double largest = 0;
+  for (const double angle : kAngles)
+    for (const double friction : kFrictions)
+      largest = std::max(largest, std::abs(slide_error({angle, friction, turned, overrides})));
+  return largest;
+}
+
+TEST_CASE("incline: with exact normals a block slides as a rigid one within 1 %, at any angle in the grid") {
+  // Measured 0.68 % and 0.33 %, both at 20 degrees and 0.3, where the block sticks for a moment; else 0.1 %.
+  CHECK(largest_slide_error(kExact + method("flip", "lcpdi"), 0) < 0.01);
+  CHECK(largest_slide_error(kExact + method("flip", "lcpdi"), 30) < 0.01);
+}
+
+TEST_CASE("incline: LR brakes a sliding block by its normals at the block's ends") {
+  // The goal is 1 %. At 30 degrees and 0.2, the ends' normals lean by some degrees and cost this much; see
+  // the exact ones, which meet it by far.
+  struct Reached {
+    const Overrides& normal;
+    double turned, error;
+  };
+  for (const Reached& reached : {Reached{kPlain, 0, 0.020},          // measured 1.56 %
+                                 Reached{kPlain, 30, 0.028},         // 2.25 %
+                                 Reached{kSmoothedOnly, 0, 0.010},   // 0.80 %
+                                 Reached{kSmoothedOnly, 30, 0.016},  // 1.30 %
+                                 Reached{kSmoothed, 0, 0.28},        // 23.1 %: the penalty turns them further
+                                 Reached{kSmoothed, 30, 0.27}}) {    // 21.8 %
+    CAPTURE(reached.normal.size());
+    CAPTURE(reached.turned);
+    const double error = slide_error({30, 0.2, reached.turned, reached.normal + method("flip", "lcpdi")});
+    CHECK(std::abs(error) < reached.error);
+  }
+}
+
+TEST_CASE("slow: incline: LR over all slopes, turned and not") {
+  // The goal is 1 %; the worst is always 20 degrees with 0.3, where nine tenths of the weight's share are
+  // spent on friction. Measured 9.3 and 7.6 % plain, 6.5 and 5.4 % smoothed with the plain penalty.
+  CHECK(largest_slide_error(kPlain + method("flip", "lcpdi"), 0) < 0.11);
+  CHECK(largest_slide_error(kPlain + method("flip", "lcpdi"), 30) < 0.095);
+  CHECK(largest_slide_error(kSmoothedOnly + method("flip", "lcpdi"), 0) < 0.08);
+  CHECK(largest_slide_error(kSmoothedOnly + method("flip", "lcpdi"), 30) < 0.065);
+}
+
+TEST_CASE("slow: incline: smoothed LR with domains along the axes slides at any angle through the grid") {
+  // The goal is 1 %. Measured 2.3, 2.6, 2.0, 1.9, 1.5, 1.1, 0.2, 0.6 %. The plain form loses 3 to 27 % here,
+  // and at 30 degrees it does not move: the node ahead of the front corner gets a normal along the plane.
+  for (const double turned : {5.0, 10.0, 20.0, 30.0, 40.0, 45.0, 60.0, 75.0}) {
+    CAPTURE(turned);
+    CHECK(std::abs(slide_error({30, 0.2, turned, kSmoothedOnly + method("flip", "ugimp")})) < 0.03);
+  }
+}
+
+TEST_CASE("incline: below the friction angle a block creeps less than 0.1 % of its free path") {
+  // Measured 0.012 to 0.027 %, most of it the elastic shear of the block as gravity comes: rho g h^2 sin/2G.
+  for (const auto& normal : {kExact, kPlain, kSmoothedOnly, kSmoothed})
+    for (const char* update : {"flip", "xpic(5)"}) {
+      CAPTURE(normal.front().second);
+      CAPTURE(normal.size());
+      CAPTURE(std::string(update));
+      CHECK(std::abs(creep({20, 0.4, 0, normal + method(update, "lcpdi")})) < 0.001);
+      CHECK(std::abs(creep({30, 0.6, 30, normal + method(update, "lcpdi")})) < 0.001);
+    }
+  // With 1.04 of the friction that holds it and the plane on a grid line, its vibration breaks the one row of
+  // contact nodes loose again and again: 5.9 %. Half a cell higher, 0.03 %.
+  CHECK(std::abs(creep({30, 0.6, 0, kExact + method("flip", "lcpdi")})) < 0.07);
+  const Overrides mid_cell{{"bodies.0.box.to", "[4 m, 0.45 m]"},
+                           {"bodies.1.box.from", "[0.5 m, 0.45 m]"},
+                           {"bodies.1.box.to", "[1.3 m, 0.85 m]"}};
+  CHECK(std::abs(creep({30, 0.6, 0, kExact + method("flip", "lcpdi") + mid_cell})) < 0.001);
+}
+
+TEST_CASE("incline: a plane across the grid whose particles lie on the grid's lattice is rough") {
+  // The goal is 1 %. Exact normals reach 0.003 %, so detection and friction are right and the stairs of half
+  // a cell disturb the fitted normals alone: 22 % of the path is lost plain, 14 % smoothed, 40 % with its own
+  // penalty.
+  const auto error = [](const Overrides& overrides) {
+    const Outcome outcome =
+        run(scene_file("incline_tilted.yaml", Overrides{{"output.frames", "0"}} + overrides));
+    REQUIRE(outcome.failure == "");
+    const auto &x = outcome.history.at("block.x_m"), &y = outcome.history.at("block.y_m");
+    const double theta = 30 * kDegree;
+    const double gone = (x.back() - x.front()) * std::cos(theta) - (y.back() - y.front()) * std::sin(theta);
+    return std::abs(gone / (kGravity * (std::sin(theta) - 0.2 * std::cos(theta)) * path_per_acceleration(1)) -
+                    1);
+  };
+  const Vec<2> into(-std::sin(30 * kDegree), -std::cos(30 * kDegree));
+  CHECK(error(kExact + Overrides{{"contact.specified_normal", pair(into)}}) < 0.001);
+  CHECK(error(kPlain) < 0.25);
+  CHECK(error(kSmoothedOnly) < 0.16);
+  CHECK(error(kSmoothed) < 0.44);
+}
+
+/// Relative error of the path of a disk that rolls: (2/3) g sin.
+double roll_error(const char* cell, const Overrides& overrides) {
+  const Slope slope{30, 0.6, 0, overrides + method("flip", "lcpdi") + Overrides{{"grid.cell", cell}}};
+  return path("rolling_disk.yaml", slope) / (2.0 / 3 * kGravity * 0.5 * path_per_acceleration(1)) - 1;
+}
+
+TEST_CASE("a disk of ten cells' radius rolls down a plane, too slowly") {
+  // The goal is 2 %. Measured -8.9 % (LR), -8.5 % (smoothed): see the slow case for its convergence.
+  CHECK(std::abs(roll_error("0.05 m", kPlain)) < 0.10);
+  CHECK(std::abs(roll_error("0.05 m", kSmoothedOnly)) < 0.10);
+}
+
+TEST_CASE("slow: the path of a rolling disk converges with the cell size") {
+  // Measured -29.4, -8.9, -4.2 % with 5, 10, 20 cells a radius.
+  const double coarse = std::abs(roll_error("0.1 m", kPlain)), fine = std::abs(roll_error("0.025 m", kPlain));
+  CHECK(coarse < 0.33);
+  CHECK(fine < 0.05);
+  CHECK(fine < 0.25 * coarse);
+}
+
+}  // namespace
+}  // namespace mpmfast
