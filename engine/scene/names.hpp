@@ -61,12 +61,14 @@ inline constexpr std::array<Word<int>, 3> kDeformationTerms{{
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
-inline constexpr std::array<Word<NormalKind>, 9> kNormals{{
+inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
     {NormalKind::logistic_regression, "logistic_regression",
      "the plane that best parts the particles (default)"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
      "its mean over the nodes around, with warm starts, an advanced separation, persistent and simultaneous "
      "contact"},
+    {NormalKind::max_margin, "max_margin", "the plane that stays furthest from the particles of both sides"},
+    {NormalKind::smoothed_max_margin, "smoothed_max_margin", "its mean over the nodes around, with the same"},
     {NormalKind::logistic_irls, "logistic_irls", "the same by maximum likelihood (reweighted least squares)"},
     {NormalKind::linear_regression, "linear_regression", "the plane by linear regression alone"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},

@@ -7,7 +7,9 @@ namespace {
 /// What follows from the choice of normals, before the scene's other words.
 void set_defaults(ContactSpec& contact) {
   switch (contact.normal) {
+    case NormalKind::max_margin:
     case NormalKind::smoothed_logistic_regression:
+    case NormalKind::smoothed_max_margin:
       contact.advance_separation = true;
       contact.warm_start = true;
       contact.persistent = true;

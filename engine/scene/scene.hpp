@@ -27,6 +27,8 @@ enum class PositionKind { grid, trapezoid, particle };
 enum class NormalKind {
   logistic_regression,
   smoothed_logistic_regression,
+  max_margin,
+  smoothed_max_margin,
   logistic_irls,
   linear_regression,
   average_gradient,

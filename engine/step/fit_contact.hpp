@@ -13,6 +13,7 @@
 #include "engine/step/contact_list.hpp"
 #include "engine/step/smooth_normals.hpp"
 #include "kernels/contact/collect.hpp"
+#include "kernels/contact/margin.hpp"
 #include "kernels/contact/regression.hpp"
 #include "kernels/contact/separation.hpp"
 
@@ -25,14 +26,16 @@ struct alignas(64) FitTally {
 
 /// What a scene's contact asks of the clouds.
 struct FitChoice {
-  bool regress, smooth, separate, pairs;
+  bool regress, margin, smooth, separate, pairs;
   Extent extent;
   RegressionRule rule;
 
   explicit FitChoice(const ContactSpec& spec) {
     pairs = spec.fields == ManyFields::simultaneous;
-    smooth = spec.normal == NormalKind::smoothed_logistic_regression;
-    regress = smooth || spec.normal == NormalKind::logistic_regression ||
+    smooth = spec.normal == NormalKind::smoothed_logistic_regression ||
+             spec.normal == NormalKind::smoothed_max_margin;
+    margin = spec.normal == NormalKind::max_margin || spec.normal == NormalKind::smoothed_max_margin;
+    regress = smooth || margin || spec.normal == NormalKind::logistic_regression ||
               spec.normal == NormalKind::logistic_irls || spec.normal == NormalKind::linear_regression;
     separate = spec.detection != DetectionKind::velocity &&
                (spec.separation == SeparationKind::ellipsoid ||
@@ -69,7 +72,7 @@ class ContactFit {
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
         room.choose_sides(cloud, entry);
-        if (choice.regress && !entry.settled) fit(choice.rule, spec.warm_start, room.view(cloud), entry);
+        if (choice.regress && !entry.settled) fit(choice, spec.warm_start, room.view(cloud), entry);
         if (choice.smooth)
           raw_[static_cast<std::size_t>(e)] = entry.normal;
         else if (choice.separate)
@@ -166,8 +169,29 @@ class ContactFit {
     room.pad();
   }
 
-  void fit(const RegressionRule& rule, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
-    const Regression<Dim> result = fit_normal<Dim>(cloud, rule, warm ? entry.plane : nullptr);
+  /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
+  bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry) {
+    Vec<Dim> guess = Eigen::Map<const Vec<Dim>>(entry.plane);
+    if (!warm || guess.isZero(0)) guess = cloud_gradient(cloud);
+    if (guess.isZero(0)) return false;
+    const Margin<Dim> margin = widest_margin<Dim>(cloud, guess);
+    tally_[static_cast<std::size_t>(omp_get_thread_num())].iterations +=
+        static_cast<std::uint64_t>(margin.iterations);
+    if (margin.normal.isZero(0)) return false;
+    entry.normal = margin.normal;
+    for (int d = 0; d < Dim; ++d) entry.plane[d] = margin.normal[d];
+    return true;
+  }
+
+  void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
+    if (choice.margin) {
+      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
+      if (part(cloud, warm, entry)) return;
+      warm = false;  // what is kept of the last step is a normal, not a plane
+      --tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
+      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].fallbacks;
+    }
+    const Regression<Dim> result = fit_normal<Dim>(cloud, choice.rule, warm ? entry.plane : nullptr);
     using Outcome = typename Regression<Dim>::Outcome;
     entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
     std::memcpy(entry.plane, result.plane, sizeof entry.plane);
