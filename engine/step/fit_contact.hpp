@@ -73,10 +73,9 @@ class ContactFit {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
         room.choose_sides(cloud, entry);
         if (choice.regress && !entry.settled) fit(choice, spec.warm_start, room.view(cloud), entry);
-        if (choice.smooth)
-          raw_[static_cast<std::size_t>(e)] = entry.normal;
-        else if (choice.separate)
+        if (choice.separate)
           entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
+        if (choice.smooth) raw_[static_cast<std::size_t>(e)] = {entry.normal, entry.separation};
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
@@ -241,7 +240,7 @@ class ContactFit {
 
   std::vector<Room> rooms_;
   std::vector<FitTally> tally_;
-  std::vector<Vec<Dim>> raw_;
+  std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
 };
 

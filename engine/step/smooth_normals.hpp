@@ -34,15 +34,24 @@ int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact
                                      static_cast<std::size_t>(local)];
 }
 
+/// What an entry found by itself.
+template <int Dim>
+struct RawNormal {
+  Vec<Dim> normal;
+  double separation;  ///< m
+};
+
 template <int Dim>
 class NormalMean {
  public:
+  /// @param raw  the normals of the entries, with their separations
   /// @param pairs  nodes of three or more fields have an entry for every pair, and no lumps
-  NormalMean(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<Vec<Dim>>& raw,
+  NormalMean(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<RawNormal<Dim>>& raw,
              bool pairs)
       : state_(state), contact_(contact), raw_(raw), pairs_(pairs) {}
 
-  /// Over the 3^Dim nodes around, weighted by the smaller of the two masses; not normalised.
+  /// Over the touching ones of the 3^Dim nodes around and this one, weighted by the smaller of the two
+  /// masses; not normalised.
   Vec<Dim> operator()(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int m = 0; m < power(3, Dim); ++m) {
@@ -62,7 +71,7 @@ class NormalMean {
   void add(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, const ContactNode<Dim>& other,
            Vec<Dim>& sum) const {
     const int a = field(node, entry.a);
-    if (entry.b >= 0 && pairs_) return add_pair(a, field(node, entry.b), other, sum);
+    if (entry.b >= 0 && pairs_) return add_pair(a, field(node, entry.b), node, other, sum);
     const auto meets_a = [&](int f) {
       if (f == a) return false;
       for (int k = 0; k < node.field_end - node.field_begin; ++k)
@@ -79,18 +88,24 @@ class NormalMean {
       const int f = field(other, theirs.a);
       const bool same = f == a && has(meets_a, theirs.a);
       const bool turned = meets_a(f) && has([&](int g) { return g == a; }, theirs.a);
-      if (!same && !turned) continue;
-      sum += (same ? 1.0 : -1.0) * weight(other, theirs.a) * raw_[static_cast<std::size_t>(e)];
+      if ((same || turned) && counts(node, other, e))
+        sum += (same ? 1.0 : -1.0) * weight(other, theirs.a) * raw_[static_cast<std::size_t>(e)].normal;
     }
   }
 
-  void add_pair(int a, int b, const ContactNode<Dim>& other, Vec<Dim>& sum) const {
+  bool counts(const ContactNode<Dim>& node, const ContactNode<Dim>& other, int e) const {
+    return &other == &node || raw_[static_cast<std::size_t>(e)].separation < 0;
+  }
+
+  void add_pair(int a, int b, const ContactNode<Dim>& node, const ContactNode<Dim>& other,
+                Vec<Dim>& sum) const {
     for (int e = other.entry_begin; e < other.entry_end; ++e) {
       const auto& theirs = contact_.entries[static_cast<std::size_t>(e)];
       if (theirs.b < 0) continue;
       const int f = field(other, theirs.a), g = field(other, theirs.b);
-      if (!((f == a && g == b) || (f == b && g == a))) continue;
-      sum += (f == a ? 1.0 : -1.0) * weight(other, theirs.a, theirs.b) * raw_[static_cast<std::size_t>(e)];
+      if (!((f == a && g == b) || (f == b && g == a)) || !counts(node, other, e)) continue;
+      sum += (f == a ? 1.0 : -1.0) * weight(other, theirs.a, theirs.b) *
+             raw_[static_cast<std::size_t>(e)].normal;
     }
   }
 
@@ -109,7 +124,7 @@ class NormalMean {
 
   const State<Dim>& state_;
   const ContactList<Dim>& contact_;
-  const std::vector<Vec<Dim>>& raw_;
+  const std::vector<RawNormal<Dim>>& raw_;
   bool pairs_;
 };
 
