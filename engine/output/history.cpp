@@ -73,6 +73,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     names.push_back(owner + ".friction_J");
   }
   names.push_back("dissipated_J");
+  if (scene.output.overlap) names.insert(names.end(), {"overlap_m2", "inside_m2"});
   return names;
 }
 
@@ -133,6 +134,11 @@ void HistoryFile::append(const HistoryRow& row) {
     line.add(k < row.pair_friction.size() ? row.pair_friction[k] : 0.0);
   }
   line.add(row.dissipated);
+  if (scene_->output.overlap) {
+    const Overlap overlap = row.overlap.value_or(Overlap{});
+    line.add(overlap.area);
+    line.add(overlap.inside);
+  }
   errno = 0;
   file_ << line.end() << std::flush;
   if (!file_) throw_file_error("write", path_);

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/output/overlap.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/particles.hpp"
 
@@ -39,6 +41,7 @@ struct HistoryRow {
   std::vector<Vec3> rigid_moment;     ///< N m, likewise, about the body's pivot
   std::vector<Vec3> pair_force;       ///< N, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
+  std::optional<Overlap> overlap;     ///< with output.overlap
 };
 
 /// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise
@@ -98,6 +101,7 @@ struct RunSummary {
     std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< with fields: pairs
   } contact;
   double energy_error = 0;
+  std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::string checksum;
   std::string command;                 ///< the command line
   std::vector<std::string> overrides;  ///< --set arguments

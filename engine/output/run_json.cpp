@@ -68,6 +68,11 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
   for (const auto& [pass, seconds] : summary.seconds) json["seconds"][pass] = seconds;
   json["contact"] = contact_json(summary.contact);
   json["energy_error"] = summary.energy_error;
+  if (summary.overlap) {
+    json["overlap_m2"] = summary.overlap->area;
+    json["inside_m2"] = summary.overlap->inside;
+    json["particles_inside"] = summary.overlap->particles_inside;
+  }
   json["checksum"] = summary.checksum;
   // A file name need not be UTF-8: what is not is replaced rather than losing the whole summary.
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

@@ -54,12 +54,22 @@ std::vector<CatalogueEntry> boundaries() {
        "the same at the node nearest to a point"}};
 }
 
+std::vector<CatalogueEntry> output_keys() {
+  const OutputSpec plain;
+  return {{"frames", fmt::format("= {}", plain.frames), "particle files, evenly spaced in time; 0: none"},
+          {"history", fmt::format("= {}", plain.history), "rows of history.csv"},
+          {"overlap", fmt::format("= {}", plain.overlap),
+           "2-D: history.csv and run.json say how much bodies enter each other"},
+          {"picture", "= " + plain.picture, "what the second picture shows (see pictures)"}};
+}
+
 }  // namespace
 
 std::vector<std::string> catalogue_topics() {
-  return {"materials", "bases",      "updates", "strains", "deformation_terms",
-          "positions", "normals",    "separations", "detections", "laws",
-          "areas",     "fields",     "shapes",  "boundaries", "pictures"};
+  return {"materials", "bases",   "updates",     "strains",    "deformation_terms",
+          "positions", "normals", "separations", "detections", "laws",
+          "areas",     "fields",  "shapes",      "boundaries", "output",
+          "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -77,6 +87,7 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "fields") return words_of(kManyFields);
   if (topic == "shapes") return kinds_of(shape_kinds());
   if (topic == "boundaries") return boundaries();
+  if (topic == "output") return output_keys();
   std::vector<CatalogueEntry> out;
   if (topic != "pictures") return out;
   for (const char* picture : kPictures) out.push_back({picture, "", ""});

@@ -129,12 +129,12 @@ Bounds extent(const BitmapShape& shape) {
   return out;
 }
 
-/// Points along one axis.
+/// Points along one axis: some, from `begin` on, of first, first + spacing …
 struct Row {
   double first = 0, spacing = 0;
-  long count = 1;
+  long count = 1, begin = 0;
 
-  double at(long i) const { return first + spacing * static_cast<double>(i); }
+  double at(long i) const { return first + spacing * static_cast<double>(begin + i); }
 };
 using Lattice = std::array<Row, 3>;
 
@@ -151,7 +151,9 @@ Lattice lattice_of(const BoxShape& box, const BodySpec& body, const GridSpec& gr
   return lattice;
 }
 
-/// The grid's lattice where the shape can be, with a point to spare on each side against round-off.
+/// The grid's lattice where the shape can be, with a point to spare on each side against round-off. All
+/// bodies count from the grid's corner: to the last bit a point is the same for each, so that two grey levels
+/// of a picture never both have it.
 template <class AnyShape>
 Lattice lattice_of(const AnyShape& shape, const BodySpec& body, const GridSpec& grid, int dimension) {
   const Bounds box = extent(shape);
@@ -164,8 +166,7 @@ Lattice lattice_of(const AnyShape& shape, const BodySpec& body, const GridSpec& 
     };
     const long begin = std::max(static_cast<long>(std::floor(index(box.lower[k]))) - 1, 0L);
     const long end = std::min(static_cast<long>(std::ceil(index(box.upper[k]))) + 1, all);
-    lattice[k] = {grid.origin[k] + (static_cast<double>(begin) + 0.5) * spacing, spacing,
-                  std::max(end - begin, 0L)};
+    lattice[k] = {grid.origin[k] + 0.5 * spacing, spacing, std::max(end - begin, 0L), begin};
   }
   return lattice;
 }

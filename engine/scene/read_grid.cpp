@@ -83,11 +83,15 @@ void read_gravity(MapReader& top, int dimension, GravitySpec& gravity) {
 void read_output(MapReader& top, int dimension, OutputSpec& output) {
   const auto section = top.find("output");
   if (!section) return;
-  MapReader map(*section, "a map {frames, history, picture}");
+  MapReader map(*section, "a map {frames, history, picture, overlap}");
   constexpr int kMostFrames = 999999;  // frames are numbered with six digits
   constexpr int kMostRows = 100000000;
   map.integer("frames", 0, kMostFrames, output.frames);
   map.integer("history", 1, kMostRows, output.history);
+  if (const auto overlap = map.find("overlap")) {
+    output.overlap = overlap->boolean().value_or(false);
+    if (output.overlap && dimension == 3) overlap->complain("the overlap of bodies is measured in 2-D only");
+  }
   if (const auto picture = map.find("picture")) {
     std::vector<std::string> known;
     for (const char* name : kPictures) {

@@ -258,8 +258,9 @@ struct ContactSpec : LawSpec {
 };
 
 struct OutputSpec {
-  int frames = 20;    ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
-  int history = 200;  ///< rows of history.csv beside the initial one
+  int frames = 20;       ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
+  int history = 200;     ///< rows of history.csv beside the initial one
+  bool overlap = false;  ///< 2-D: the history measures how much bodies enter each other
   std::string picture = "pressure";  ///< field of the second picture: pressure, von_mises, stress_xx, …
 };
 

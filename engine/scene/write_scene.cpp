@@ -314,8 +314,8 @@ std::string write_scene(const Scene& scene) {
                      vector_text(scene.gravity.acceleration, Measure::acceleration, d),
                      quantity_text(scene.gravity.ramp, Measure::time));
   out += contact_text(scene);
-  out += fmt::format("output:\n  frames: {}\n  history: {}\n  picture: {}\n", scene.output.frames,
-                     scene.output.history, scene.output.picture);
+  out += fmt::format("output:\n  frames: {}\n  history: {}\n  overlap: {}\n  picture: {}\n",
+                     scene.output.frames, scene.output.history, scene.output.overlap, scene.output.picture);
   return out;
 }
 

@@ -2,8 +2,10 @@
 
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "engine/errors.hpp"
+#include "engine/output/overlap.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
 
@@ -15,9 +17,24 @@ std::string in_mebibytes(std::size_t bytes) {
   return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0);
 }
 
+/// What the bodies share before anything moves; nothing where that is round-off.
+std::string overlap_text(const State<2>& state) {
+  std::vector<int> owner(state.bodies.size());
+  std::iota(owner.begin(), owner.end(), 0);
+  const std::vector<ParticleDomain> domains = particle_domains(state.particles, state.bodies, owner);
+  const Overlap overlap = measure_overlap(domains, state.threads);
+  double all = 0;
+  for (const ParticleDomain& domain : domains) all += domain.area();
+  if (overlap.area <= 1e-9 * all) return "";
+  return fmt::format("{:.4g} m^2, {:.2g} % of all bodies ({} particles lie inside another body)",
+                     overlap.area, 100 * overlap.area / all, overlap.particles_inside);
+}
+
 template <int Dim>
 std::string describe(const Scene& scene) {
   Step<Dim> step(scene);
+  std::string overlap;
+  if constexpr (Dim == 2) overlap = overlap_text(step.state());
   const double dt = step.stable_dt(), steps = std::ceil(scene.time.end / dt);
   std::string text = fmt::format("{}\n", scene.title.empty() ? scene.file.filename().string() : scene.title);
   const auto line = [&](const char* name, const std::string& value) {
@@ -57,6 +74,7 @@ std::string describe(const Scene& scene) {
   line("dimension", fmt::format("{}", Dim));
   line("particles", fmt::format("{}", particles.size()));
   line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
+  if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
   line("memory",

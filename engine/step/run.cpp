@@ -155,11 +155,21 @@ class Run {
     for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
       row.pair_force.push_back(mean_force(sums.pair_impulse[k], last_impulse_.pair_impulse[k]));
     row.pair_friction = sums.pair_friction_work;
+    measure_overlap_of_fields();
+    row.overlap = overlap_;
     last_impulse_ = sums;
     last_row_time_ = state.time;
     last_row_step_ = state.step;
     balance_.add(row);
     history_->append(row);
+  }
+
+  void measure_overlap_of_fields() {
+    const auto& state = step_.state();
+    if constexpr (Dim == 2)
+      if (scene_.output.overlap)
+        overlap_ =
+            measure_overlap(particle_domains(state.particles, state.bodies, state.body_field), state.threads);
   }
 
   void write_frame() {
@@ -236,6 +246,7 @@ class Run {
     s.contact = {c.nodes_peak,    c.regressions, c.fallbacks,     c.unconverged,
                  mean_iterations, c.pair_nodes,  c.pair_fallbacks};
     s.energy_error = balance_.error();
+    s.overlap = overlap_;
     s.checksum = checksum(state.particles);
     s.command = options_.command;
     s.overrides = options_.overrides;
@@ -251,6 +262,7 @@ class Run {
   std::optional<HistoryFile> history_;
   std::optional<ParticleSeries<Dim>> series_;
   EnergyBalance balance_;
+  std::optional<Overlap> overlap_;  ///< of the last row
   Sums<Dim> last_impulse_;
   double last_row_time_ = 0, dt_ = 0, dt_min_ = std::numeric_limits<double>::infinity(), dt_max_ = 0,
          stepping_ = 0;

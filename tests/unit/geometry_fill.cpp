@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <numbers>
@@ -163,4 +164,27 @@ TEST_CASE("the levels of a bitmap share out all particles, at the cost of one im
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   CHECK(total == 40000u);
   CHECK(seconds.count() < 2);  // measured: a few milliseconds; the bound is for sanitizers on a busy machine
+}
+
+TEST_CASE("every place of a bitmap goes to one level even where it lies on the corner of four pixels") {
+  // Places and pixels as in a packing: 4 x 4 or 2 x 2 pixels to a place. Counted from each level's own corner
+  // the places would differ by round-off, and some would go to two levels and some to none.
+  auto image = std::make_shared<GreyImage>();
+  image->width = 280;
+  image->height = 560;
+  for (int row = 0; row < 560; ++row)
+    for (int column = 0; column < 280; ++column)
+      image->pixel.push_back(static_cast<unsigned char>((row / 22 * 13 + column / 26 * 7) % 50));
+  for (const int cells : {35, 70}) {
+    const GridSpec grid{{0, 0, 0}, {1e-3, 2e-3, 0}, 1e-3 / cells};
+    std::vector<Vec3> places;
+    for (int grey = 0; grey < 50; ++grey) {
+      const Seeds seeds = fill(body_of(BitmapShape{"", {0, 0, 0}, {1e-3, 2e-3, 0}, grey, image}), grid, 2);
+      places.insert(places.end(), seeds.position.begin(), seeds.position.end());
+    }
+    const auto number = static_cast<std::size_t>(8 * cells * cells);
+    CHECK(places.size() == number);
+    std::sort(places.begin(), places.end());
+    CHECK(std::unique(places.begin(), places.end()) == places.end());
+  }
 }

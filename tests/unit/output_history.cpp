@@ -105,6 +105,21 @@ TEST_CASE("history has six stresses and three force components in 3-D") {
   CHECK(split(lines[1]).size() == split(lines[0]).size());
 }
 
+TEST_CASE("the overlap ends a row of the history where the scene asks for it") {
+  const TemporaryFolder folder;
+  Scene scene = small_scene(Space::plane_strain);
+  scene.output.overlap = true;
+  HistoryFile file(folder.path(), scene);
+  HistoryRow row;
+  row.dissipated = 3;
+  row.overlap = Overlap{0.25, 0.5, 7};
+  file.append(row);
+  const auto lines = lines_of(read_text(folder.path() / "history.csv"));
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].ends_with(",dissipated_J,overlap_m2,inside_m2"));
+  CHECK(lines[1].ends_with(",3,0.25,0.5"));
+}
+
 TEST_CASE("a body's name with a comma or a quote stays one cell of history.csv") {
   const TemporaryFolder folder;
   Scene scene = small_scene(Space::plane_strain);

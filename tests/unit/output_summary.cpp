@@ -82,6 +82,20 @@ TEST_CASE("run.json has the keys of the output contract") {
   CHECK_FALSE(std::filesystem::exists(folder.path() / "run.json.tmp"));
 }
 
+TEST_CASE("run.json states an overlap that was measured, and no other") {
+  const TemporaryFolder folder;
+  RunSummary summary;
+  const auto written = [&] {
+    write_run_json(folder.path(), summary);
+    return nlohmann::json::parse(read_text(folder.path() / "run.json"));
+  };
+  CHECK_FALSE(written().contains("overlap_m2"));
+  summary.overlap = Overlap{0.25, 0.5, 3};
+  CHECK(written()["overlap_m2"] == 0.25);
+  CHECK(written()["inside_m2"] == 0.5);
+  CHECK(written()["particles_inside"] == 3);
+}
+
 TEST_CASE("the peak of memory is that of a living process") {
   CHECK(peak_memory_bytes() > std::uint64_t{1} << 20);
   CHECK(peak_memory_bytes() < std::uint64_t{1} << 42);

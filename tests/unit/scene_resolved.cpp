@@ -89,7 +89,7 @@ TEST_CASE("the resolved scene keeps every kind of shape, boundary, table and cho
       "contact: {normal: specified, specified_normal: [1, 3], law: stick, hysteresis: 0.1, mass_screen: "
       "1e-4}\n"
       "gravity: [0, -9.81]\n"
-      "output: {frames: 0, picture: stress_xy}\n"
+      "output: {frames: 0, picture: stress_xy, overlap: true}\n"
       "thickness: 1/3 mm\n");
 }
 

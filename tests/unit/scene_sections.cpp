@@ -225,3 +225,14 @@ TEST_CASE("a 3-D scene takes three components and no thickness") {
   CHECK(holds(fault(solid_scene() + "thickness: 1 mm\n"), "a 3-D scene has no thickness"));
   CHECK(holds(fault(plain_scene() + "boundaries: {back: wall}\n"), "exists in 3-D only"));
 }
+
+TEST_CASE("the overlap of bodies is measured on request, in 2-D") {
+  CHECK_FALSE(parse(plain_scene()).output.overlap);
+  CHECK(parse(plain_scene() + "output: {overlap: true}\n").output.overlap);
+  CHECK(fault(plain_scene() + "output: {overlap: yes}\n") ==
+        "scene.yaml:8:19: output.overlap: not true or false, got 'yes'");
+  CHECK(holds(fault(plain_scene() + "output: {overlapp: true}\n"), "Did you mean 'overlap'?"));
+  CHECK(fault(solid_scene() + "output: {overlap: true}\n") ==
+        "scene.yaml:8:19: output.overlap: the overlap of bodies is measured in 2-D only, got 'true'");
+  CHECK_FALSE(parse(solid_scene() + "output: {overlap: false}\n").output.overlap);
+}

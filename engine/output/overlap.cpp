@@ -1,0 +1,213 @@
+#include "engine/output/overlap.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "engine/output/particle_access.hpp"
+
+namespace mpmfast {
+namespace {
+
+/// A polygon with room for a parallelogram cut by four lines: 8 corners, or 19 (a half more with each cut)
+/// should rounding make a sliver cross a line again and again.
+struct Polygon {
+  std::array<Vec<2>, 20> corner;
+  std::size_t count = 0;
+  void add(const Vec<2>& x) { corner[count++] = x; }
+};
+
+/// What of the polygon lies at sign · u_axis ≤ 1.
+Polygon cut(const Polygon& polygon, int axis, double sign) {
+  Polygon kept;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Vec<2>&a = polygon.corner[k], &b = polygon.corner[(k + 1) % polygon.count];
+    const double beyond_a = sign * a[axis] - 1, beyond_b = sign * b[axis] - 1;
+    if (beyond_a <= 0) kept.add(a);
+    if ((beyond_a < 0 && beyond_b > 0) || (beyond_a > 0 && beyond_b < 0))
+      kept.add(a + (beyond_a / (beyond_a - beyond_b)) * (b - a));
+  }
+  return kept;
+}
+
+double area_of(const Polygon& polygon) {
+  double twice = 0;
+  for (std::size_t k = 2; k < polygon.count; ++k) {
+    const Vec<2> a = polygon.corner[k - 1] - polygon.corner[0], b = polygon.corner[k] - polygon.corner[0];
+    twice += a[0] * b[1] - a[1] * b[0];
+  }
+  return 0.5 * std::abs(twice);
+}
+
+/// Sides included, with a little for round-off, so that no place falls between two domains of one body.
+bool holds(const ParticleDomain& q, const Vec<2>& x) {
+  if (q.edges.determinant() == 0) return false;
+  return (q.edges.inverse() * (x - q.centre)).cwiseAbs().maxCoeff() <= 1 + 1e-9;
+}
+
+using BinIndex = std::array<std::size_t, 2>;
+
+/// Square bins over the plane. A domain is listed, in order, in each bin that its bounding box touches; two
+/// domains are compared in the lowest bin that both boxes touch, so once.
+class Bins {
+ public:
+  explicit Bins(const std::vector<ParticleDomain>& domains);
+
+  std::size_t count() const { return start_.size() - 1; }
+  std::span<const std::uint32_t> listed(std::size_t bin) const {
+    return {list_.data() + start_[bin], start_[bin + 1] - start_[bin]};
+  }
+  std::size_t of(const Vec<2>& x) const { return flat(at(x)); }
+  std::size_t first_common(std::uint32_t p, std::uint32_t q) const {
+    return flat({std::max(first_[p][0], first_[q][0]), std::max(first_[p][1], first_[q][1])});
+  }
+
+ private:
+  struct Box {
+    Vec<2> lower, upper;
+  };
+  static Box box_of(const ParticleDomain& domain) {
+    const Vec<2> reach = domain.edges.cwiseAbs().rowwise().sum();
+    return {domain.centre - reach, domain.centre + reach};
+  }
+  BinIndex at(const Vec<2>& x) const {
+    BinIndex bin;
+    for (int k = 0; k < 2; ++k)
+      bin[static_cast<std::size_t>(k)] = static_cast<std::size_t>((x[k] - origin_[k]) / width_);
+    return bin;
+  }
+  std::size_t flat(const BinIndex& bin) const { return bin[1] * columns_ + bin[0]; }
+  std::size_t lay_out(const std::vector<Box>& boxes);
+  template <class Visit>
+  void for_each_bin(const std::vector<Box>& boxes, std::size_t p, Visit visit) const {
+    if (!finite_[p]) return;
+    const BinIndex last = at(boxes[p].upper);
+    for (std::size_t y = first_[p][1]; y <= last[1]; ++y)
+      for (std::size_t x = first_[p][0]; x <= last[0]; ++x) visit(flat({x, y}));
+  }
+
+  Vec<2> origin_ = Vec<2>::Zero();
+  double width_ = 1;
+  std::size_t columns_ = 1;
+  std::vector<bool> finite_;  ///< others are nowhere: a failing run may ask too
+  std::vector<BinIndex> first_;
+  std::vector<std::size_t> start_;
+  std::vector<std::uint32_t> list_;
+};
+
+/// Bins as wide as the mean box, or wider so that there are about as many as domains. Returns their number.
+std::size_t Bins::lay_out(const std::vector<Box>& boxes) {
+  constexpr double kFar = std::numeric_limits<double>::max();
+  Vec<2> lower = Vec<2>::Constant(kFar), upper = -lower;
+  double extents = 0, n = 0;
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    finite_[p] = boxes[p].lower.allFinite() && boxes[p].upper.allFinite();
+    if (!finite_[p]) continue;
+    lower = lower.cwiseMin(boxes[p].lower);
+    upper = upper.cwiseMax(boxes[p].upper);
+    extents += (boxes[p].upper - boxes[p].lower).maxCoeff();
+    ++n;
+  }
+  if (n == 0) return 1;
+  origin_ = lower;
+  const Vec<2> size = upper - lower;
+  width_ = std::max({extents / n, std::sqrt(size[0] / n * size[1]), size.maxCoeff() / n});
+  if (!(width_ > 0)) width_ = 1;
+  const BinIndex last = at(upper);
+  columns_ = last[0] + 1;
+  return columns_ * (last[1] + 1);
+}
+
+Bins::Bins(const std::vector<ParticleDomain>& domains) : finite_(domains.size()), first_(domains.size()) {
+  std::vector<Box> boxes;
+  boxes.reserve(domains.size());
+  for (const ParticleDomain& domain : domains) boxes.push_back(box_of(domain));
+  start_.assign(lay_out(boxes) + 1, 0);
+  for (std::size_t p = 0; p < domains.size(); ++p) {
+    if (finite_[p]) first_[p] = at(boxes[p].lower);
+    for_each_bin(boxes, p, [&](std::size_t bin) { ++start_[bin + 1]; });
+  }
+  for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
+  list_.resize(start_.back());
+  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
+  for (std::size_t p = 0; p < domains.size(); ++p)
+    for_each_bin(boxes, p, [&](std::size_t bin) { list_[next[bin]++] = static_cast<std::uint32_t>(p); });
+}
+
+/// The share of one bin: the pairs that it compares, and the particles whose centre it holds.
+Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins, std::size_t bin) {
+  Overlap sum;
+  const auto listed = bins.listed(bin);
+  for (std::size_t i = 0; i < listed.size(); ++i) {
+    const ParticleDomain& p = domains[listed[i]];
+    for (std::size_t j = i + 1; j < listed.size(); ++j)
+      if (domains[listed[j]].owner != p.owner && bins.first_common(listed[i], listed[j]) == bin)
+        sum.area += common_area(p, domains[listed[j]]);
+    if (bins.of(p.centre) != bin) continue;
+    const bool inside = std::any_of(listed.begin(), listed.end(), [&](std::uint32_t q) {
+      return domains[q].owner != p.owner && holds(domains[q], p.centre);
+    });
+    if (!inside) continue;
+    sum.inside += p.area();
+    ++sum.particles_inside;
+  }
+  return sum;
+}
+
+}  // namespace
+
+double ParticleDomain::area() const { return 4 * std::abs(edges.determinant()); }
+
+/// Cuts p by the four sides of q, in coordinates u in which q is the square |u_k| ≤ 1.
+double common_area(const ParticleDomain& p, const ParticleDomain& q) {
+  const double scale = std::abs(q.edges.determinant());
+  if (!(scale > 0)) return 0;
+  const Mat<2> inverse = q.edges.inverse(), edges = inverse * p.edges;
+  const Vec<2> centre = inverse * (p.centre - q.centre);
+  Polygon polygon;
+  constexpr std::array<std::array<int, 2>, 4> kSigns{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (const auto& [first, second] : kSigns)
+    polygon.add(centre + first * edges.col(0) + second * edges.col(1));
+  for (int axis = 0; axis < 2; ++axis)
+    for (const double sign : {-1.0, 1.0}) polygon = cut(polygon, axis, sign);
+  return scale * area_of(polygon);
+}
+
+Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads) {
+  const Bins bins(domains);
+  const auto count = static_cast<std::int64_t>(bins.count());
+  std::vector<Overlap> of_bin(bins.count());
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 64)
+  for (std::int64_t bin = 0; bin < count; ++bin) {
+    const auto b = static_cast<std::size_t>(bin);
+    of_bin[b] = overlap_in(domains, bins, b);
+  }
+  Overlap sum;
+  for (const Overlap& part : of_bin) {
+    sum.area += part.area;
+    sum.inside += part.inside;
+    sum.particles_inside += part.particles_inside;
+  }
+  return sum;
+}
+
+/// Domains follow F alone: those of a rigid body that turns keep their directions.
+std::vector<ParticleDomain> particle_domains(const Particles<2>& particles,
+                                             const std::vector<BodyView<2>>& bodies,
+                                             const std::vector<int>& owner) {
+  std::vector<ParticleDomain> domains;
+  domains.reserve(particles.size());
+  for (const std::uint32_t p : order_by_id(particles)) {
+    const std::size_t body = particles.body()[p];
+    Mat<2> edges = particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p)
+                                                                 : Mat<2>(Mat<2>::Identity());
+    for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k];
+    domains.push_back({particles.vector(Quantity::position, p), edges, owner[body]});
+  }
+  return domains;
+}
+
+}  // namespace mpmfast
