@@ -63,8 +63,10 @@ class ContactFit {
     std::fill(tally_.begin(), tally_.end(), FitTally{});
     for (auto& room : rooms_) room.clouds.begin = 0;
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
+    find_groups(contact);
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
-      collect(state, view, contact, node, room.clouds);
+      if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
+      collect(state.grid, contact, node, room);
       const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
@@ -86,6 +88,7 @@ class ContactFit {
  private:
   /// What one thread works in.
   struct Room {
+    Candidates<Dim> candidates;  ///< of the stack in hand
     CloudRoom<Dim> clouds;
     std::vector<double> side, radius;  ///< class and half extent of the cloud in hand
 
@@ -139,31 +142,61 @@ class ContactFit {
     std::size_t begin;
   };
 
-  /// f(index, node, the thread's room), in parallel.
+  /// The contact nodes of one stack are neighbours in the list: [groups_[k], groups_[k + 1]).
+  void find_groups(const ContactList<Dim>& contact) {
+    groups_.clear();
+    for (std::size_t k = 0; k < contact.nodes.size(); ++k)
+      if (k == 0 || contact.nodes[k - 1].stack != contact.nodes[k].stack) groups_.push_back(k);
+    groups_.push_back(contact.nodes.size());
+  }
+
+  /// f(index, node, the thread's room), stack after stack, in parallel.
   template <class F>
   void for_each_node(const State<Dim>& state, const ContactList<Dim>& contact, F f) {
-    const auto n = static_cast<std::int64_t>(contact.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
-    for (std::int64_t k = 0; k < n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      f(at, contact.nodes[at], rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+    const auto n = static_cast<std::int64_t>(groups_.size()) - 1;
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic) if (n > 4)
+    for (std::int64_t g = 0; g < n; ++g) {
+      const auto group = static_cast<std::size_t>(g);
+      Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+      for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k], room);
     }
   }
 
-  static void collect(const State<Dim>& state, const ParticleView<Dim>& view, const ContactList<Dim>& contact,
-                      const ContactNode<Dim>& node, CloudRoom<Dim>& room) {
-    room.count = 0;
-    for (int f = node.field_begin; f < node.field_end; ++f) {
-      const int slot = contact.fields[static_cast<std::size_t>(f)].slot;
-      const auto& node_tile = state.tiling.node_tiles[static_cast<std::size_t>(slot / kTileNodes<Dim>)];
-      for (int t : node_tile.particle_tile) {
-        if (t < 0) continue;
-        const TileContext<Dim> c{&view, &state.tiling.tiles[static_cast<std::size_t>(t)],
-                                 state.tiling.runs.data(), state.bodies.data(), &state.grid};
-        collect_tile<Dim, Basis>(c, node.node, f - node.field_begin, room);
+  /// Particles near the contact nodes of a stack, whose first one is given.
+  static void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
+                              const ContactList<Dim>& contact, std::size_t first, Room& room) {
+    const auto& tiling = state.tiling;
+    const int s = contact.nodes[first].stack;
+    NodeBox<Dim> box{contact.nodes[first].node, contact.nodes[first].node};
+    for (std::size_t k = first; k < contact.nodes.size() && contact.nodes[k].stack == s; ++k)
+      for (int d = 0; d < Dim; ++d) {
+        box.low[d] = std::min(box.low[d], contact.nodes[k].node[d]);
+        box.high[d] = std::max(box.high[d], contact.nodes[k].node[d]);
       }
+    room.candidates.clear();
+    const auto& stack = tiling.stacks[static_cast<std::size_t>(s)];
+    for (int n = stack.begin; n < stack.end; ++n)
+      for (int t : tiling.node_tiles[static_cast<std::size_t>(n)].particle_tile) {
+        if (t < 0) continue;
+        const TileContext<Dim> c{&view, &tiling.tiles[static_cast<std::size_t>(t)], tiling.runs.data(),
+                                 state.bodies.data(), &state.grid};
+        add_candidates<Dim, Basis>(c, box, room.candidates);
+      }
+  }
+
+  /// The cloud of a node, field after field.
+  static void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact,
+                      const ContactNode<Dim>& node, Room& room) {
+    room.clouds.count = 0;
+    int f = node.field_begin;
+    for (const auto& piece : room.candidates.pieces) {
+      while (f < node.field_end && contact.fields[static_cast<std::size_t>(f)].field < piece.field) ++f;
+      if (f == node.field_end) break;
+      if (contact.fields[static_cast<std::size_t>(f)].field == piece.field)
+        append_covering<Dim, Basis>(room.candidates, piece, grid.inverse_cell, node.node,
+                                    f - node.field_begin, room.clouds);
     }
-    room.pad();
+    room.clouds.pad();
   }
 
   void fit(const RegressionRule& rule, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
@@ -219,6 +252,7 @@ class ContactFit {
   std::vector<FitTally> tally_;
   std::vector<Vec<Dim>> raw_;
   std::vector<Kept> kept_;
+  std::vector<std::size_t> groups_;
 };
 
 }  // namespace mpmfast
