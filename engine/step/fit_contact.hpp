@@ -63,6 +63,7 @@ class ContactFit {
     std::fill(tally_.begin(), tally_.end(), FitTally{});
     for (auto& room : rooms_) room.clouds.begin = 0;
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
+    first_.resize(contact.fields.size());
     find_groups(contact);
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
@@ -70,12 +71,12 @@ class ContactFit {
       const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        room.choose_sides(cloud, entry);
-        if (choice.regress && !entry.settled) fit(choice.rule, spec.warm_start, room.view(cloud), entry);
+        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
+        if (choice.regress && !entry.settled) fit(choice.rule, spec.warm_start, room.view(particles), entry);
         if (choice.smooth)
           raw_[static_cast<std::size_t>(e)] = entry.normal;
         else if (choice.separate)
-          entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
+          entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
@@ -86,22 +87,51 @@ class ContactFit {
   }
 
  private:
+  /// Where the particles of each field of a node begin and end in its cloud.
+  struct FieldRanges {
+    const int* first;
+    int fields, count;
+    std::pair<int, int> operator()(int k) const { return {first[k], k + 1 < fields ? first[k + 1] : count}; }
+  };
+  FieldRanges ranges(const ContactNode<Dim>& node, int count) const {
+    return {first_.data() + node.field_begin, node.field_end - node.field_begin, count};
+  }
+
   /// What one thread works in.
   struct Room {
     Candidates<Dim> candidates;  ///< of the stack in hand
-    CloudRoom<Dim> clouds;
+    CloudRoom<Dim> clouds, pair;
     std::vector<double> side, radius;  ///< class and half extent of the cloud in hand
 
-    void choose_sides(const CloudColumns<Dim>& cloud, const ContactEntry<Dim>& entry) {
-      const auto needed = static_cast<std::size_t>(padded_count(cloud.count));
-      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
-      for (std::size_t k = 0; k < needed; ++k) side[k] = side_of(cloud.owner[k], entry);
+    /// The particles of an entry with their sides: of a pair on a node of several fields those of the two,
+    /// else all of them.
+    CloudColumns<Dim> particles_of(const CloudColumns<Dim>& cloud, const FieldRanges& ranges,
+                                   const ContactEntry<Dim>& entry) {
+      const auto [a_begin, a_end] = ranges(entry.a);
+      if (entry.b < 0 || ranges.fields == 2) {
+        fill_sides(cloud.count, a_begin, a_end);
+        return cloud;
+      }
+      const auto [b_begin, b_end] = ranges(entry.b);
+      const int count = a_end - a_begin + b_end - b_begin, low = std::min(a_begin, b_begin);
+      if (std::max(a_end, b_end) - low == count) {  // neighbours
+        fill_sides(count, a_begin - low, a_end - low);
+        return cloud.part(low, count);
+      }
+      pair.count = 0;
+      pair.append(cloud, a_begin, a_end);
+      pair.append(cloud, b_begin, b_end);
+      fill_sides(count, 0, a_end - a_begin);
+      return pair.columns(0, count);
     }
 
-    /// A pair of a node of three or more fields leaves the others out.
-    static double side_of(int owner, const ContactEntry<Dim>& entry) {
-      if (owner == entry.a) return -1;
-      return owner >= 0 && (entry.b < 0 || owner == entry.b) ? 1 : 0;
+    /// −1 for [begin, end), 1 for the rest of the particles, 0 beyond them.
+    void fill_sides(int count, int begin, int end) {
+      const auto needed = static_cast<std::size_t>(padded_count(count));
+      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
+      std::fill_n(side.begin(), needed, 0.0);
+      std::fill_n(side.begin(), count, 1.0);
+      std::fill(side.begin() + begin, side.begin() + end, -1.0);
     }
 
     CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
@@ -185,16 +215,17 @@ class ContactFit {
   }
 
   /// The cloud of a node, field after field.
-  static void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact,
-                      const ContactNode<Dim>& node, Room& room) {
+  void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
+               Room& room) {
     room.clouds.count = 0;
-    int f = node.field_begin;
-    for (const auto& piece : room.candidates.pieces) {
-      while (f < node.field_end && contact.fields[static_cast<std::size_t>(f)].field < piece.field) ++f;
-      if (f == node.field_end) break;
-      if (contact.fields[static_cast<std::size_t>(f)].field == piece.field)
-        append_covering<Dim, Basis>(room.candidates, piece, grid.inverse_cell, node.node,
-                                    f - node.field_begin, room.clouds);
+    auto piece = room.candidates.pieces.begin();
+    const auto end = room.candidates.pieces.end();
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int field = contact.fields[static_cast<std::size_t>(f)].field;
+      while (piece != end && piece->field < field) ++piece;
+      first_[static_cast<std::size_t>(f)] = room.clouds.count;
+      for (; piece != end && piece->field == field; ++piece)
+        append_covering<Dim, Basis>(room.candidates, *piece, grid.inverse_cell, node.node, room.clouds);
     }
     room.clouds.pad();
   }
@@ -233,8 +264,8 @@ class ContactFit {
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
         if (!choice.separate) continue;
-        room.choose_sides(cloud, entry);
-        entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
+        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
+        entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
       }
     });
   }
@@ -252,7 +283,8 @@ class ContactFit {
   std::vector<FitTally> tally_;
   std::vector<Vec<Dim>> raw_;
   std::vector<Kept> kept_;
-  std::vector<std::size_t> groups_;
+  std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
+  std::vector<int> first_;           ///< as ContactList::fields: where its particles begin in their cloud
 };
 
 }  // namespace mpmfast

@@ -17,8 +17,15 @@ template <int Dim>
 struct CloudColumns {
   const double* xi[Dim];
   const double* edge[Dim * Dim];
-  const int* owner;
   int count;
+
+  CloudColumns part(int first, int particles) const {
+    CloudColumns c = *this;
+    for (auto& column : c.xi) column += first;
+    for (auto& column : c.edge) column += first;
+    c.count = particles;
+    return c;
+  }
 };
 
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
@@ -26,18 +33,16 @@ template <int Dim>
 struct CloudRoom {
   std::vector<double> xi[Dim];          ///< relative to the node, cells
   std::vector<double> edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
-  std::vector<int> owner;               ///< which of the node's fields; −1 in the padding
   std::size_t begin = 0;                ///< where the cloud in hand begins
   int count = 0;                        ///< its particles
 
   /// Room for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
-    if (owner.size() >= needed) return;
+    if (xi[0].size() >= needed) return;
     const auto grow = [&](auto& column) { column.resize(2 * needed); };
     for (auto& c : xi) grow(c);
     for (auto& c : edge) grow(c);
-    grow(owner);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.
@@ -45,7 +50,6 @@ struct CloudRoom {
     reserve(count + kLanes);
     for (int k = count; k < padded_count(count); ++k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      owner[at] = -1;
       for (int d = 0; d < Dim; ++d) {
         xi[d][at] = 0;
         for (int j = 0; j < Dim; ++j) edge[Dim * d + j][at] = d == j ? 1 : 0;
@@ -53,11 +57,23 @@ struct CloudRoom {
     }
   }
 
+  /// Appends the particles [first, end) of another cloud.
+  void append(const CloudColumns<Dim>& cloud, int first, int end) {
+    reserve(count + end - first + kLanes);
+    const std::size_t at = begin + static_cast<std::size_t>(count);
+    const auto copy = [&](const double* from, std::vector<double>& to) {
+      for (int k = first; k < end; k += kLanes)
+        store_lanes(&to[at + static_cast<std::size_t>(k - first)], load_lanes(from + k));
+    };
+    for (int d = 0; d < Dim; ++d) copy(cloud.xi[d], xi[d]);
+    for (int e = 0; e < Dim * Dim; ++e) copy(cloud.edge[e], edge[e]);
+    count += end - first;
+  }
+
   CloudColumns<Dim> columns(std::size_t first, int particles) const {
     CloudColumns<Dim> c;
     for (int d = 0; d < Dim; ++d) c.xi[d] = xi[d].data() + first;
     for (int e = 0; e < Dim * Dim; ++e) c.edge[e] = edge[e].data() + first;
-    c.owner = owner.data() + first;
     c.count = particles;
     return c;
   }
@@ -163,11 +179,10 @@ inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, C
   }
 }
 
-/// Appends the particles of one piece whose basis functions cover the node. @param owner of the piece's field
+/// Appends the particles of one piece whose basis functions cover the node.
 template <int Dim, class Basis>
 inline void append_covering(const Candidates<Dim>& from, const typename Candidates<Dim>::Piece& piece,
-                            double inverse_cell, const NodeIndex<Dim>& node, int owner,
-                            CloudRoom<Dim>& room) {
+                            double inverse_cell, const NodeIndex<Dim>& node, CloudRoom<Dim>& room) {
   room.reserve(room.count + piece.count + kLanes);
   ChunkGeometry<Dim> g{};
   const auto begin = static_cast<std::size_t>(piece.begin);
@@ -191,7 +206,6 @@ inline void append_covering(const Candidates<Dim>& from, const typename Candidat
     for (int d = 0; d < Dim; ++d) store_chosen(&room.xi[d][at], xi[d], bits);
     for (int e = 0; e < Dim * Dim; ++e)
       store_chosen(&room.edge[e][at], load_lanes(&from.edge[e][begin + static_cast<std::size_t>(k)]), bits);
-    for (std::size_t i = 0; i < kLanes; ++i) room.owner[at + i] = owner;
     room.count += std::popcount(bits);
   }
 }
