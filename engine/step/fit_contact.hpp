@@ -65,6 +65,7 @@ class ContactFit {
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     find_groups(contact);
+    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
       collect(state.grid, contact, node, room);
@@ -74,7 +75,7 @@ class ContactFit {
         const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
         if (choice.regress && !entry.settled) fit(choice.rule, spec.warm_start, room.view(particles), entry);
         if (choice.smooth)
-          raw_[static_cast<std::size_t>(e)] = entry.normal;
+          raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
         else if (choice.separate)
           entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
       }
@@ -82,7 +83,7 @@ class ContactFit {
       kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
       room.clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
     });
-    if (choice.smooth) smooth(state, choice, contact);
+    if (choice.smooth) smooth(state, choice, mean, contact);
     count(contact.counters);
   }
 
@@ -253,14 +254,15 @@ class ContactFit {
   }
 
   /// Mean normals of the nodes around, and the separations along them.
-  void smooth(const State<Dim>& state, const FitChoice& choice, ContactList<Dim>& contact) {
-    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
+  void smooth(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean,
+              ContactList<Dim>& contact) {
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       const Kept& kept = kept_[k];
       const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);
+      const auto around = mean.around(node);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        const Vec<Dim> sum = mean(node, entry);
+        const Vec<Dim> sum = mean(around, node, entry);
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
         if (!choice.separate) continue;
@@ -281,7 +283,7 @@ class ContactFit {
 
   std::vector<Room> rooms_;
   std::vector<FitTally> tally_;
-  std::vector<Vec<Dim>> raw_;
+  std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
   std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
   std::vector<int> first_;           ///< as ContactList::fields: where its particles begin in their cloud
