@@ -1,6 +1,7 @@
 #include "engine/step/contact.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace mpmfast {
@@ -25,7 +26,12 @@ template <int Dim>
 void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
   const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
   const double* mass = state.nodes.column(Nodal::mass);
+  std::array<int, kTileNodes<Dim>> fields{};
+  for (int t = stack.begin; t < stack.end; ++t)
+    for (int local = 0; local < kTileNodes<Dim>; ++local)
+      fields[static_cast<std::size_t>(local)] += mass[t * kTileNodes<Dim> + local] > 0;
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
+    if (fields[static_cast<std::size_t>(local)] < 2) continue;
     ContactNode<Dim> node;
     node.field_begin = static_cast<int>(list_.fields.size());
     node.rigid = -1;
@@ -40,7 +46,7 @@ void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
     node.local = local;
     node.node = state.tiling.node(stack, local);
     node.entry_begin = static_cast<int>(list_.entries.size());
-    if (node.field_end - node.field_begin > 1) add_entries(state, node);
+    add_entries(state, node);
     node.pair_begin = static_cast<int>(list_.entries.size());
     if (spec_.fields == ManyFields::pairs && node.rigid < 0) add_pairs(node);
     node.entry_end = static_cast<int>(list_.entries.size());
@@ -105,6 +111,7 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
 template <int Dim>
 void Contact<Dim>::remember() {
   memory_.clear();
+  memory_.reserve(list_.entries.size());
   for (std::size_t k = 0; k < list_.entries.size(); ++k) {
     const auto& entry = list_.entries[k];
     Memory m{keys_[k], entry.touching, {}};
@@ -118,13 +125,15 @@ void Contact<Dim>::remember() {
 template <int Dim>
 void Contact<Dim>::recall(const State<Dim>& state) {
   keys_.clear();
+  const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
+  auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
       const std::uint64_t key = entry_key(state, list_, node, entry);
+      if (!keys_.empty() && key < keys_.back()) last = std::lower_bound(memory_.begin(), last, key, less);
       keys_.push_back(key);
-      const auto last = std::lower_bound(memory_.begin(), memory_.end(), key,
-                                         [](const Memory& m, std::uint64_t k) { return m.key < k; });
+      while (last != memory_.end() && last->key < key) ++last;
       if (last == memory_.end() || last->key != key) continue;
       entry.touched = last->touching;
       std::memcpy(entry.plane, last->plane, sizeof entry.plane);

@@ -100,6 +100,18 @@ class Contact {
     Vec<Dim> velocity;
     double inverse_mass;
   };
+  /// A pair of such a node that may have an impulse.
+  struct Acting {
+    ContactEntry<Dim>* entry;
+    Meeting meeting;
+  };
+  template <class Laws>
+  void find_acting(const Laws& laws, Correction correction, double dt, const ContactNode<Dim>& node,
+                   const std::vector<Moving>& fields, std::vector<Acting>& acting);
+  template <class Laws>
+  void finish(const Laws& laws, const ContactNode<Dim>& node, std::vector<Acting>& acting) const;
+  template <class Laws, class F>
+  void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
   template <class Laws>
   bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                         const ContactNode<Dim>& node);
@@ -127,6 +139,7 @@ class Contact {
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;          ///< of the entries
   std::vector<std::vector<Moving>> moving_;  ///< room of each thread
+  std::vector<std::vector<Acting>> acting_;  ///< likewise
   std::vector<Memory> memory_;               ///< of the last step, in order of the keys
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field

@@ -66,41 +66,75 @@ class ContactFit {
     std::fill(tally_.begin(), tally_.end(), FitTally{});
     for (auto& room : rooms_) room.clouds.begin = 0;
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
+    first_.resize(contact.fields.size());
+    find_groups(contact);
+    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
-      collect(state, view, contact, node, room.clouds);
+      if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
+      collect(state.grid, contact, node, room);
       const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        room.choose_sides(cloud, entry);
-        if (choice.regress && !entry.settled) fit(choice, spec.warm_start, room.view(cloud), entry);
+        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
+        if (choice.regress && !entry.settled) fit(choice, spec.warm_start, room.view(particles), entry);
         if (choice.separate)
-          entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
-        if (choice.smooth) raw_[static_cast<std::size_t>(e)] = {entry.normal, entry.separation};
+          entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
+        if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
       room.clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
     });
-    if (choice.smooth) smooth(state, choice, contact);
+    if (choice.smooth) smooth(state, choice, mean, contact);
     count(contact.counters);
   }
 
  private:
+  /// Where the particles of each field of a node begin and end in its cloud.
+  struct FieldRanges {
+    const int* first;
+    int fields, count;
+    std::pair<int, int> operator()(int k) const { return {first[k], k + 1 < fields ? first[k + 1] : count}; }
+  };
+  FieldRanges ranges(const ContactNode<Dim>& node, int count) const {
+    return {first_.data() + node.field_begin, node.field_end - node.field_begin, count};
+  }
+
   /// What one thread works in.
   struct Room {
-    CloudRoom<Dim> clouds;
+    Candidates<Dim> candidates;  ///< of the stack in hand
+    CloudRoom<Dim> clouds, pair;
     std::vector<double> side, radius;  ///< class and half extent of the cloud in hand
 
-    void choose_sides(const CloudColumns<Dim>& cloud, const ContactEntry<Dim>& entry) {
-      const auto needed = static_cast<std::size_t>(padded_count(cloud.count));
-      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
-      for (std::size_t k = 0; k < needed; ++k) side[k] = side_of(cloud.owner[k], entry);
+    /// The particles of an entry with their sides: of a pair on a node of several fields those of the two,
+    /// else all of them.
+    CloudColumns<Dim> particles_of(const CloudColumns<Dim>& cloud, const FieldRanges& ranges,
+                                   const ContactEntry<Dim>& entry) {
+      const auto [a_begin, a_end] = ranges(entry.a);
+      if (entry.b < 0 || ranges.fields == 2) {
+        fill_sides(cloud.count, a_begin, a_end);
+        return cloud;
+      }
+      const auto [b_begin, b_end] = ranges(entry.b);
+      const int count = a_end - a_begin + b_end - b_begin, low = std::min(a_begin, b_begin);
+      if (std::max(a_end, b_end) - low == count) {  // neighbours
+        fill_sides(count, a_begin - low, a_end - low);
+        return cloud.part(low, count);
+      }
+      pair.count = 0;
+      pair.append(cloud, a_begin, a_end);
+      pair.append(cloud, b_begin, b_end);
+      fill_sides(count, 0, a_end - a_begin);
+      return pair.columns(0, count);
     }
 
-    /// A pair of a node of three or more fields leaves the others out.
-    static double side_of(int owner, const ContactEntry<Dim>& entry) {
-      if (owner == entry.a) return -1;
-      return owner >= 0 && (entry.b < 0 || owner == entry.b) ? 1 : 0;
+    /// −1 for [begin, end), 1 for the rest of the particles, 0 beyond them.
+    void fill_sides(int count, int begin, int end) {
+      const auto needed = static_cast<std::size_t>(padded_count(count));
+      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
+      std::fill_n(side.begin(), needed, 0.0);
+      std::fill_n(side.begin(), count, 1.0);
+      std::fill(side.begin() + begin, side.begin() + end, -1.0);
     }
 
     CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
@@ -141,31 +175,62 @@ class ContactFit {
     std::size_t begin;
   };
 
-  /// f(index, node, the thread's room), in parallel.
+  /// The contact nodes of one stack are neighbours in the list: [groups_[k], groups_[k + 1]).
+  void find_groups(const ContactList<Dim>& contact) {
+    groups_.clear();
+    for (std::size_t k = 0; k < contact.nodes.size(); ++k)
+      if (k == 0 || contact.nodes[k - 1].stack != contact.nodes[k].stack) groups_.push_back(k);
+    groups_.push_back(contact.nodes.size());
+  }
+
+  /// f(index, node, the thread's room), stack after stack, in parallel.
   template <class F>
   void for_each_node(const State<Dim>& state, const ContactList<Dim>& contact, F f) {
-    const auto n = static_cast<std::int64_t>(contact.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) if (n > 16)
-    for (std::int64_t k = 0; k < n; ++k) {
-      const auto at = static_cast<std::size_t>(k);
-      f(at, contact.nodes[at], rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+    const auto n = static_cast<std::int64_t>(groups_.size()) - 1;
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic) if (n > 4)
+    for (std::int64_t g = 0; g < n; ++g) {
+      const auto group = static_cast<std::size_t>(g);
+      Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+      for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k], room);
     }
   }
 
-  static void collect(const State<Dim>& state, const ParticleView<Dim>& view, const ContactList<Dim>& contact,
-                      const ContactNode<Dim>& node, CloudRoom<Dim>& room) {
-    room.count = 0;
-    for (int f = node.field_begin; f < node.field_end; ++f) {
-      const int slot = contact.fields[static_cast<std::size_t>(f)].slot;
-      const auto& node_tile = state.tiling.node_tiles[static_cast<std::size_t>(slot / kTileNodes<Dim>)];
-      for (int t : node_tile.particle_tile) {
-        if (t < 0) continue;
-        const TileContext<Dim> c{&view, &state.tiling.tiles[static_cast<std::size_t>(t)],
-                                 state.tiling.runs.data(), state.bodies.data(), &state.grid};
-        collect_tile<Dim, Basis>(c, node.node, f - node.field_begin, room);
+  /// Particles near the contact nodes of a stack, whose first one is given.
+  static void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
+                              const ContactList<Dim>& contact, std::size_t first, Room& room) {
+    const auto& tiling = state.tiling;
+    const int s = contact.nodes[first].stack;
+    NodeBox<Dim> box{contact.nodes[first].node, contact.nodes[first].node};
+    for (std::size_t k = first; k < contact.nodes.size() && contact.nodes[k].stack == s; ++k)
+      for (int d = 0; d < Dim; ++d) {
+        box.low[d] = std::min(box.low[d], contact.nodes[k].node[d]);
+        box.high[d] = std::max(box.high[d], contact.nodes[k].node[d]);
       }
+    room.candidates.clear();
+    const auto& stack = tiling.stacks[static_cast<std::size_t>(s)];
+    for (int n = stack.begin; n < stack.end; ++n)
+      for (int t : tiling.node_tiles[static_cast<std::size_t>(n)].particle_tile) {
+        if (t < 0) continue;
+        const TileContext<Dim> c{&view, &tiling.tiles[static_cast<std::size_t>(t)], tiling.runs.data(),
+                                 state.bodies.data(), &state.grid};
+        add_candidates<Dim, Basis>(c, box, room.candidates);
+      }
+  }
+
+  /// The cloud of a node, field after field.
+  void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
+               Room& room) {
+    room.clouds.count = 0;
+    auto piece = room.candidates.pieces.begin();
+    const auto end = room.candidates.pieces.end();
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int field = contact.fields[static_cast<std::size_t>(f)].field;
+      while (piece != end && piece->field < field) ++piece;
+      first_[static_cast<std::size_t>(f)] = room.clouds.count;
+      for (; piece != end && piece->field == field; ++piece)
+        append_covering<Dim, Basis>(room.candidates, *piece, grid.inverse_cell, node.node, room.clouds);
     }
-    room.pad();
+    room.clouds.pad();
   }
 
   /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
@@ -212,19 +277,20 @@ class ContactFit {
   }
 
   /// Mean normals of the nodes around, and the separations along them.
-  void smooth(const State<Dim>& state, const FitChoice& choice, ContactList<Dim>& contact) {
-    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
+  void smooth(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean,
+              ContactList<Dim>& contact) {
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       const Kept& kept = kept_[k];
       const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);
+      const auto around = mean.around(node);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        const Vec<Dim> sum = mean(node, entry);
+        const Vec<Dim> sum = mean(around, node, entry);
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
         if (!choice.separate) continue;
-        room.choose_sides(cloud, entry);
-        entry.separation = state.grid.cell * room.separation(choice.extent, cloud, entry.normal);
+        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
+        entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
       }
     });
   }
@@ -242,6 +308,8 @@ class ContactFit {
   std::vector<FitTally> tally_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
+  std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
+  std::vector<int> first_;           ///< as ContactList::fields: where its particles begin in their cloud
 };
 
 }  // namespace mpmfast

@@ -44,6 +44,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       geometry_(plan.contact_geometry),
       exact_fields_(plan.exact_fields) {
   moving_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  acting_.resize(moving_.size());
   laws_.push_back(make_law(spec_, cell_));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
 }
@@ -239,42 +240,82 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
     fields[static_cast<std::size_t>(k)] = {state.nodes.vector(Nodal::momentum, slot) / mass,
                                            rigid ? 0.0 : 1 / mass};
   }
-  rest(node.entry_begin, node.entry_end);
-  for (int e = node.entry_begin; e < node.entry_end;
-       ++e) {  // separations at the end of the step, before contact
-    auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    entry.advanced = separation_of(entry, meeting_of(fields, entry), correction, dt);
-  }
+  auto& acting = acting_[static_cast<std::size_t>(omp_get_thread_num())];
+  find_acting(laws, correction, dt, node, fields, acting);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     double largest = 0, change = 0;
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      Meeting meeting = meeting_of(fields, entry);
+    for (Acting& pair : acting) {
+      auto& entry = *pair.entry;
+      auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
+      Meeting& meeting = pair.meeting;
+      meeting.stick = meeting.reduced * (b.velocity - a.velocity);
       meeting.stick += entry.impulse;
       Vec<Dim> impulse = Vec<Dim>::Zero();
-      const auto act = [&](const auto& law) {
+      with_law(laws, node, entry, [&](const auto& law) {
         double area_time = 0;
         if constexpr (std::decay_t<decltype(law)>::uses_area) area_time = area(state, node, entry) * dt;
         impulse = impulse_of(entry, meeting, entry.advanced, correction, law, area_time);
-        entry.friction_work = friction_work_of(entry, meeting.stick, impulse, meeting.reduced, law);
-      };
-      if constexpr (Laws::by_pair)
-        laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
-                  list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, act);
-      else
-        laws.with(0, 0, act);
+      });
       const Vec<Dim> step = impulse - entry.impulse;
-      auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
       a.velocity += a.inverse_mass * step;
       b.velocity -= b.inverse_mass * step;
       entry.impulse = impulse;
-      entry.touching = !impulse.isZero(0);
       largest = std::max(largest, impulse.squaredNorm());
       change = std::max(change, step.squaredNorm());
     }
-    if (change <= 1e-18 * largest) return true;
+    if (change > 1e-18 * largest) continue;
+    finish(laws, node, acting);
+    return true;
   }
+  finish(laws, node, acting);
   return false;
+}
+
+/// The pairs of a node that may have an impulse, with their separations at the end of the step, before
+/// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::find_acting(const Laws& laws, Correction correction, double dt,
+                               const ContactNode<Dim>& node, const std::vector<Moving>& fields,
+                               std::vector<Acting>& acting) {
+  acting.clear();
+  rest(node.entry_begin, node.entry_end);
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const Meeting meeting = meeting_of(fields, entry);
+    entry.advanced = separation_of(entry, meeting, correction, dt);
+    with_law(laws, node, entry, [&](const auto& law) {
+      constexpr LawScope scope = std::decay_t<decltype(law)>::scope;
+      if (scope == LawScope::contact ? entry.advanced < 0 : scope != LawScope::nowhere)
+        acting.push_back({&entry, meeting});
+    });
+  }
+}
+
+/// Friction work and state of contact of pairs that are solved.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::finish(const Laws& laws, const ContactNode<Dim>& node, std::vector<Acting>& acting) const {
+  for (Acting& pair : acting) {
+    auto& entry = *pair.entry;
+    entry.touching = !entry.impulse.isZero(0);
+    with_law(laws, node, entry, [&](const auto& law) {
+      entry.friction_work =
+          friction_work_of(entry, pair.meeting.stick, entry.impulse, pair.meeting.reduced, law);
+    });
+  }
+}
+
+/// Calls f(law of the entry's two fields).
+template <int Dim>
+template <class Laws, class F>
+void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                            F f) const {
+  if constexpr (Laws::by_pair)
+    laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
+              list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, f);
+  else
+    laws.with(0, 0, f);
 }
 
 /// What a needs to move with b, as the two move now.

@@ -34,11 +34,13 @@ int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact
                                      static_cast<std::size_t>(local)];
 }
 
-/// What an entry found by itself.
+/// What the mean takes of an entry: kept apart from the list, since each is read for all nodes around it.
 template <int Dim>
 struct RawNormal {
   Vec<Dim> normal;
-  double separation;  ///< m
+  double weight;  ///< the smaller of the two masses, kg
+  bool touches;   ///< its surfaces overlap
+  int a, b;       ///< velocity fields; b −1: a lump
 };
 
 template <int Dim>
@@ -50,13 +52,38 @@ class NormalMean {
              bool pairs)
       : state_(state), contact_(contact), raw_(raw), pairs_(pairs) {}
 
-  /// Over the touching ones of the 3^Dim nodes around and this one, weighted by the smaller of the two
-  /// masses; not normalised.
-  Vec<Dim> operator()(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
-    Vec<Dim> sum = Vec<Dim>::Zero();
+  /// The contact nodes around a node, itself among them.
+  struct Around {
+    int nodes[power(3, Dim)], count = 0;
+  };
+  Around around(const ContactNode<Dim>& node) const {
+    Around places;
     for (int m = 0; m < power(3, Dim); ++m) {
       const int other = contact_neighbour(state_.tiling, contact_, node, m);
-      if (other >= 0) add(node, entry, contact_.nodes[static_cast<std::size_t>(other)], sum);
+      if (other >= 0) places.nodes[places.count++] = other;
+    }
+    return places;
+  }
+
+  RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
+    const double w = pairs_ ? weight(node, entry.a, entry.b) : weight(node, entry.a);
+    return {entry.normal, w, entry.separation < 0, field(node, entry.a),
+            entry.b < 0 ? -1 : field(node, entry.b)};
+  }
+
+  /// Over the touching ones of the nodes around and this one, weighted by the smaller of the two masses; not
+  /// normalised.
+  Vec<Dim> operator()(const Around& around, const ContactNode<Dim>& node,
+                      const ContactEntry<Dim>& entry) const {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    const bool pair = entry.b >= 0 && pairs_;
+    const int a = field(node, entry.a), b = pair ? field(node, entry.b) : -1;
+    for (int k = 0; k < around.count; ++k) {
+      const ContactNode<Dim>& other = contact_.nodes[static_cast<std::size_t>(around.nodes[k])];
+      if (pair)
+        add_pair(a, b, node, other, sum);
+      else
+        add(a, node, other, sum);
     }
     return sum;
   }
@@ -68,10 +95,7 @@ class NormalMean {
 
   /// Adds the other node's normals of field a against b, and of b against a turned round; against a lump,
   /// those of a and any of the fields that it meets here.
-  void add(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, const ContactNode<Dim>& other,
-           Vec<Dim>& sum) const {
-    const int a = field(node, entry.a);
-    if (entry.b >= 0 && pairs_) return add_pair(a, field(node, entry.b), node, other, sum);
+  void add(int a, const ContactNode<Dim>& node, const ContactNode<Dim>& other, Vec<Dim>& sum) const {
     const auto meets_a = [&](int f) {
       if (f == a) return false;
       for (int k = 0; k < node.field_end - node.field_begin; ++k)
@@ -80,32 +104,25 @@ class NormalMean {
     };
     const auto has = [&](auto wanted, int except) {
       for (int k = 0; k < other.field_end - other.field_begin; ++k)
-        if (k != except && wanted(field(other, k))) return true;
+        if (field(other, k) != except && wanted(field(other, k))) return true;
       return false;
     };
     for (int e = other.entry_begin; e < other.entry_end; ++e) {
-      const auto& theirs = contact_.entries[static_cast<std::size_t>(e)];
-      const int f = field(other, theirs.a);
-      const bool same = f == a && has(meets_a, theirs.a);
-      const bool turned = meets_a(f) && has([&](int g) { return g == a; }, theirs.a);
-      if ((same || turned) && counts(node, other, e))
-        sum += (same ? 1.0 : -1.0) * weight(other, theirs.a) * raw_[static_cast<std::size_t>(e)].normal;
+      const RawNormal<Dim>& theirs = raw_[static_cast<std::size_t>(e)];
+      const bool same = theirs.a == a && has(meets_a, theirs.a);
+      const bool turned = meets_a(theirs.a) && has([&](int g) { return g == a; }, theirs.a);
+      if ((same || turned) && (theirs.touches || &other == &node))
+        sum += (same ? 1.0 : -1.0) * theirs.weight * theirs.normal;
     }
-  }
-
-  bool counts(const ContactNode<Dim>& node, const ContactNode<Dim>& other, int e) const {
-    return &other == &node || raw_[static_cast<std::size_t>(e)].separation < 0;
   }
 
   void add_pair(int a, int b, const ContactNode<Dim>& node, const ContactNode<Dim>& other,
                 Vec<Dim>& sum) const {
     for (int e = other.entry_begin; e < other.entry_end; ++e) {
-      const auto& theirs = contact_.entries[static_cast<std::size_t>(e)];
-      if (theirs.b < 0) continue;
-      const int f = field(other, theirs.a), g = field(other, theirs.b);
-      if (!((f == a && g == b) || (f == b && g == a)) || !counts(node, other, e)) continue;
-      sum += (f == a ? 1.0 : -1.0) * weight(other, theirs.a, theirs.b) *
-             raw_[static_cast<std::size_t>(e)].normal;
+      const RawNormal<Dim>& theirs = raw_[static_cast<std::size_t>(e)];
+      const bool same = theirs.a == a && theirs.b == b, turned = theirs.a == b && theirs.b == a;
+      if ((same || turned) && (theirs.touches || &other == &node))
+        sum += (same ? 1.0 : -1.0) * theirs.weight * theirs.normal;
     }
   }
 

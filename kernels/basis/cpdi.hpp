@@ -157,6 +157,13 @@ struct CpdiBasis {
     return node;
   }
 
+  /// Along axis d, no function further from the particle's centre than this is non-zero on it; cells.
+  static Lanes reach(const ChunkGeometry<Dim>& g, int k, int d) {
+    Lanes extent = broadcast<Lanes>(0.0);
+    for (int j = 0; j < Dim; ++j) extent += magnitude(load_lanes(g.edge[Dim * d + j] + k));
+    return extent * g.inverse_cell + Corner::kReach;
+  }
+
   static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
     Lanes r[Dim], edge[Dim][Dim];
     centre_and_edges(g, k, r, edge);

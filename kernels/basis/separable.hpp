@@ -164,6 +164,11 @@ struct SeparableBasis {
     return node;
   }
 
+  /// Along axis d, the function is zero further from the particle than this; cells.
+  static Lanes reach(const ChunkGeometry<Dim>& g, int, int d) {
+    return broadcast<Lanes>(Function::reach(g.half_size[d] * g.inverse_cell));
+  }
+
   /// For particles k … k + kLanes − 1: is S_pi non-zero at the node with these coordinates?
   /// @return positive where it is
   static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {

@@ -1,11 +1,13 @@
 #pragma once
 
-/// @file Gathers the point cloud of a contact node from the tile and cell order of the particles.
+/// @file Gathers the point clouds of contact nodes from the tile and cell order of the particles: once the
+/// particles near a whole tile of nodes, then out of these the cloud of each node.
 
 #include <cstdint>
 #include <vector>
 
 #include "kernels/contact/cloud.hpp"
+#include "kernels/simd/compress.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
@@ -15,8 +17,15 @@ template <int Dim>
 struct CloudColumns {
   const double* xi[Dim];
   const double* edge[Dim * Dim];
-  const int* owner;
   int count;
+
+  CloudColumns part(int first, int particles) const {
+    CloudColumns c = *this;
+    for (auto& column : c.xi) column += first;
+    for (auto& column : c.edge) column += first;
+    c.count = particles;
+    return c;
+  }
 };
 
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
@@ -24,18 +33,16 @@ template <int Dim>
 struct CloudRoom {
   std::vector<double> xi[Dim];          ///< relative to the node, cells
   std::vector<double> edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
-  std::vector<int> owner;               ///< which of the node's fields; −1 in the padding
   std::size_t begin = 0;                ///< where the cloud in hand begins
   int count = 0;                        ///< its particles
 
   /// Room for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
-    if (owner.size() >= needed) return;
+    if (xi[0].size() >= needed) return;
     const auto grow = [&](auto& column) { column.resize(2 * needed); };
     for (auto& c : xi) grow(c);
     for (auto& c : edge) grow(c);
-    grow(owner);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.
@@ -43,7 +50,6 @@ struct CloudRoom {
     reserve(count + kLanes);
     for (int k = count; k < padded_count(count); ++k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      owner[at] = -1;
       for (int d = 0; d < Dim; ++d) {
         xi[d][at] = 0;
         for (int j = 0; j < Dim; ++j) edge[Dim * d + j][at] = d == j ? 1 : 0;
@@ -51,56 +57,156 @@ struct CloudRoom {
     }
   }
 
+  /// Appends the particles [first, end) of another cloud.
+  void append(const CloudColumns<Dim>& cloud, int first, int end) {
+    reserve(count + end - first + kLanes);
+    const std::size_t at = begin + static_cast<std::size_t>(count);
+    const auto copy = [&](const double* from, std::vector<double>& to) {
+      for (int k = first; k < end; k += kLanes)
+        store_lanes(&to[at + static_cast<std::size_t>(k - first)], load_lanes(from + k));
+    };
+    for (int d = 0; d < Dim; ++d) copy(cloud.xi[d], xi[d]);
+    for (int e = 0; e < Dim * Dim; ++e) copy(cloud.edge[e], edge[e]);
+    count += end - first;
+  }
+
   CloudColumns<Dim> columns(std::size_t first, int particles) const {
     CloudColumns<Dim> c;
     for (int d = 0; d < Dim; ++d) c.xi[d] = xi[d].data() + first;
     for (int e = 0; e < Dim * Dim; ++e) c.edge[e] = edge[e].data() + first;
-    c.owner = owner.data() + first;
     c.count = particles;
     return c;
   }
 };
 
-/// Appends the particles of one tile whose basis functions cover the node. @param owner of the tile's field
+/// The nodes between two corners, both included.
+template <int Dim>
+struct NodeBox {
+  NodeIndex<Dim> low, high;
+};
+
+/// Particles whose supports may reach some node of a box, in pieces of one body in one tile; those of one
+/// velocity field follow each other.
+template <int Dim>
+struct Candidates {
+  /// Begins at a multiple of kLanes; up to the next piece, the columns hold entries that reach no node.
+  struct Piece {
+    int field, begin, count;
+    double half_size[Dim];  ///< m, of the undeformed domains
+  };
+  std::vector<Piece> pieces;
+  std::vector<double> position[Dim];      ///< m, from the grid's origin
+  std::vector<double> domain[Dim * Dim];  ///< m; half-edge vectors of CPDI domains, else not written
+  std::vector<double> edge[Dim * Dim];    ///< half-edge vectors F diag(R0), row-major, cells
+  std::vector<double> reach[Dim];         ///< of the support, cells
+  int count = 0;
+
+  void clear() {
+    pieces.clear();
+    count = 0;
+  }
+  /// Room for n more and two vectors beyond.
+  void reserve(int n) {
+    const auto needed = static_cast<std::size_t>(count + n + 2 * kLanes);
+    if (reach[0].size() >= needed) return;
+    const auto grow = [&](auto& columns) {
+      for (auto& column : columns) column.resize(2 * needed);
+    };
+    grow(position);
+    grow(domain);
+    grow(edge);
+    grow(reach);
+  }
+};
+
+/// Appends one run of particles [begin, end) as a piece.
+template <int Dim, class Basis>
+inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& run, std::uint32_t begin,
+                           std::uint32_t end, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+  const int particles = static_cast<int>(end - begin);
+  out.reserve(particles);
+  typename Candidates<Dim>::Piece piece{c.tile->field, out.count, 0, {}};
+  const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, particles);
+  for (int d = 0; d < Dim; ++d) piece.half_size[d] = g.half_size[d];
+  for (int k = 0; k < particles; k += kLanes) {
+    Lanes shift[Dim], reach[Dim];
+    IntLanes near = ~IntLanes{};
+    for (int d = 0; d < Dim; ++d) {
+      shift[d] = load_lanes(g.position[d] + k) - g.origin[d];
+      reach[d] = Basis::reach(g, k, d);
+      const Lanes r = shift[d] * g.inverse_cell;
+      near &= (r + reach[d] > static_cast<double>(box.low[d])) &
+              (r - reach[d] < static_cast<double>(box.high[d]));
+    }
+    const unsigned bits = lane_bits(near) & first_lanes(particles - k < kLanes ? particles - k : kLanes);
+    if (!bits) continue;
+    const auto at = static_cast<std::size_t>(out.count);
+    for (int d = 0; d < Dim; ++d) {
+      store_chosen(&out.position[d][at], shift[d], bits);
+      store_chosen(&out.reach[d][at], reach[d], bits);
+    }
+    for (int e = 0; e < Dim * Dim; ++e) {
+      const double scale = g.half_size[e % Dim] * g.inverse_cell;
+      store_chosen(&out.edge[e][at], load_lanes(c.particles->deformation[e] + begin + k) * scale, bits);
+      if constexpr (Basis::kConvected) store_chosen(&out.domain[e][at], load_lanes(g.edge[e] + k), bits);
+    }
+    out.count += std::popcount(bits);
+  }
+  piece.count = out.count - piece.begin;
+  if (piece.count == 0) return;
+  for (int d = 0; d < Dim; ++d)
+    store_lanes(&out.reach[d][static_cast<std::size_t>(out.count)], broadcast<Lanes>(-1.0));
+  out.count = piece.begin + padded_count(piece.count);
+  out.pieces.push_back(piece);
+}
+
+/// Appends the particles of one tile that may reach a node of the box.
 ///
 /// A particle that was sorted into cell o now begins its support at o − 1 … o + 1 (the next sort comes before
-/// it drifts further), so only cells o with node − kMaxSupport ≤ o ≤ node + 1 need a look (node and o within
-/// the window).
+/// it drifts further), so only cells o with low − kMaxSupport ≤ o ≤ high + 1 need a look (nodes and o within
+/// the window). Cells are kept by the last axis: what lies between is consecutive.
 template <int Dim, class Basis>
-inline void collect_tile(const TileContext<Dim>& c, const NodeIndex<Dim>& node, int owner,
-                         CloudRoom<Dim>& room) {
-  int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
-  for (int d = 0; d < Dim; ++d) {
-    const int at = node[d] - c.tile->window[d] - kSortedOffset<Basis>;  // where cell numbers start
-    low[d] = at - Basis::kMaxSupport > 0 ? at - Basis::kMaxSupport : 0;
-    high[d] = at + 1 < kTileSide - 1 ? at + 1 : kTileSide - 1;
-    if (low[d] > high[d]) return;
-  }
-  const ParticleView<Dim>& p = *c.particles;
+inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+  constexpr int last = Dim - 1, stride = kTileNodes<Dim> / kTileSide;
+  const int start = c.tile->window[last] + kSortedOffset<Basis>;  // where cell numbers start
+  const int low = box.low[last] - start - Basis::kMaxSupport, high = box.high[last] - start + 1;
+  const int first = low > 0 ? low : 0, end = high < kTileSide - 1 ? high + 1 : kTileSide;
+  if (first >= end) return;
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
     const ParticleRun<Dim>& run = c.runs[r];
-    const double* half_size = c.bodies[run.body].half_size;
-    for (int z = low[2]; z <= high[2]; ++z)
-      for (int y = low[1]; y <= high[1]; ++y) {
-        const int row = (z * kTileSide + y) * kTileSide;
-        const std::uint32_t begin = run.cell_begin[row + low[0]], end = run.cell_begin[row + high[0] + 1];
-        if (begin == end) continue;
-        room.reserve(room.count + static_cast<int>(end - begin));
-        const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, static_cast<int>(end - begin));
-        for (int k = 0; k < g.count; k += kLanes) {
-          const Lanes margin = Basis::coverage(g, k, node);
-          for (int lane = 0; lane < kLanes && k + lane < g.count; ++lane) {
-            if (!(margin[lane] > 0)) continue;
-            const std::uint32_t q = begin + static_cast<std::uint32_t>(k + lane);
-            const std::size_t at = room.begin + static_cast<std::size_t>(room.count++);
-            for (int d = 0; d < Dim; ++d)
-              room.xi[d][at] = (p.position[d][q] - c.grid->origin[d]) * c.grid->inverse_cell - node[d];
-            for (int e = 0; e < Dim * Dim; ++e)
-              room.edge[e][at] = p.deformation[e][q] * (half_size[e % Dim] * c.grid->inverse_cell);
-            room.owner[at] = owner;
-          }
-        }
-      }
+    const std::uint32_t from = run.cell_begin[first * stride], to = run.cell_begin[end * stride];
+    if (from < to) add_candidates<Dim, Basis>(c, run, from, to, box, out);
+  }
+}
+
+/// Appends the particles of one piece whose basis functions cover the node.
+template <int Dim, class Basis>
+inline void append_covering(const Candidates<Dim>& from, const typename Candidates<Dim>::Piece& piece,
+                            double inverse_cell, const NodeIndex<Dim>& node, CloudRoom<Dim>& room) {
+  room.reserve(room.count + piece.count + kLanes);
+  ChunkGeometry<Dim> g{};
+  const auto begin = static_cast<std::size_t>(piece.begin);
+  for (int d = 0; d < Dim; ++d) {
+    g.position[d] = from.position[d].data() + begin;
+    g.half_size[d] = piece.half_size[d];
+  }
+  for (int e = 0; e < Dim * Dim; ++e) g.edge[e] = from.domain[e].data() + begin;
+  g.inverse_cell = inverse_cell;
+  g.count = piece.count;
+  for (int k = 0; k < piece.count; k += kLanes) {
+    Lanes xi[Dim];
+    IntLanes near = ~IntLanes{};
+    for (int d = 0; d < Dim; ++d) {
+      xi[d] = load_lanes(g.position[d] + k) * inverse_cell - static_cast<double>(node[d]);
+      near &= magnitude(xi[d]) < load_lanes(&from.reach[d][begin + static_cast<std::size_t>(k)]);
+    }
+    if (!lane_bits(near)) continue;
+    const unsigned bits = lane_bits(near & (Basis::coverage(g, k, node) > 0.0));
+    const std::size_t at = room.begin + static_cast<std::size_t>(room.count);
+    for (int d = 0; d < Dim; ++d) store_chosen(&room.xi[d][at], xi[d], bits);
+    for (int e = 0; e < Dim * Dim; ++e)
+      store_chosen(&room.edge[e][at], load_lanes(&from.edge[e][begin + static_cast<std::size_t>(k)]), bits);
+    room.count += std::popcount(bits);
   }
 }
 
