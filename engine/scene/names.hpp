@@ -16,8 +16,11 @@ struct Word {
   const char* says;  ///< one line for `mpmfast list`
 };
 
-inline constexpr std::array<Word<Space>, 2> kSpaces{{
+inline constexpr std::array<Word<Space>, 4> kSpaces{{
     {Space::plane_strain, "plane_strain", "2-D, no strain along z"},
+    {Space::plane_stress, "plane_stress", "2-D, no stress along z: thin plates; elastic laws only"},
+    {Space::axisymmetric, "axisymmetric",
+     "2-D, whole round the axis x = 0: x is the radius, zz the hoop; figures are those of the full turn"},
     {Space::three_dimensional, "3d", "three dimensions"},
 }};
 

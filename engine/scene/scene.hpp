@@ -17,7 +17,7 @@ namespace mpmfast {
 
 using Vec3 = std::array<double, 3>;
 
-enum class Space { plane_strain, three_dimensional };
+enum class Space { plane_strain, plane_stress, axisymmetric, three_dimensional };
 enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
 /// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
@@ -265,7 +265,7 @@ struct Scene {
   std::string title;
   std::filesystem::path file;  ///< where it was read from
   Space space = Space::plane_strain;
-  double thickness = 1;  ///< m, 2-D only
+  double thickness = 1;  ///< m, of planes; 1 in axisymmetric scenes, which are whole round the axis
   GridSpec grid;
   TimeSpec time;
   MethodSpec method;
