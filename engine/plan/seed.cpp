@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/plan/materials.hpp"
@@ -156,9 +157,9 @@ template <int Dim>
 void refresh_stress(State<Dim>& state) {
   const StateView<Dim> columns = state.view().state;
   for_each_deformable(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
-    double tau[kSymmetric<3>], c2;
+    double tau[kSymmetric<3>]{}, c2;
     as_law_sees<Law>(state, columns, p, f, [&]<int N>(const double(&g)[N * N], auto evolving) {
-      double(&t)[kSymmetric<N>] = reinterpret_cast<double(&)[kSymmetric<N>]>(tau);
+      double t[kSymmetric<N>];
       if constexpr (Evolving<Law>) {
         constexpr double still[N * N] = {};
         const double j = determinant<N>(g);
@@ -166,6 +167,7 @@ void refresh_stress(State<Dim>& state) {
       } else {
         law.template stress<N>(g, t, c2);
       }
+      std::copy(t, t + kSymmetric<N>, tau);
     });
     if constexpr (Dim == 2 && Relaxes<Law>)
       if (state.depth == Depth::relaxed)
