@@ -19,6 +19,13 @@ using NodeIndex = Eigen::Matrix<int, Dim, 1>;  ///< integer node coordinates, an
 template <int Dim>
 inline constexpr int kSymmetric = Dim == 2 ? 4 : 6;
 
+/// What the stretch along the normal of a plane does: nothing (plane strain; three dimensions), what leaves
+/// no stress there (plane stress), or what a circle about the axis x = 0 does (axisymmetry: x is the radius,
+/// y runs along the axis, z round it).
+enum class Depth { held, relaxed, hoop };
+
+inline constexpr double kFullTurn = 6.283185307179586477;  ///< 2π
+
 constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
 
 /// Nodes along the side of a tile, and nodes in a tile.

@@ -24,11 +24,13 @@ struct ParticleView {
   double* stress[kSymmetric<Dim>];  ///< Kirchhoff
   double* edges[Dim * Dim];         ///< half-edge vectors of CPDI domains
   double* reference_position[Dim];
-  double* slopes[Dim * Dim];        ///< of the velocity about the particle, row-major (APIC)
+  double* slopes[Dim * Dim];  ///< of the velocity about the particle, row-major (APIC)
   double* mass;
   double* volume;  ///< undeformed
   double* wave_speed;
+  double* stretch;  ///< along the plane's normal
   StateView<Dim> state;
+  Depth depth;
 };
 
 /// Consecutive particles of one body in one tile, sorted by cell.

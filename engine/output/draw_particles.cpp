@@ -52,8 +52,11 @@ Mat<Dim> half_edges(const Particles<Dim>& particles, const Scene& scene, std::si
   }
   if (particles.has(Quantity::deformation_gradient)) edges = particles.deformation_gradient(p);
   // The particle does not know its undeformed shape: nearly always it is a square or a cube.
-  const double volume =
+  double volume =
       particles.has(Quantity::initial_volume) ? particles.column(Quantity::initial_volume)[p] : 0.0;
+  if (scene.space == Space::axisymmetric)  // of a ring, to the square that is turned
+    volume *= particles.column(Quantity::out_of_plane_stretch)[p] /
+              (kFullTurn * particles.column(Quantity::position, 0)[p]);
   return edges * (0.5 * (Dim == 2 ? std::sqrt(volume / scene.thickness) : std::cbrt(volume)));
 }
 

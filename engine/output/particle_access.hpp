@@ -17,11 +17,10 @@ namespace mpmfast {
 template <int Dim>
 std::vector<std::uint32_t> order_by_id(const Particles<Dim>& particles);
 
-/// J = det F; 1 without a deformation gradient.
+/// J; 1 without a deformation gradient.
 template <int Dim>
 double volume_ratio(const Particles<Dim>& particles, std::size_t p) {
-  return particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p).determinant()
-                                                       : 1.0;
+  return particles.has(Quantity::deformation_gradient) ? particles.volume_ratio(p) : 1.0;
 }
 
 /// Cauchy stress σ = τ / J, Pa, in the order xx yy zz xy yz xz.

@@ -64,7 +64,10 @@ void add_deformation(const Particles<Dim>& particles, const std::vector<std::uin
     for (int row = 0; row < Dim; ++row)
       for (int column = 0; column < Dim; ++column)
         deformation[9 * i + static_cast<std::size_t>(3 * row + column)] = f(row, column);
-    if constexpr (Dim == 2) deformation[9 * i + 8] = 1;
+    if constexpr (Dim == 2)
+      deformation[9 * i + 8] = particles.has(Quantity::out_of_plane_stretch)
+                                   ? particles.column(Quantity::out_of_plane_stretch)[order[i]]
+                                   : 1;
   }
   file.add_point_data("deformation_gradient", deformation, kMatrixNames);
 }

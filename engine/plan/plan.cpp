@@ -86,6 +86,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
     plan.particle_columns.push_back(Quantity::domain_edges);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
+  if (plan.depth != Depth::held) plan.particle_columns.push_back(Quantity::out_of_plane_stretch);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
@@ -117,6 +118,9 @@ void list_passes(Plan& plan) {
 Plan make_plan(const Scene& scene) {
   Plan plan;
   plan.dimension = scene.dimension();
+  plan.depth = scene.space == Space::plane_stress   ? Depth::relaxed
+               : scene.space == Space::axisymmetric ? Depth::hoop
+                                                    : Depth::held;
   plan.basis = scene.method.basis;
   plan_method(scene.method, plan);
   plan_fields(scene, plan);

@@ -15,6 +15,7 @@ namespace mpmfast {
 
 struct Plan {
   int dimension = 2;
+  Depth depth = Depth::held;
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};

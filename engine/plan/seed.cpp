@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/plan/materials.hpp"
@@ -36,9 +37,26 @@ void for_each_deformable(const State<Dim>& state, const F& f) {
 template <class Law, int Dim>
 MaterialState<Dim, double> state_of(const StateView<Dim>& columns, std::size_t p) {
   MaterialState<Dim, double> state{};
-  detail::for_each_state_column<Dim, Law>(columns, state,
-                                          [&](const double* column, double& value) { value = column[p]; });
+  if constexpr (Evolving<Law>)
+    detail::for_each_state_column<Dim, Law>(columns, state,
+                                            [&](const double* column, double& value) { value = column[p]; });
   return state;
+}
+
+/// Calls f(F, evolving state) in the dimensions that a law is asked in: three where the plane stretches along
+/// its normal.
+template <class Law, int Dim, class F>
+auto as_law_sees(const State<Dim>& state, const StateView<Dim>& columns, std::size_t p,
+                 const double (&deformation)[Dim * Dim], const F& f) {
+  const MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
+  if constexpr (Dim == 2) {
+    if (state.depth != Depth::held) {
+      double full[9];
+      embed(deformation, state.particles.column(Quantity::out_of_plane_stretch)[p], full);
+      return f.template operator()<3>(full, widened(evolving));
+    }
+  }
+  return f.template operator()<Dim>(deformation, evolving);
 }
 
 /// Every particle of an evolving law starts at rest.
@@ -78,6 +96,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.grid.cell = scene.grid.cell;
   state.grid.inverse_cell = 1 / scene.grid.cell;
   state.tiling.set_domain(nodes);
+  state.depth = plan.depth;
   state.body_field = plan.body_field;
   state.field_rigid = plan.field_rigid;
   for (const auto& m : scene.materials) state.materials.push_back(make_material(m, scene.grid.cell));
@@ -111,6 +130,10 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     const double mass =
         volume * density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
     for (const Vec3& x : seeds[b].position) {
+      // Axisymmetric particles are rings of a full turn.
+      const double around = plan.depth == Depth::hoop ? kFullTurn * x[0] : 1.0;
+      if (particles.has(Quantity::out_of_plane_stretch))
+        particles.column(Quantity::out_of_plane_stretch)[p] = 1;
       for (int d = 0; d < Dim; ++d) {
         particles.column(Quantity::position, d)[p] = x[static_cast<std::size_t>(d)];
         if (particles.has(Quantity::reference_position))
@@ -118,8 +141,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
         particles.column(Quantity::velocity, d)[p] = scene.bodies[b].velocity[static_cast<std::size_t>(d)];
         particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
       }
-      particles.column(Quantity::mass)[p] = mass;
-      particles.column(Quantity::initial_volume)[p] = volume;
+      particles.column(Quantity::mass)[p] = around * mass;
+      particles.column(Quantity::initial_volume)[p] = around * volume;
       particles.id()[p] = static_cast<std::uint32_t>(p);
       particles.body()[p] = static_cast<std::uint16_t>(b);
       ++p;
@@ -134,15 +157,21 @@ template <int Dim>
 void refresh_stress(State<Dim>& state) {
   const StateView<Dim> columns = state.view().state;
   for_each_deformable(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
-    double tau[kSymmetric<Dim>], c2;
-    if constexpr (Evolving<Law>) {
-      constexpr double still[Dim * Dim] = {};
-      const double j = determinant<Dim>(f);
-      MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
-      law.template advance<Dim>(StrainStep<Dim, double>{still, f, j, j, 0.0, 1.0}, evolving, tau, c2);
-    } else {
-      law.template stress<Dim>(f, tau, c2);
-    }
+    double tau[kSymmetric<3>]{}, c2;
+    as_law_sees<Law>(state, columns, p, f, [&]<int N>(const double(&g)[N * N], auto evolving) {
+      double t[kSymmetric<N>];
+      if constexpr (Evolving<Law>) {
+        constexpr double still[N * N] = {};
+        const double j = determinant<N>(g);
+        law.template advance<N>(StrainStep<N, double>{still, g, j, j, 0.0, 1.0}, evolving, t, c2);
+      } else {
+        law.template stress<N>(g, t, c2);
+      }
+      std::copy(t, t + kSymmetric<N>, tau);
+    });
+    if constexpr (Dim == 2 && Relaxes<Law>)
+      if (state.depth == Depth::relaxed)
+        c2 = law.plate_wave_speed_squared(f, state.particles.column(Quantity::out_of_plane_stretch)[p]);
     for (int s = 0; s < kSymmetric<Dim>; ++s)
       state.particles.column(Quantity::kirchhoff_stress, s)[p] = tau[s];
     state.particles.column(Quantity::wave_speed)[p] = std::sqrt(c2);
@@ -153,10 +182,12 @@ template <int Dim>
 double stored_energy(State<Dim>& state) {
   const StateView<Dim> columns = state.view().state;
   return sum_by_id(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
-    if constexpr (Evolving<Law>)
-      return law.template energy<Dim>(f, state_of<Law>(columns, p));
-    else
-      return law.template energy<Dim>(f);
+    return as_law_sees<Law>(state, columns, p, f, [&]<int N>(const double(&g)[N * N], const auto& evolving) {
+      if constexpr (Evolving<Law>)
+        return law.template energy<N>(g, evolving);
+      else
+        return law.template energy<N>(g);
+    });
   });
 }
 

@@ -66,13 +66,13 @@ std::vector<CatalogueEntry> output_keys() {
 }  // namespace
 
 std::vector<std::string> catalogue_topics() {
-  return {"materials", "bases",   "updates",     "strains",    "deformation_terms",
-          "positions", "normals", "separations", "detections", "laws",
-          "areas",     "fields",  "shapes",      "boundaries", "output",
-          "pictures"};
+  return {"spaces",    "materials", "bases",       "updates",    "strains", "deformation_terms",
+          "positions", "normals",   "separations", "detections", "laws",    "areas",
+          "fields",    "shapes",    "boundaries",  "output",     "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
+  if (topic == "spaces") return words_of(kSpaces);
   if (topic == "materials") return kinds_of(material_kinds());
   if (topic == "bases") return words_of(kBases);
   if (topic == "updates") return words_of(kUpdates);

@@ -16,8 +16,11 @@ struct Word {
   const char* says;  ///< one line for `mpmfast list`
 };
 
-inline constexpr std::array<Word<Space>, 2> kSpaces{{
+inline constexpr std::array<Word<Space>, 4> kSpaces{{
     {Space::plane_strain, "plane_strain", "2-D, no strain along z"},
+    {Space::plane_stress, "plane_stress", "2-D, no stress along z: thin plates; elastic laws only"},
+    {Space::axisymmetric, "axisymmetric",
+     "2-D, whole round the axis x = 0: x is the radius, zz the hoop; figures are those of the full turn"},
     {Space::three_dimensional, "3d", "three dimensions"},
 }};
 
@@ -62,13 +65,15 @@ inline constexpr std::array<Word<int>, 3> kDeformationTerms{{
 }};
 
 inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
+    {NormalKind::smoothed_max_margin, "smoothed_max_margin",
+     "the mean of max_margin over the touching nodes around; with all that follows (default)"},
+    {NormalKind::max_margin, "max_margin",
+     "the plane that stays furthest from the particles of both sides; with warm starts, an advanced "
+     "separation, persistent and simultaneous contact"},
     {NormalKind::logistic_regression, "logistic_regression",
-     "the plane that best parts the particles (default)"},
+     "the plane that best parts the particles, as published"},
     {NormalKind::smoothed_logistic_regression, "smoothed_logistic_regression",
-     "its mean over the nodes around, with warm starts, an advanced separation, persistent and simultaneous "
-     "contact"},
-    {NormalKind::max_margin, "max_margin", "the plane that stays furthest from the particles of both sides"},
-    {NormalKind::smoothed_max_margin, "smoothed_max_margin", "its mean over the nodes around, with the same"},
+     "its mean over the touching nodes around, with all of max_margin"},
     {NormalKind::logistic_irls, "logistic_irls", "the same by maximum likelihood (reweighted least squares)"},
     {NormalKind::linear_regression, "linear_regression", "the plane by linear regression alone"},
     {NormalKind::average_gradient, "average_gradient", "difference of the two volume gradients"},
@@ -117,10 +122,11 @@ inline constexpr std::array<Word<LawKind>, 8> kLaws{{
 }};
 
 inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
-    {ManyFields::lump, "lump", "each field against all others of the node together (default)"},
+    {ManyFields::lump, "lump",
+     "each field against all others of the node together (default of published normals)"},
     {ManyFields::pairs, "pairs", "one or two touching pairs are solved by themselves, more are lumped"},
     {ManyFields::simultaneous, "simultaneous",
-     "all touching pairs of the node at once; conserves momentum (default of smoothed normals)"},
+     "all touching pairs of the node at once; conserves momentum (default)"},
 }};
 
 inline constexpr std::array<Word<AreaKind>, 2> kAreas{{

@@ -190,12 +190,15 @@ class BodyReader {
   std::vector<BodyPlace>& places_;
 };
 
-/// Particles may only lie in the grid.
+/// Particles may only lie in the grid. A shape across the axis of an axisymmetric scene is its right half; a
+/// box can begin there.
 void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
   const Bounds box = bounds(body.shape);
   const double slack = 1e-6 * scene.grid.cell;
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
-    const double below = scene.grid.origin[k] - box.lower[k];
+    const bool halved = k == 0 && scene.space == Space::axisymmetric && scene.grid.origin[0] == 0 &&
+                        !std::holds_alternative<BoxShape>(body.shape);
+    const double below = halved ? 0 : scene.grid.origin[k] - box.lower[k];
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
     if (below > slack) {
       place.entry.report(

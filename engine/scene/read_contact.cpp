@@ -4,26 +4,18 @@ namespace mpmfast {
 
 namespace {
 
-/// What follows from the choice of normals, before the scene's other words.
+/// What follows from the choice of normals, before the scene's other words: the published methods are as
+/// published, ours with all that makes them robust.
 void set_defaults(ContactSpec& contact) {
-  switch (contact.normal) {
-    case NormalKind::max_margin:
-    case NormalKind::smoothed_logistic_regression:
-    case NormalKind::smoothed_max_margin:
-      contact.advance_separation = true;
-      contact.warm_start = true;
-      contact.persistent = true;
-      contact.fields = ManyFields::simultaneous;
-      break;
-    case NormalKind::average_gradient:
-    case NormalKind::max_gradient:
-    case NormalKind::max_volume:
-    case NormalKind::own_gradient:
-      contact.separation = SeparationKind::position_offset;
-      break;
-    default:
-      break;
-  }
+  const bool ours = contact.normal == NormalKind::max_margin ||
+                    contact.normal == NormalKind::smoothed_max_margin ||
+                    contact.normal == NormalKind::smoothed_logistic_regression;
+  contact.advance_separation = contact.warm_start = contact.persistent = ours;
+  contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
+  const bool gradient =
+      contact.normal == NormalKind::average_gradient || contact.normal == NormalKind::max_gradient ||
+      contact.normal == NormalKind::max_volume || contact.normal == NormalKind::own_gradient;
+  if (gradient) contact.separation = SeparationKind::position_offset;
 }
 
 void read_regression(MapReader& map, ContactSpec& contact) {

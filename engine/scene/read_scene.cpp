@@ -35,17 +35,14 @@ std::string read_text(const std::filesystem::path& file) {
 void read_head(MapReader& top, Scene& scene) {
   scene.title = scene.file.stem().string();
   if (const auto title = top.find("title")) scene.title = title->text().value_or("");
-  if (const auto space = top.need("space", "plane_strain or 3d")) {
-    if (space->is_word("plane_stress") || space->is_word("axisymmetric")) {
-      space->complain("not in this version (plane_strain or 3d)");
-    } else {
-      scene.space = space->word(kSpaces).value_or(Space::plane_strain);
-    }
-  }
-  if (scene.dimension() == 2) {
+  if (const auto space = top.need("space", "plane_strain, plane_stress, axisymmetric or 3d"))
+    scene.space = space->word(kSpaces).value_or(Space::plane_strain);
+  const bool solid = scene.dimension() == 3, turned = scene.space == Space::axisymmetric;
+  if (!solid && !turned) {
     top.quantity("thickness", Measure::length, kPositive, scene.thickness);
   } else if (const auto thickness = top.find("thickness")) {
-    thickness->report("a 3-D scene has no thickness");
+    thickness->report(solid ? "a 3-D scene has no thickness"
+                            : "an axisymmetric scene has no thickness: it is whole round its axis");
   }
 }
 
@@ -64,6 +61,8 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
   read_bodies(top, grid_known, scene);
   read_contact_pairs(top, scene);
   read_boundaries(top, grid_known, scene);
+  if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
+  if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   top.finish();
 }
 

@@ -17,7 +17,7 @@ namespace mpmfast {
 
 using Vec3 = std::array<double, 3>;
 
-enum class Space { plane_strain, three_dimensional };
+enum class Space { plane_strain, plane_stress, axisymmetric, three_dimensional };
 enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
 /// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
@@ -228,7 +228,7 @@ struct ContactPair {
 /// The law is that of all pairs but those in `pairs`.
 struct ContactSpec : LawSpec {
   bool active = true;  ///< false: every body shares one velocity field
-  NormalKind normal = NormalKind::logistic_regression;
+  NormalKind normal = NormalKind::smoothed_max_margin;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;
   double position_offset = 0.8;  ///< c of `position_offset`, in cells
@@ -238,21 +238,21 @@ struct ContactSpec : LawSpec {
   double offset_penalty = 0;  ///< the same on its offset (NN §3.4.5)
   double tolerance = 1e-5;    ///< on 1 − n'·n, where the regression stops
   int max_iterations = 15;    ///< of the regression
-  bool warm_start = false;    ///< regressions start from the last step's plane
+  bool warm_start = true;     ///< regressions start from the last step's plane
   /// Rigid bodies give the normal by their gradient unless it is this factor smaller than the other's; ≥ 10:
   /// in place of a regression too (NN §3.5). 0: off.
   double rigid_bias = 0;
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
-  bool advance_separation = false;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
+  bool advance_separation = true;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
   /// The first correction also holds a pair that touched at the end of the last step and now would part.
-  bool persistent = false;
+  bool persistent = true;
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen
   /// round-off only.
   double mass_screen = 1e-12;
   int corrections = 2;  ///< a step; 1: only after the momentum update ('LR once' of N20 Fig. 5)
-  ManyFields fields = ManyFields::lump;
+  ManyFields fields = ManyFields::simultaneous;
   AreaKind area = AreaKind::volume_gradient;
   std::vector<ContactPair> pairs;
 };
@@ -268,7 +268,7 @@ struct Scene {
   std::string title;
   std::filesystem::path file;  ///< where it was read from
   Space space = Space::plane_strain;
-  double thickness = 1;  ///< m, 2-D only
+  double thickness = 1;  ///< m, of planes; 1 in axisymmetric scenes, which are whole round the axis
   GridSpec grid;
   TimeSpec time;
   MethodSpec method;

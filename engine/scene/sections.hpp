@@ -33,6 +33,11 @@ void read_bodies(MapReader& top, bool grid_known, Scene& scene);
 /// Needs the grid and the bodies.
 void read_boundaries(MapReader& top, bool grid_known, Scene& scene);
 
+/// Refuses laws that plane stress cannot have.
+void check_plane_stress(MapReader& top, const Scene& scene);
+/// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.
+void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene);
+
 /// A kind of body: the key that names it in a scene, and how its value is read.
 struct ShapeKind {
   const char* name;

@@ -68,7 +68,8 @@ std::string table_text(const TimeTable& table, Measure kind = Measure::velocity)
 std::string head_text(const Scene& scene) {
   std::string out = fmt::format("title: {}\nspace: {}\n", quoted(scene.title), name_of(kSpaces, scene.space));
   const int d = scene.dimension();
-  if (d == 2) out += fmt::format("thickness: {}\n", quantity_text(scene.thickness, Measure::length));
+  if (d == 2 && scene.space != Space::axisymmetric)
+    out += fmt::format("thickness: {}\n", quantity_text(scene.thickness, Measure::length));
   out += fmt::format(
       "grid:\n  origin: {}\n  size: {}\n  cell: {}\n", vector_text(scene.grid.origin, Measure::length, d),
       vector_text(scene.grid.size, Measure::length, d), quantity_text(scene.grid.cell, Measure::length));

@@ -2,6 +2,7 @@
 
 /// @file The particles: a structure of arrays, one column per component.
 
+#include <Eigen/LU>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -28,9 +29,10 @@ enum class Quantity {
   internal_energy,
   plastic_strain,
   temperature,
-  elastic_strain
+  elastic_strain,
+  out_of_plane_stretch
 };
-inline constexpr int kQuantities = 15;
+inline constexpr int kQuantities = 16;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -44,7 +46,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::position, "position", "m", 2, 3, "every scene"},
     {Quantity::velocity, "velocity", "m/s", 2, 3, "every scene"},
     {Quantity::deformation_gradient, "deformation_gradient", "-", 4, 9,
-     "strain (row-major F; plane strain: F_zz = 1)"},
+     "strain (row-major F in the plane or in space)"},
     {Quantity::kirchhoff_stress, "kirchhoff_stress", "Pa", 4, 6,
      "internal force, output (xx yy zz xy yz xz)"},
     {Quantity::mass, "mass", "kg", 1, 1, "every scene"},
@@ -59,6 +61,8 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening"},
     {Quantity::elastic_strain, "elastic_strain", "-", 4, 6,
      "plastic flow (isochoric elastic B, xx yy zz xy yz xz)"},
+    {Quantity::out_of_plane_stretch, "out_of_plane_stretch", "-", 1, 1,
+     "plane stress, axisymmetry (F_zz; about the axis that of the hoop)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).
@@ -115,6 +119,12 @@ class Particles {
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j) f(i, j) = column(Quantity::deformation_gradient, Dim * i + j)[p];
     return f;
+  }
+
+  /// J = det F, with the stretch out of the plane where it has a column.
+  double volume_ratio(std::size_t p) const {
+    const double j = deformation_gradient(p).determinant();
+    return has(Quantity::out_of_plane_stretch) ? column(Quantity::out_of_plane_stretch)[p] * j : j;
   }
 
   /// Bytes of all columns as planned (without padding).

@@ -20,6 +20,7 @@ struct State {
   std::vector<BodyView<Dim>> bodies;
   std::vector<int> body_field;  ///< velocity field of each body
   std::vector<bool> field_rigid;
+  Depth depth = Depth::held;
   std::vector<Material> materials;  ///< as Scene::materials; rigid ones hold a default
   int threads = 1;                  ///< that the passes use
   double time = 0;                  ///< s
@@ -42,6 +43,8 @@ struct State {
     columns(Quantity::mass, &v.mass, 1);
     columns(Quantity::initial_volume, &v.volume, 1);
     columns(Quantity::wave_speed, &v.wave_speed, 1);
+    columns(Quantity::out_of_plane_stretch, &v.stretch, 1);
+    v.depth = depth;
     columns(Quantity::dissipated_energy, &v.state.dissipated, 1);
     columns(Quantity::internal_energy, &v.state.internal_energy, 1);
     columns(Quantity::plastic_strain, &v.state.plastic_strain, 1);

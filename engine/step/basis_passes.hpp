@@ -94,8 +94,7 @@ class BasisPasses final : public Passes<Dim> {
     smallest_.assign(rooms_.size(), std::numeric_limits<double>::infinity());
     scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
-      const double j =
-          strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
+      const double j = strain_force(c, room, velocity, dt_strain, terms, state, force);
       double& smallest = smallest_[static_cast<std::size_t>(omp_get_thread_num())];
       smallest = std::min(smallest, j);
     });
@@ -155,6 +154,17 @@ class BasisPasses final : public Passes<Dim> {
         }
       }
     }
+  }
+
+  static double strain_force(const TileContext<Dim>& c, Room& room, const NodeColumns<Dim>& velocity,
+                             double dt_strain, int terms, const State<Dim>& state,
+                             const NodeColumns<Dim>& force) {
+    if constexpr (Dim == 2) {
+      if (state.depth == Depth::hoop)
+        return strain_force_tile<Dim, Basis, Depth::hoop>(c, room.update, velocity, dt_strain, terms,
+                                                          visitor(state), force);
+    }
+    return strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
   }
 
   template <int NC>

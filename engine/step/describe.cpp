@@ -6,6 +6,7 @@
 
 #include "engine/errors.hpp"
 #include "engine/output/overlap.hpp"
+#include "engine/scene/names.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
 
@@ -71,7 +72,7 @@ std::string describe(const Scene& scene) {
   for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
-  line("dimension", fmt::format("{}", Dim));
+  line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
   line("particles", fmt::format("{}", particles.size()));
   line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
   if (!overlap.empty()) line("overlap", overlap);

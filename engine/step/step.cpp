@@ -37,6 +37,7 @@ Step<Dim>::Step(const Scene& scene)
     lower_[d] = scene.grid.origin[k] - scene.grid.cell;
     upper_[d] = scene.grid.origin[k] + scene.grid.size[k] + scene.grid.cell;
   }
+  if (plan_.depth == Depth::hoop) lower_[0] = std::max(lower_[0], 0.0);  // nothing crosses the axis
   for (std::size_t p = 0; p < state_.particles.size(); ++p)
     fastest_ = std::max(fastest_, state_.particles.column(Quantity::wave_speed)[p] +
                                       state_.particles.vector(Quantity::velocity, p).norm());
@@ -371,7 +372,7 @@ void Step<Dim>::fail(const char* what) const {
     const Vec<Dim> x = particles.vector(Quantity::position, p), v = particles.vector(Quantity::velocity, p);
     const bool inside = x.allFinite() && v.allFinite() && (x.array() > lower_.array()).all() &&
                         (x.array() < upper_.array()).all();
-    const bool sound = particles.deformation_gradient(p).determinant() > 0;
+    const bool sound = particles.volume_ratio(p) > 0;
     if (inside && sound) continue;
     if (worst == particles.size() || particles.id()[p] < particles.id()[worst]) worst = p;
   }

@@ -36,6 +36,19 @@ struct LinearElastic {
     for (int c = 3; c < kSymmetric<Dim>; ++c) squares += 2.0 * e[c] * e[c];
     return 0.5 * lambda * trace * trace + shear * squares;
   }
+
+  /// ε_zz = −λ/(λ + 2G) (ε_xx + ε_yy).
+  template <class V>
+  V relaxed_stretch(const V (&f)[4], V) const {
+    return 1.0 - lambda / (lambda + 2.0 * shear) * (f[0] + f[3] - 2.0);
+  }
+
+  /// λ + 2G − λ²/(λ + 2G) = E/(1 − ν²).
+  template <class V>
+  V plate_wave_speed_squared(const V (&)[4], V) const {
+    const double modulus = lambda + 2.0 * shear;
+    return broadcast<V>((modulus - lambda * lambda / modulus) / density);
+  }
 };
 
 }  // namespace mpmfast

@@ -36,6 +36,30 @@ struct LogarithmicNeoHookean {
     const V log_j = logarithm(determinant<Dim>(f));
     return 0.5 * shear * (b[0] + b[1] + b[2] - 3.0) + log_j * (0.5 * lambda * log_j - shear);
   }
+
+  /// τ_zz = μ(e^{2y} − 1) + λ(ln A + y) = 0 for y = ln s, A the determinant in the plane: rising and convex,
+  /// Newton's method from the last step's.
+  template <class V>
+  V relaxed_stretch(const V (&f)[4], V last) const {
+    constexpr int kRounds = 5;
+    const V offset = lambda * logarithm(determinant<2>(f)) - shear;
+    V y = logarithm(last);
+    for (int k = 0; k < kRounds; ++k) {
+      const V term = shear * exponential(2.0 * y);
+      y -= (term + lambda * y + offset) / (2.0 * term + lambda);
+    }
+    return exponential(y);
+  }
+
+  /// ∂τ_nn/∂y = λ, ∂τ_zz/∂y = 2μ s² + λ.
+  template <class V>
+  V plate_wave_speed_squared(const V (&f)[4], V s) const {
+    V b[kSymmetric<2>];
+    left_cauchy_green<2>(f, b);
+    const V log_j = logarithm(s * determinant<2>(f)), stretch = largest_stretch_squared<2>(b);
+    const V longitudinal = shear + lambda * (1.0 - log_j) - lambda * lambda / (2.0 * shear * s * s + lambda);
+    return (shear * stretch + larger(longitudinal, broadcast<V>(0.0))) * (1.0 / density);
+  }
 };
 
 }  // namespace mpmfast

@@ -45,6 +45,41 @@ struct NeoHookean {
     return 0.5 * shear * ((b[0] + b[1] + b[2]) * isochoric_factor(j) - 3.0) +
            0.5 * bulk * (0.5 * (j * j - 1.0) - logarithm(j));
   }
+
+  /// τ_zz = 0 times J^{2/3}: with w = s^{2/3} and A, I the determinant and first invariant in the plane,
+  ///   ½K A^{8/3} w⁴ + ⅔G w³ − ½K A^{2/3} w − ⅓G I = 0,
+  /// which has one positive root and is convex there: Newton's method from the last step's.
+  template <class V>
+  V relaxed_stretch(const V (&f)[4], V last) const {
+    constexpr int kRounds = 5;
+    const V area = determinant<2>(f), q = 0.5 * bulk / isochoric_factor(area);
+    const V fourth = q * area * area, cubic = broadcast<V>(2.0 / 3.0 * shear);
+    const V constant = (shear / 3.0) * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3]);
+    V w = 1.0 / isochoric_factor(last);
+    for (int k = 0; k < kRounds; ++k) {
+      const V square = w * w, high = (fourth * w + cubic) * square;
+      w -= (high * w - q * w - constant) / (4.0 * fourth * square * w + 3.0 * cubic * square - q);
+    }
+    return w * square_root(w);
+  }
+
+  /// ∂τ_nn/∂y = K J² − ⅔g (B_nn − ⅓I1 + s²), ∂τ_zz/∂y = K J² + g (⅔s² + 2/9 I1), g = G J^{−2/3}. The modulus
+  /// is concave in B_nn, between its extremes in the plane: largest where its derivative vanishes, or at the
+  /// nearest extreme.
+  template <class V>
+  V plate_wave_speed_squared(const V (&f)[4], V s) const {
+    V b[kSymmetric<2>];
+    left_cauchy_green<2>(f, b);
+    const V j = s * determinant<2>(f), s2 = s * s, i1 = b[0] + b[1] + s2;
+    const V g = shear * isochoric_factor(j), stiff = bulk * j * j;
+    const V relief = stiff + g * (s2 * (2.0 / 3.0) + i1 * (2.0 / 9.0));
+    const V best = i1 * (1.0 / 3.0) - s2 + 1.5 * (stiff - 0.25 * relief) / g;
+    const V stretch = smaller(larger(best, smallest_stretch_squared<2>(b, j)), largest_stretch_squared<2>(b));
+    const V coupling = stiff - g * (stretch - i1 * (1.0 / 3.0) + s2) * (2.0 / 3.0);
+    const V modulus =
+        0.5 * (stiff + bulk) + g * (i1 * (5.0 / 9.0) - stretch * (1.0 / 3.0)) - coupling * coupling / relief;
+    return modulus * (1.0 / density);
+  }
 };
 
 }  // namespace mpmfast

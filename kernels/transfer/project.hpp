@@ -49,6 +49,17 @@ struct GeometryColumns {
   NodeColumns<1> volume;               ///< Σ S_pi V_p
 };
 
+/// J V_p0 as surfaces see it: of planes that stretch along their normal, at the undeformed depth; of rings,
+/// the section (the volume of a turn grows with the radius, inside a body too).
+template <int Dim>
+inline double section_volume(const ParticleView<Dim>& p, std::uint32_t q) {
+  double f[Dim * Dim];
+  for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
+  const double volume = p.volume[q] * determinant<Dim>(f);
+  const bool ring = Dim == 2 && p.depth == Depth::hoop;
+  return ring ? volume * p.stretch[q] / (kFullTurn * p.position[0][q]) : volume;
+}
+
 /// The sums that gradient normals, volume screening, contact areas and grid-based separations are made of
 /// (theory §2).
 template <int Dim, class Basis>
@@ -64,9 +75,8 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
       c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-          double f[Dim * Dim];
-          for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
-          const double m = p.mass[q], volume = p.volume[q] * determinant<Dim>(f);
+          const double volume = section_volume<Dim>(p, q),
+                       m = p.mass[q];  // m³ (of rings the section, m²) and kg
           Record x{}, u{};
           Record unit[Dim] = {};
           for (int d = 0; d < Dim; ++d) {

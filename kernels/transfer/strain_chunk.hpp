@@ -5,6 +5,7 @@
 
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/strain_depth.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
@@ -17,23 +18,9 @@ struct StrainRoom {
   alignas(64) double stress[kSymmetric<Dim>][kChunk<Dim>];
   alignas(64) double wave_speed[kChunk<Dim>];
   alignas(64) double jacobian[kChunk<Dim>];
+  alignas(64) double hoop_rate[kChunk<Dim>];  ///< v_r/r, staged by the caller in axisymmetry
+  alignas(64) double stretch[kChunk<Dim>];
 };
-
-namespace detail {
-
-/// Calls f(column, entry of the state) for each state column that the law names.
-template <int Dim, class Law, class State, class F>
-inline void for_each_state_column(const StateView<Dim>& view, State& state, const F& f) {
-  constexpr StateColumns columns = Law::kColumns;
-  if constexpr (columns.dissipated) f(view.dissipated, state.dissipated);
-  if constexpr (columns.internal_energy) f(view.internal_energy, state.internal_energy);
-  if constexpr (columns.plastic_strain) f(view.plastic_strain, state.plastic_strain);
-  if constexpr (columns.temperature) f(view.temperature, state.temperature);
-  if constexpr (columns.elastic_strain)
-    for (int c = 0; c < kSymmetric<Dim>; ++c) f(view.elastic_strain[c], state.elastic_strain[c]);
-}
-
-}  // namespace detail
 
 /// F ← (I + a) F, τ and c of up to kLanes particles from `at`, `count` of which are the caller's.
 template <int Dim, class Law>
@@ -60,12 +47,55 @@ inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes 
   }
 }
 
+/// The results of a chunk, staged in its room, to the columns. @return smallest J of the chunk
+template <int Dim>
+inline double store_strain(const ParticleView<Dim>& p, std::uint32_t begin, int count,
+                           const StrainRoom<Dim>& room) {
+  const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
+  for (int e = 0; e < Dim * Dim; ++e) std::memcpy(p.deformation[e] + begin, room.deformation[e], bytes);
+  for (int s = 0; s < kSymmetric<Dim>; ++s) std::memcpy(p.stress[s] + begin, room.stress[s], bytes);
+  std::memcpy(p.wave_speed + begin, room.wave_speed, bytes);
+  double smallest = room.jacobian[0];
+  for (int k = 1; k < count; ++k) smallest = room.jacobian[k] < smallest ? room.jacobian[k] : smallest;
+  for (int k = 0; k < count; ++k)
+    if (!(room.jacobian[k] > 0)) smallest = -1;  // catches NaN, which the comparison above lets pass
+  return smallest;
+}
+
+/// As strain_chunk, in a plane that stretches along its normal.
+template <class Law>
+double strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
+                               double dt, int terms, StrainRoom<2>& room) {
+  const bool hoop = p.depth == Depth::hoop;
+  for (int k = 0; k < count; k += kLanes) {
+    Lanes l[4], f[4], tau[4], c2, s = load_lanes(p.stretch + begin + k);
+    const Lanes rate = hoop ? load_lanes(&room.hoop_rate[k]) : broadcast<Lanes>(0.0);
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        l[2 * i + j] = load_lanes(&room.gradient[4 * j + i][k]);
+        f[2 * i + j] = load_lanes(p.deformation[2 * i + j] + begin + k);
+      }
+    advance_law_with_depth(p, law, l, rate, dt, terms, begin + static_cast<std::uint32_t>(k), count - k, f, s,
+                           tau, c2);
+    for (int e = 0; e < 4; ++e) store_lanes(&room.deformation[e][k], f[e]);
+    for (int c = 0; c < kSymmetric<2>; ++c) store_lanes(&room.stress[c][k], tau[c]);
+    store_lanes(&room.stretch[k], s);
+    store_lanes(&room.wave_speed[k], square_root(c2));
+    store_lanes(&room.jacobian[k], s * determinant<2>(f));
+  }
+  std::memcpy(p.stretch + begin, room.stretch, static_cast<std::size_t>(count) * sizeof(double));
+  return store_strain<2>(p, begin, count, room);
+}
+
 /// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
 /// exponential, τ, c and the evolving state by the material's law; all columns written back.
 /// @return smallest J of the chunk
 template <int Dim, class Law>
 double strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
                     int terms, StrainRoom<Dim>& room) {
+  if constexpr (Dim == 2) {
+    if (p.depth != Depth::held) return strain_chunk_with_depth(p, law, begin, count, dt, terms, room);
+  }
   for (int k = 0; k < count; k += kLanes) {
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
     for (int i = 0; i < Dim; ++i)
@@ -80,15 +110,7 @@ double strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t be
     store_lanes(&room.wave_speed[k], square_root(c2));
     store_lanes(&room.jacobian[k], determinant<Dim>(f));
   }
-  const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
-  for (int e = 0; e < Dim * Dim; ++e) std::memcpy(p.deformation[e] + begin, room.deformation[e], bytes);
-  for (int s = 0; s < kSymmetric<Dim>; ++s) std::memcpy(p.stress[s] + begin, room.stress[s], bytes);
-  std::memcpy(p.wave_speed + begin, room.wave_speed, bytes);
-  double smallest = room.jacobian[0];
-  for (int k = 1; k < count; ++k) smallest = room.jacobian[k] < smallest ? room.jacobian[k] : smallest;
-  for (int k = 0; k < count; ++k)
-    if (!(room.jacobian[k] > 0)) smallest = -1;  // catches NaN, which the comparison above lets pass
-  return smallest;
+  return store_strain(p, begin, count, room);
 }
 
 }  // namespace mpmfast

@@ -46,27 +46,52 @@ inline void scatter_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>
   }
 }
 
+/// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The
+/// hoop function of Nairn and Guilkey (2015), the mean of N_i/r over the domain weighted by r, is S_pi/r_p.
+template <int Dim, int K, class Room>
+inline void gather_hoop_rate(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
+                             int count, const Record* velocity, Room& room) {
+  for (int k = 0; k < count; ++k)
+    room.hoop_rate[k] =
+        gather_values(w, k, velocity)[0] / p.position[0][begin + static_cast<std::uint32_t>(k)];
+}
+
+/// The hoop part of the internal force, f_ir −= Σ_p V_p0 τ_θθ S_pi/r_p: with S_pi/r_p in the rate too, the
+/// power of the nodal forces is that of the stresses, and V_p0 being that of a full turn, forces are too.
+template <int Dim, int K, class Room>
+inline void scatter_hoop_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
+                               int count, Room& room) {
+  for (int k = 0; k < count; ++k) {
+    const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+    scatter_values(w, k, Record{-p.volume[q] * p.stress[2][q] / p.position[0][q]}, room.force.at[0]);
+  }
+}
+
 /// One tile: strain first from the nodal velocities (if `dt_strain` > 0), then the internal force.
+/// @tparam D  Depth::hoop for the hoop terms of axisymmetry (2-D); the others differ in nothing here
 /// @param visit_material called as visit_material(index, f): f(law) with the material's law
 /// @return smallest J of the tile (≤ 0: inverted)
-template <int Dim, class Basis, class VisitMaterial>
+template <int Dim, class Basis, Depth D = Depth::held, class VisitMaterial>
 double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& room,
                          const NodeColumns<Dim>& velocity, double dt_strain, int terms,
                          const VisitMaterial& visit_material, const NodeColumns<Dim>& force) {
+  constexpr bool hoop = D == Depth::hoop;
   const ParticleView<Dim>& p = *c.particles;
   double smallest = 1e300;
   if (dt_strain > 0) load_window<Dim, Dim>(velocity, c.tile->slot, room.velocity);
   clear(room.force);
-  for_each_chunk<Dim, Basis, Wanted::gradients>(
+  for_each_chunk<Dim, Basis, hoop ? Wanted::both : Wanted::gradients>(
       c, room.weights, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         if (dt_strain > 0) {
           gather_velocity_gradient(w, count, room.velocity.at[0], room);
+          if constexpr (hoop) gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
           visit_material(c.bodies[run.body].material, [&](const auto& law) {
             const double j = strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
             smallest = j < smallest ? j : smallest;
           });
         }
         scatter_force(p, w, begin, count, room);
+        if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
       });
   flush_window<Dim, Dim>(room.force, c.tile->slot, force);
   return smallest;

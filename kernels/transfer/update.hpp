@@ -73,6 +73,10 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
             gather_slopes<Dim, Basis>(c, run, w, begin, count, window.at[0], values[0], room);
         }
         if (rule.dt_strain > 0) {
+          if (Dim == 2 && p.depth == Depth::hoop)
+            for (int k = 0; k < count; k += kLanes)  // S v⁺_r / r
+              store_lanes(&room.hoop_rate[k],
+                          load_lanes(&room.value[0][k]) / load_lanes(p.position[0] + begin + k));
           Basis::template stage<Wanted::gradients>(chunk_geometry(c, run, begin, count), w);
           // v⁺ comes first in the window, so its gradient is that of the first record.
           gather_velocity_gradient(w, count, window.at[0], room);

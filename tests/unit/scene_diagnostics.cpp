@@ -35,7 +35,7 @@ TEST_CASE("a misspelt key, word or material name suggests the right one") {
 TEST_CASE("all faults come at once, in the order of the text") {
   const std::string text =
       "title: broken\n"
-      "space: plane_stress\n"
+      "space: plane_stres\n"
       "grid:\n"
       "  size: [10 mm, 20 GPa]\n"
       "  cell: -1 mm\n"
@@ -45,7 +45,8 @@ TEST_CASE("all faults come at once, in the order of the text") {
       "bodies:\n"
       "  - {box: {from: [0, 0], to: [1 mm, 1 mm]}, material: steel, colour: red}\n";
   const std::vector<std::string> expected{
-      "scene.yaml:2:8: space: not in this version (plane_strain or 3d), got 'plane_stress'",
+      "scene.yaml:2:8: space: not known here (one of plane_strain, plane_stress, axisymmetric, 3d), got "
+      "'plane_stres'. Did you mean 'plane_stress'?",
       "scene.yaml:4:17: grid.size.1: 'GPa' is a pressure",
       "scene.yaml:5:9: grid.cell: must be positive",
       "scene.yaml:6:13: time.end: not a number",

@@ -1,0 +1,76 @@
+#include <fmt/format.h>
+
+#include "engine/scene/names.hpp"
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// What a map holds under a key, where both are there; faults of the map itself have been reported.
+std::optional<Value> inside(const std::optional<Value>& map, const std::string& key) {
+  if (!map || !map->is(Node::Kind::map)) return std::nullopt;
+  return MapReader(*map).find(key);
+}
+
+/// Contact areas are found in the plane, not on the surface that turns about the axis.
+void refuse_areas(MapReader& top, const ContactSpec& contact) {
+  const auto refuse = [](const std::optional<Value>& value, const LawSpec& law) {
+    if (value && (law.law == LawKind::adhesion || law.law == LawKind::viscous))
+      value->complain("needs contact areas, which an axisymmetric scene does not have");
+  };
+  const auto section = top.find("contact");
+  refuse(inside(section, "law"), contact);
+  const auto pairs = inside(section, "pairs");
+  if (!pairs || !pairs->is(Node::Kind::list)) return;
+  for (std::size_t k = 0; k < pairs->size() && k < contact.pairs.size(); ++k)
+    refuse(inside(pairs->item(k), "law"), contact.pairs[k].law);
+}
+
+/// The axis is a wall: by default, and nothing else.
+void make_axis(MapReader& top, Scene& scene) {
+  if (scene.grid.origin[0] > 0) return;
+  const auto left = inside(top.find("boundaries"), "left");
+  if (!left) {
+    scene.boundaries.push_back({"left", WallSpec{0, false, 0, TimeTable{{0}, {0}}, false}});
+    return;
+  }
+  for (const BoundarySpec& boundary : scene.boundaries) {
+    const auto* wall = std::get_if<WallSpec>(&boundary.condition);
+    if (boundary.name != "left" || !wall) continue;
+    const bool slides = !wall->held && wall->speed.value == std::vector<double>{0};
+    if (slides || wall->position > 0) return;
+  }
+  left->complain("the left face is the axis here (wall or symmetry, or a wall or piston at a position > 0)");
+}
+
+}  // namespace
+
+void check_plane_stress(MapReader& top, const Scene& scene) {
+  const auto section = top.find("materials");
+  for (const MaterialSpec& material : scene.materials) {
+    if (!std::holds_alternative<MetalSpec>(material.model)) continue;
+    if (const auto model = inside(inside(section, material.name), "model"))
+      model->complain(
+          "plane_stress takes elastic laws (neo_hookean, logarithmic_neo_hookean, linear_elastic)");
+  }
+}
+
+void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene) {
+  if (scene.grid.origin[0] < 0)
+    if (const auto origin = inside(top.find("grid"), "origin"))
+      origin->item(0).complain("x is the radius in an axisymmetric scene: it must be zero or more");
+  if (scene.gravity.acceleration[0] != 0) {
+    const auto section = top.find("gravity");
+    const auto nested = inside(section, "acceleration");
+    (nested ? *nested : *section).item(0).complain("an axisymmetric scene falls along its axis, y, only");
+  }
+  refuse_areas(top, scene.contact);
+  const auto bodies = top.find("bodies");
+  for (std::size_t b = 0; bodies && bodies->is(Node::Kind::list) && b < bodies->size(); ++b)
+    if (const auto rotation = inside(bodies->item(b), "rotation"))
+      rotation->report("an axisymmetric body cannot turn about an axis across the plane");
+  if (grid_known) make_axis(top, scene);
+}
+
+}  // namespace mpmfast
