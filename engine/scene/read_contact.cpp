@@ -4,6 +4,11 @@ namespace mpmfast {
 
 namespace {
 
+bool is_gradient(NormalKind normal) {
+  return normal == NormalKind::average_gradient || normal == NormalKind::max_gradient ||
+         normal == NormalKind::max_volume || normal == NormalKind::own_gradient;
+}
+
 /// What follows from the choice of normals, before the scene's other words: the published methods are as
 /// published, ours with all that makes them robust.
 void set_defaults(ContactSpec& contact) {
@@ -12,10 +17,7 @@ void set_defaults(ContactSpec& contact) {
                     contact.normal == NormalKind::smoothed_logistic_regression;
   contact.advance_separation = contact.warm_start = contact.persistent = ours;
   contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
-  const bool gradient =
-      contact.normal == NormalKind::average_gradient || contact.normal == NormalKind::max_gradient ||
-      contact.normal == NormalKind::max_volume || contact.normal == NormalKind::own_gradient;
-  if (gradient) contact.separation = SeparationKind::position_offset;
+  if (is_gradient(contact.normal)) contact.separation = SeparationKind::position_offset;
 }
 
 void read_regression(MapReader& map, ContactSpec& contact) {
@@ -62,13 +64,15 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   map.integer("corrections", 1, 2, contact.corrections);
   map.word("area", kAreas, contact.area);
   map.word("fields", kManyFields, contact.fields);
-  const bool clouds = (contact.normal == NormalKind::logistic_regression ||
-                       contact.normal == NormalKind::smoothed_logistic_regression) &&
-                      contact.separation == SeparationKind::ellipsoid;
-  if (contact.fields == ManyFields::pairs && !clouds) {
+  const bool grid_separation = contact.separation == SeparationKind::displacement ||
+                               contact.separation == SeparationKind::position_offset ||
+                               contact.separation == SeparationKind::position_power ||
+                               contact.separation == SeparationKind::position_piecewise;
+  if (contact.fields == ManyFields::pairs &&
+      (is_gradient(contact.normal) || contact.normal == NormalKind::specified || grid_separation)) {
     map.find("fields")->report(
-        "explicit pairs are found from the particles of each pair (normal: logistic_regression, separation: "
-        "ellipsoid)");
+        "explicit pairs are found from the particles of each pair (normal: a regression or a margin, "
+        "separation: ellipsoid)");
   }
   map.find("pairs");  // known here, read when there are bodies
   map.finish();

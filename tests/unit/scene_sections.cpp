@@ -18,7 +18,7 @@ TEST_CASE("a scene that states its physics alone gets the defaults") {
   CHECK(scene.method.update == UpdateKind::flip);
   CHECK(scene.method.position == PositionKind::grid);
   CHECK(scene.contact.active);
-  CHECK(scene.contact.normal == NormalKind::logistic_regression);
+  CHECK(scene.contact.normal == NormalKind::smoothed_max_margin);
   CHECK(scene.contact.separation == SeparationKind::ellipsoid);
   CHECK(scene.contact.penalty == 1e-7);
   CHECK(scene.bodies[0].field == "block");
@@ -76,7 +76,15 @@ TEST_CASE("the defaults of contact follow the normal") {
   CHECK(contact("{normal: smoothed_logistic_regression}").persistent);
   CHECK(contact("{normal: smoothed_logistic_regression}").fields == ManyFields::simultaneous);
   CHECK(contact("{normal: smoothed_logistic_regression}").warm_start);
-  CHECK_FALSE(contact("{law: stick}").warm_start);
+  CHECK(contact("{law: stick}").warm_start);
+  CHECK(contact("{normal: max_margin}").persistent);
+  for (const char* published : {"logistic_regression", "logistic_irls", "average_gradient"}) {
+    const ContactSpec spec = contact(std::string("{normal: ") + published + "}");
+    CHECK_FALSE(spec.warm_start);
+    CHECK_FALSE(spec.persistent);
+    CHECK_FALSE(spec.advance_separation);
+    CHECK(spec.fields == ManyFields::lump);
+  }
   CHECK(contact("{normal: smoothed_logistic_regression}").advance_separation);
   CHECK(contact("{normal: smoothed_logistic_regression, penalty: 0.5}").penalty == 0.5);
   CHECK(contact("{normal: average_gradient}").separation == SeparationKind::position_offset);

@@ -70,7 +70,9 @@ bodies:
   - {name: left, box: {from: [4.3 mm, 9.2 mm], to: [9.3 mm, 14.2 mm]}, material: m, velocity: [4 m/s, -6 m/s]}
   - {name: right, box: {from: [9.3 mm, 9.2 mm], to: [14.3 mm, 14.2 mm]}, material: m, velocity: [-5 m/s, -6 m/s]}
 )";
-  const Scene lump = scene_from(yaml), pairs = scene_from(yaml, {{"contact.fields", "pairs"}});
+  const std::vector<Override> published{{"contact.normal", "logistic_regression"}};
+  const Scene lump = scene_from(yaml, published),
+              pairs = scene_from(yaml, {published.front(), {"contact.fields", "pairs"}});
   Step<2> lumped(lump), solved(pairs);
   advance(lumped, 120);
   advance(solved, 120);
@@ -96,7 +98,8 @@ contact: {law: coulomb, friction: 0.2}
 )";
   double drift[2];
   for (const bool pairs : {false, true}) {
-    const Scene scene = scene_from(yaml, {{"contact.fields", pairs ? "pairs" : "lump"}});
+    const Scene scene = scene_from(
+        yaml, {{"contact.normal", "logistic_regression"}, {"contact.fields", pairs ? "pairs" : "lump"}});
     Step<2> step(scene);
     const double before = momentum(step.state().particles)[1];
     advance(step, 60);
@@ -236,9 +239,11 @@ bodies:
   const auto gained = [&](const std::string& small, const std::string& wide) {
     const Scene scene = scene_from(
         yaml,
-        {{"contact", fmt::format("{{law: ignore, separation: none, corrections: 1, pairs: [{{between: [high, "
-                                 "small], law: {}}}, {{between: [high, wide], law: {}}}]}}",
-                                 small, wide)}});
+        {{"contact",
+          fmt::format(
+              "{{law: ignore, separation: none, corrections: 1, fields: lump, pairs: [{{between: [high, "
+              "small], law: {}}}, {{between: [high, wide], law: {}}}]}}",
+              small, wide)}});
     Step<2> step(scene);
     advance(step, 1);
     double sum = 0;
