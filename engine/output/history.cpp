@@ -94,6 +94,8 @@ class Line {
 
 }  // namespace
 
+std::vector<std::string> history_columns(const Scene& scene) { return column_names(scene); }
+
 HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene)
     : path_(folder / "history.csv"), scene_(&scene) {
   errno = 0;

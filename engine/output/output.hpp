@@ -50,6 +50,9 @@ struct HistoryRow {
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
+/// The header of history.csv.
+std::vector<std::string> history_columns(const Scene& scene);
+
 /// history.csv, flushed after each row.
 class HistoryFile {
  public:

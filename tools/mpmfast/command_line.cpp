@@ -22,8 +22,8 @@ constexpr int kMostThreads = 4096;
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, threads, steps, until, progress = "auto";
-  std::vector<std::string> set;
+  std::string scene, out, topic, threads, steps, until, x = "time_s", progress = "auto";
+  std::vector<std::string> set, columns;
   bool force = false;
 };
 
@@ -77,10 +77,46 @@ void add_scene_options(CLI::App& command, RawOptions& raw) {
       ->type_name("KEY=VALUE");
 }
 
+void add_threads(CLI::App& command, RawOptions& raw) {
+  command.add_option("--threads", raw.threads, "Threads; OMP_NUM_THREADS or the cores if not given")
+      ->check(CLI::Validator(check_threads, ""))
+      ->type_name("N");
+}
+
+void add_out(CLI::App& command, RawOptions& raw, const std::string& says) {
+  command.add_option("--out", raw.out, says)->check(CLI::Validator(check_out, ""))->type_name("DIR");
+}
+
+void add_progress(CLI::App& command, RawOptions& raw) {
+  command.add_option("--progress", raw.progress, "auto (a bar on a terminal, else lines), plain or none")
+      ->check(CLI::Validator(check_progress, ""))
+      ->type_name("auto|plain|none");
+}
+
+void add_study_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("STUDY", raw.scene, "The study, a YAML file")->required()->type_name("");
+  add_out(command, raw, "Output folder; runs/<study> if not given. What has ended there is not run again");
+  add_threads(command, raw);
+  add_progress(command, raw);
+  command.add_flag("--force", raw.force, "Run also what has ended already");
+}
+
+void add_plot_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
+  command
+      .add_option(
+          "--columns", raw.columns,
+          "A column of history.csv or an expression of columns, instead of the usual charts; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("EXPR");
+  command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
+}
+
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *check, *list;
+  CLI::App *run, *check, *study, *plot, *list;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
@@ -88,24 +124,22 @@ struct Commands {
     app.require_subcommand(1);
     run = app.add_subcommand("run", "Run a scene");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
+    study = app.add_subcommand("study", "Run the variants of a scene; table and chart of error against cost");
+    plot = app.add_subcommand("plot", "Draw the history of a run");
     list = app.add_subcommand("list", "What this build offers");
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
-    run->add_option("--out", raw.out, "Output folder; runs/<scene> if not given")
-        ->check(CLI::Validator(check_out, ""))
-        ->type_name("DIR");
-    run->add_option("--threads", raw.threads, "Threads; OMP_NUM_THREADS or the cores if not given")
-        ->check(CLI::Validator(check_threads, ""))
-        ->type_name("N");
+    add_study_options(*study, raw);
+    add_plot_options(*plot, raw);
+    add_out(*run, raw, "Output folder; runs/<scene> if not given");
+    add_threads(*run, raw);
     run->add_option("--steps", raw.steps, "Stop after so many steps")
         ->check(CLI::Validator(check_steps, ""))
         ->type_name("N");
     run->add_option("--until", raw.until, "Stop at this time, such as \"5 us\"")
         ->check(CLI::Validator(check_until, ""))
         ->type_name("TIME");
-    run->add_option("--progress", raw.progress, "auto (a bar on a terminal, else lines), plain or none")
-        ->check(CLI::Validator(check_progress, ""))
-        ->type_name("auto|plain|none");
+    add_progress(*run, raw);
     run->add_flag("--force", raw.force, "Replace what an earlier run left in the output folder");
     list->add_option("TOPIC", raw.topic, fmt::format("One of {}", fmt::join(catalogue_topics(), ", ")))
         ->type_name("");
@@ -154,11 +188,17 @@ std::string shell_text(int count, const char* const* arguments) {
 
 CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   CommandLine line;
-  line.command = *commands.run ? Command::run : *commands.check ? Command::check : Command::list;
+  line.command = *commands.run     ? Command::run
+                 : *commands.check ? Command::check
+                 : *commands.study ? Command::study
+                 : *commands.plot  ? Command::plot
+                                   : Command::list;
   line.scene = raw.scene;
   line.out = raw.out;
   line.topic = raw.topic;
   line.set = raw.set;
+  line.columns = raw.columns;
+  line.x = raw.x;
   line.force = raw.force;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
   if (!raw.steps.empty()) read_whole(raw.steps, line.steps);

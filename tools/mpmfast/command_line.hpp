@@ -12,13 +12,15 @@
 
 namespace mpmfast {
 
-enum class Command { run, check, list };
+enum class Command { run, check, study, plot, list };
 enum class ProgressStyle { automatic, plain, none };
 
 struct CommandLine {
   Command command = Command::run;
-  std::string scene, out, topic;
-  std::vector<std::string> set;  ///< as written, "time.cfl=0.3"
+  std::string scene;  ///< or the study, or the folder to plot
+  std::string out, topic, x = "time_s";
+  std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
+  std::vector<std::string> columns;  ///< of a plot, expressions
   int threads = 0;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
   double until = std::numeric_limits<double>::infinity();  ///< s

@@ -8,6 +8,8 @@ namespace mpmfast {
 
 int run_command(const CommandLine& line);
 int check_command(const CommandLine& line);
+int study_command(const CommandLine& line);
+int plot_command(const CommandLine& line);
 int list_command(const CommandLine& line);
 
 }  // namespace mpmfast

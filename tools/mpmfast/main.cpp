@@ -22,6 +22,10 @@ int perform(const CommandLine& line) {
       return run_command(line);
     case Command::check:
       return check_command(line);
+    case Command::study:
+      return study_command(line);
+    case Command::plot:
+      return plot_command(line);
     case Command::list:
       return list_command(line);
   }

@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "commands.hpp"
+#include "exit_codes.hpp"
+#include "progress_display.hpp"
+#include "signals.hpp"
+#include "tools/study/report.hpp"
+#include "tools/study/run_study.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+StudyOptions options_of(const CommandLine& line, ProgressDisplay& display) {
+  StudyOptions options;
+  options.folder = line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
+  options.threads = line.threads;
+  options.force = line.force;
+  options.command = line.text;
+  options.stop_signal = stop_signal();
+  const bool quiet = line.progress == ProgressStyle::none;
+  options.progress = [&display](const Progress& progress) { display.show(progress); };
+  options.starting = [quiet](const StudyRun& run, std::size_t index, std::size_t count) {
+    if (!quiet) fmt::print(stderr, "[{}/{}] {}\n", index, count, run.name);
+  };
+  options.ended = [&display, quiet](const StudyRun&, const std::string& note) {
+    display.finish();
+    if (!quiet) fmt::print(stderr, "    {}\n", note);
+  };
+  return options;
+}
+
+}  // namespace
+
+int study_command(const CommandLine& line) {
+  const Study study = read_study(line.scene);
+  const StudyRuns runs = expand_study(study);
+  ProgressDisplay display(line.progress);
+  const StudyOptions options = options_of(line, display);
+  if (!may_hold_study(options.folder)) {
+    fmt::print(stderr,
+               "mpmfast: the output folder {} holds something else than a study (--out DIR names another)\n",
+               options.folder.string());
+    return kExitWrongInput;
+  }
+  try_set_up(runs, options);
+  catch_stop_signals();
+  prepare_study_folder(study, options.folder);
+  const bool all = run_study(runs, options);
+  const StudyResults results = collect_results(study, runs, options.folder);
+  const std::vector<std::string> missing = write_report(study, runs, results, options.folder);
+  fmt::print("{}\noutput           {}\n", study_table(study, runs, results), options.folder.string());
+  for (const std::string& why : missing) fmt::print(stderr, "mpmfast: {}\n", why);
+  return all ? 0 : kExitSignal + *stop_signal();
+}
+
+}  // namespace mpmfast

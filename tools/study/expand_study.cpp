@@ -1,0 +1,196 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <utility>
+
+#include "engine/output/output.hpp"
+#include "engine/scene/suggest.hpp"
+#include "study.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// "LR, xpic(5)" → "lr_xpic5": what every file system takes.
+std::string slug(const std::string& name) {
+  constexpr std::size_t kLongest = 100;
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || c == '-' || c == '.') {
+      out += static_cast<char>(std::tolower(byte));
+    } else if (c != '(' && c != ')' && !out.empty() && out.back() != '_') {
+      out += '_';
+    }
+  }
+  while (!out.empty() && (out.back() == '_' || out.back() == '.')) out.pop_back();
+  return out.substr(0, kLongest);
+}
+
+class Expansion {
+ public:
+  explicit Expansion(const Study& study) : study_(study), problems_({study.file.string()}) {}
+
+  StudyRuns all() {
+    std::vector<std::size_t> choice(study_.axes.size(), 0);
+    do {
+      if (allowed(choice)) runs_.variants.push_back(variant(choice));
+    } while (next(choice));
+    if (runs_.variants.empty()) problems_.add({0, 0, 0}, "variants", "no combination is left by `only`");
+    std::vector<Diagnostic> found = problems_.sorted();
+    found.insert(found.end(), of_scenes_.begin(), of_scenes_.end());
+    if (!found.empty()) throw SceneError(found);
+    return std::move(runs_);
+  }
+
+ private:
+  /// The last axis turns fastest.
+  bool next(std::vector<std::size_t>& choice) const {
+    for (std::size_t k = choice.size(); k-- > 0;) {
+      if (++choice[k] < study_.axes[k].choices.size()) return true;
+      choice[k] = 0;
+    }
+    return false;
+  }
+
+  bool allowed(const std::vector<std::size_t>& choice) const {
+    for (std::size_t k = 0; k < choice.size(); ++k)
+      if (!goes_with(study_.axes, choice, study_.axes[k].choices[choice[k]].only)) return false;
+    return true;
+  }
+
+  StudyRun variant(const std::vector<std::size_t>& choice) {
+    std::vector<std::size_t> axes(choice.size());
+    for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
+    StudyRun run = make("", choice, axes, {});
+    if (study_.reference.kind == Reference::Kind::runs) run.reference = reference(choice);
+    check_formulas(run);
+    return run;
+  }
+
+  std::size_t reference(const std::vector<std::size_t>& choice) {
+    std::vector<std::size_t> own(choice.size(), 0);
+    for (const std::size_t axis : study_.reference.per) own[axis] = choice[axis];
+    for (std::size_t k = 0; k < runs_.references.size(); ++k)
+      if (runs_.references[k].choice == own) return k;
+    runs_.references.push_back(make("reference", own, study_.reference.per, study_.reference.set));
+    return runs_.references.size() - 1;
+  }
+
+  /// The scene with the common overrides, those of the axes that matter, and `more`, in this order.
+  StudyRun make(std::string name, const std::vector<std::size_t>& choice,
+                const std::vector<std::size_t>& axes, const std::vector<Setting>& more) {
+    StudyRun run;
+    run.choice = choice;
+    std::vector<Setting> settings = study_.common;
+    for (const std::size_t k : axes) {
+      const Choice& chosen = study_.axes[k].choices[choice[k]];
+      settings.insert(settings.end(), chosen.set.begin(), chosen.set.end());
+      for (const auto& [constant, value] : chosen.let) run.let[constant] = value;
+      name += (name.empty() ? "" : ", ") + chosen.name;
+    }
+    settings.insert(settings.end(), more.begin(), more.end());
+    run.name = name;
+    const std::string wanted = slug(name).empty() ? "run" : slug(name);
+    run.folder = wanted;
+    for (int n = 2; !folders_.insert(run.folder).second; ++n) run.folder = fmt::format("{}_{}", wanted, n);
+    read(settings, run);
+    return run;
+  }
+
+  void read(const std::vector<Setting>& settings, StudyRun& run) {
+    std::vector<Override> overrides;
+    for (const Setting& setting : settings) overrides.push_back(setting.override);
+    try {
+      run.scene = read_scene(study_.scene, overrides);
+    } catch (const SceneError& error) {
+      for (const Diagnostic& diagnostic : error.diagnostics()) locate(diagnostic, settings, run.name);
+    }
+  }
+
+  /// What is wrong with an override is told where the study gives it.
+  void locate(Diagnostic diagnostic, const std::vector<Setting>& settings, const std::string& run) {
+    for (const Setting& setting : settings) {
+      if (diagnostic.file != fmt::format("--set {}={}", setting.override.first, setting.override.second))
+        continue;
+      return problems_.add(setting.place, setting.path,
+                           fmt::format("the scene says: {}: {}", diagnostic.path, diagnostic.message),
+                           diagnostic.hint);
+    }
+    const auto same = [&](const Diagnostic& other) {
+      return other.line == diagnostic.line && other.column == diagnostic.column &&
+             other.path == diagnostic.path;
+    };
+    if (std::any_of(of_scenes_.begin(), of_scenes_.end(), same)) return;
+    diagnostic.message += fmt::format(" (in the run '{}')", run);
+    of_scenes_.push_back(diagnostic);
+  }
+
+  void check_formulas(const StudyRun& run) {
+    if (run.scene.bodies.empty()) return;  // it could not be read
+    std::vector<std::string> known = history_columns(run.scene);
+    for (const auto& [constant, value] : run.let) known.push_back(constant);
+    const auto check = [&](const std::optional<Formula>& formula) {
+      if (formula) check_names(*formula, known, "column of the history");
+    };
+    std::vector<std::string> constants;
+    for (const auto& [constant, value] : run.let) constants.push_back(constant);
+    const auto check_constant = [&](const std::optional<Formula>& formula) {
+      if (formula) check_names(*formula, constants, "constant (let)");
+    };
+    std::vector<ErrorSpec> specs = study_.more;
+    specs.push_back(study_.error);
+    for (const ErrorSpec& spec : specs) {
+      for (const auto& formula : {spec.quantity, spec.x}) check(formula);
+      for (const auto& formula : {spec.from, spec.to, spec.threshold, spec.expected}) check_constant(formula);
+    }
+    check(study_.reference.expression);
+    for (const CurveSpec& curve : study_.curves) {
+      check(curve.x);
+      check(curve.y);
+    }
+    check_table(run);
+  }
+
+  void check_table(const StudyRun& run) {
+    if (study_.reference.kind != Reference::Kind::table) return;
+    std::vector<std::string> known = study_.reference.table.names;
+    for (const auto& [constant, value] : run.let) known.push_back(constant);
+    for (const auto& formula : {study_.reference.x ? study_.reference.x : study_.error.x,
+                                study_.reference.y ? study_.reference.y : study_.error.quantity})
+      if (formula) check_names(*formula, known, "column of the table");
+  }
+
+  void check_names(const Formula& formula, const std::vector<std::string>& known, const std::string& what) {
+    for (const std::string& name : formula.expression.names()) {
+      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+      problems_.add(formula.place, formula.path, fmt::format("no {} '{}'", what, name),
+                    did_you_mean(name, known));
+    }
+  }
+
+  const Study& study_;
+  Problems problems_;
+  std::vector<Diagnostic> of_scenes_;
+  std::set<std::string> folders_;
+  StudyRuns runs_;
+};
+
+}  // namespace
+
+bool goes_with(const std::vector<Axis>& axes, const std::vector<std::size_t>& choice, const Only& only) {
+  for (std::size_t k = 0; k < axes.size(); ++k) {
+    const auto values = only.find(axes[k].name);
+    if (values == only.end()) continue;
+    const std::string& name = axes[k].choices[choice[k]].name;
+    if (std::find(values->second.begin(), values->second.end(), name) == values->second.end()) return false;
+  }
+  return true;
+}
+
+StudyRuns expand_study(const Study& study) { return Expansion(study).all(); }
+
+}  // namespace mpmfast

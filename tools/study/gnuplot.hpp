@@ -1,0 +1,27 @@
+#pragma once
+
+/// @file Charts: a script for gnuplot beside the pictures that it draws.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace mpmfast {
+
+/// 'text' as gnuplot reads it.
+std::string gnuplot_text(const std::string& text);
+
+/// A block of data named $NAME, a row for each x.
+std::string gnuplot_data(const std::string& name, std::span<const double> x, std::span<const double> y);
+
+/// Writes STEM.gp and lets gnuplot draw STEM.png and STEM.svg from it.
+/// @param data blocks; @param plot what is drawn once for each of the two pictures
+/// @return empty, or why there is no picture (gnuplot is missing or refuses). Throws FileError.
+std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& stem,
+                              const std::string& data, const std::string& plot, int width, int height);
+
+/// A colour for each of a few things that are easy to tell apart, then again from the first.
+std::string chart_colour(std::size_t index);
+
+}  // namespace mpmfast

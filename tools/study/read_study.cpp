@@ -1,0 +1,192 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <system_error>
+
+#include "engine/errors.hpp"
+#include "study_parts.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+Reference read_reference(const Value& value, const Study& study) {
+  Reference out;
+  MapReader map(value, "a map {set, per}, {expression} or {table, x, y}");
+  if (!map.valid()) return out;
+  const bool runs = index_of(value.node(), "set") >= 0;
+  const auto expression = map.find("expression"), table = map.find("table");
+  if (int{runs} + int{expression.has_value()} + int{table.has_value()} != 1)
+    value.report("exactly one of set (runs), expression and table was expected");
+  if (runs) {
+    out.kind = Reference::Kind::runs;
+    out.set = read_settings(map);
+    const auto per = map.find("per");
+    if (per && !per->is(Node::Kind::list)) per->complain("not a list of axes");
+    for (std::size_t k = 0; per && per->is(Node::Kind::list) && k < per->size(); ++k)
+      if (const auto axis = read_axis(per->item(k), study.axes)) out.per.push_back(*axis);
+  } else if (expression) {
+    out.kind = Reference::Kind::expression;
+    out.expression = read_formula(*expression);
+  } else if (table) {
+    out.kind = Reference::Kind::table;
+    if (const auto file = table->text()) {
+      try {
+        out.table = read_table(study.file.parent_path() / *file);
+      } catch (const FileError& error) {
+        table->report(error.what());
+      }
+    }
+    read_formula(map, "x", out.x);
+    read_formula(map, "y", out.y);
+  }
+  map.finish();
+  return out;
+}
+
+/// What `spec` holds already is the default.
+ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
+  MapReader map(value, "a map {quantity, x, compare, relative, window, above, below, expected}");
+  if (!map.valid()) return spec;
+  if (!spec.quantity) map.need("quantity", "a column of history.csv or an expression of columns");
+  read_formula(map, "quantity", spec.quantity);
+  read_formula(map, "x", spec.x);
+  map.word("compare", kCompares, spec.rule.compare);
+  map.word("relative", kRelatives, spec.rule.relative);
+  if (const auto window = map.find("window")) {
+    if (!window->is(Node::Kind::list) || window->size() != 2) {
+      window->complain("not a list [from, to] of values of x");
+    } else {
+      spec.from = read_formula(window->item(0));
+      spec.to = read_formula(window->item(1));
+    }
+  }
+  const auto above = map.find("above"), below = map.find("below");
+  if (above && below) below->report("above is given too");
+  if (above || below) {
+    spec.rule.below = below.has_value();
+    spec.threshold = read_formula(below ? *below : *above);
+  }
+  read_formula(map, "expected", spec.expected);
+  map.finish();
+  const bool one_value = spec.rule.compare == Compare::crossing || spec.rule.compare == Compare::final_value;
+  if (spec.rule.compare == Compare::crossing && !spec.threshold)
+    value.report("a crossing needs above or below");
+  if (!has_reference && !(one_value && spec.expected))
+    value.report(one_value ? "expected or the study's reference is missing"
+                           : "the study's reference is missing");
+  return spec;
+}
+
+std::vector<ErrorSpec> read_more(const Value& value, const ErrorSpec& base, bool has_reference) {
+  std::vector<ErrorSpec> out;
+  if (!value.is(Node::Kind::map)) {
+    value.complain("not a map of names to what differs from error");
+    return out;
+  }
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    ErrorSpec spec = base;
+    spec.name = value.node().keys[k].text;
+    out.push_back(read_error(Value(value.node().items[k], join(value.path(), spec.name), value.problems()),
+                             spec, has_reference));
+  }
+  return out;
+}
+
+std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& axes) {
+  std::vector<CurveSpec> out;
+  if (!list.is(Node::Kind::list)) {
+    list.complain("not a list of {name, x, y, …}");
+    return out;
+  }
+  std::set<std::string> names;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    MapReader map(list.item(k), "a map {name, title, x, y, x_label, y_label, panels, only}");
+    CurveSpec curve;
+    const auto name = map.need("name", "the name of the picture");
+    if (name) curve.name = name->name().value_or("");
+    if (!names.insert(curve.name).second || curve.name == "study" || curve.name == "error")
+      name->complain("is taken by another file of the study");
+    map.need("y", "a column of history.csv or an expression of columns");
+    read_formula(map, "x", curve.x);
+    read_formula(map, "y", curve.y);
+    const auto words = [&](const char* key, std::string& text) {
+      const auto found = map.find(key);
+      if (found) text = found->text().value_or("");
+    };
+    words("title", curve.title);
+    words("x_label", curve.x_label);
+    words("y_label", curve.y_label);
+    if (const auto panels = map.find("panels")) curve.panels = read_axis(*panels, axes);
+    curve.only = read_only(map, axes);
+    map.finish();
+    out.push_back(std::move(curve));
+  }
+  return out;
+}
+
+void read_costs(MapReader& top, std::vector<Cost>& costs) {
+  const auto found = top.find("cost");
+  if (!found) return;
+  costs.clear();
+  const bool list = found->is(Node::Kind::list);
+  for (std::size_t k = 0; k < (list ? found->size() : 1); ++k)
+    if (const auto cost = (list ? found->item(k) : *found).word(kCosts)) costs.push_back(*cost);
+  if (list && found->size() == 0) found->complain("one cost at least was expected");
+}
+
+void read_top(const Node& root, Study& study, Problems& problems) {
+  MapReader top(Value(root, "", problems), "a map {title, scene, set, variants, vary, reference, error, …}");
+  if (!top.valid()) return;
+  study.title = study.file.stem().string();
+  if (const auto title = top.find("title")) study.title = title->text().value_or("");
+  if (const auto scene = top.need("scene", "the path of a scene, from this file")) {
+    const std::filesystem::path path = scene->text().value_or("");
+    study.scene = path.is_absolute() ? path : (study.file.parent_path() / path).lexically_normal();
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(study.scene, error)) scene->complain("no such scene");
+  }
+  study.common = read_settings(top);
+  const auto variants = top.find("variants"), vary = top.find("vary");
+  if (vary) read_axes(*vary, study.axes);
+  if (variants) study.axes.insert(study.axes.begin(), read_variants(*variants, study.axes));
+  if (!variants && !vary) top.need("variants", "a list of variants, or vary with axes");
+  if (const auto reference = top.find("reference")) study.reference = read_reference(*reference, study);
+  const bool has_reference = index_of(root, "reference") >= 0;
+  const std::size_t before = problems.count();
+  if (const auto error = top.need("error", "a map {quantity, compare, …}")) {
+    study.error.x =
+        Formula{std::get<Expression>(Expression::parse("time_s")), error->node().place, "error.x"};
+    study.error = read_error(*error, study.error, has_reference);
+  }
+  const auto more = top.find("more");
+  if (more && problems.count() == before) study.more = read_more(*more, study.error, has_reference);
+  if (const auto curves = top.find("curves")) study.curves = read_curves(*curves, study.axes);
+  read_costs(top, study.costs);
+  top.finish();
+}
+
+}  // namespace
+
+Study parse_study(const std::string& text, const std::filesystem::path& file) {
+  Problems problems({file.string()});
+  Study study;
+  study.file = file;
+  study.text = text;
+  if (const auto root = parse_tree(text, 0, problems)) read_top(*root, study, problems);
+  if (!problems.empty()) throw SceneError(problems.sorted());
+  return study;
+}
+
+Study read_study(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file, error))
+    throw FileError(fmt::format("{}: cannot read the study", file.string()));
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  return parse_study(text, file);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,206 @@
+#include "report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/output/files.hpp"
+#include "line_chart.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+  return out + "\"";
+}
+
+std::string csv_number(double number) { return std::isnan(number) ? "" : fmt::format("{:.9g}", number); }
+
+std::string markdown_text(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c == '\n' ? ' ' : c);
+  return out;
+}
+
+std::string percent(double error, Relative relative) {
+  if (std::isnan(error)) return "–";
+  if (relative == Relative::absolute) return fmt::format("{:.3g}", error);
+  return 100 * error < 0.1 ? fmt::format("{:.2g} %", 100 * error) : fmt::format("{:.2f} %", 100 * error);
+}
+
+bool looks_for_value(const Study& study) {
+  return study.error.rule.compare == Compare::final_value || study.error.rule.compare == Compare::crossing;
+}
+
+ChartCurve curve_of(const StudyRun& run, const std::filesystem::path& folder, const CurveSpec& spec,
+                    const Study& study) {
+  const Formula& x = spec.x ? *spec.x : *study.error.x;
+  return {run.name, history_curve(run, folder, x.expression, spec.y->expression), 0, false};
+}
+
+/// The name of a variant without the axis that has panels.
+std::string name_in_panel(const Study& study, const StudyRun& run, const CurveSpec& spec) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < run.choice.size(); ++k)
+    if (k != spec.panels) parts.push_back(study.axes[k].choices[run.choice[k]].name);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+class CurveChart {
+ public:
+  CurveChart(const Study& study, const StudyRuns& runs, const StudyResults& results,
+             const std::filesystem::path& folder, const CurveSpec& spec)
+      : study_(study), runs_(runs), results_(results), folder_(folder), spec_(spec) {}
+
+  std::string draw() {
+    chart_.title = spec_.title.empty() ? study_.title : spec_.title;
+    const Formula& x = spec_.x ? *spec_.x : *study_.error.x;
+    chart_.x_label = spec_.x_label.empty() ? x.expression.text() : spec_.x_label;
+    chart_.y_label = spec_.y_label.empty() ? spec_.y->expression.text() : spec_.y_label;
+    const std::size_t panels = spec_.panels ? study_.axes[*spec_.panels].choices.size() : 1;
+    for (std::size_t panel = 0; panel < panels; ++panel) fill(panel);
+    return draw_line_chart(folder_, spec_.name, chart_);
+  }
+
+ private:
+  void fill(std::size_t panel) {
+    ChartPanel out;
+    if (spec_.panels) out.title = study_.axes[*spec_.panels].choices[panel].name;
+    std::vector<std::size_t> references;
+    for (std::size_t k = 0; k < runs_.variants.size(); ++k) {
+      const StudyRun& run = runs_.variants[k];
+      if (spec_.panels && run.choice[*spec_.panels] != panel) continue;
+      if (results_.variants[k].status.empty() || !goes_with(study_.axes, run.choice, spec_.only)) continue;
+      ChartCurve curve = curve_of(run, folder_, spec_, study_);
+      curve.title = name_in_panel(study_, run, spec_);
+      curve.colour = colour_of(curve.title);
+      out.curves.push_back(std::move(curve));
+      if (study_.reference.kind == Reference::Kind::runs &&
+          std::find(references.begin(), references.end(), run.reference) == references.end())
+        references.push_back(run.reference);
+    }
+    for (const std::size_t k : references) {
+      ChartCurve curve = curve_of(runs_.references[k], folder_, spec_, study_);
+      if (spec_.panels) curve.title = "reference";
+      curve.dashed = true;
+      out.curves.push_back(std::move(curve));
+    }
+    if (!out.curves.empty()) chart_.panels.push_back(std::move(out));
+  }
+
+  std::size_t colour_of(const std::string& title) {
+    const auto known = std::find(titles_.begin(), titles_.end(), title);
+    const auto index = static_cast<std::size_t>(known - titles_.begin());
+    if (known == titles_.end()) titles_.push_back(title);
+    return index;
+  }
+
+  const Study& study_;
+  const StudyRuns& runs_;
+  const StudyResults& results_;
+  const std::filesystem::path& folder_;
+  const CurveSpec& spec_;
+  LineChart chart_;
+  std::vector<std::string> titles_;
+};
+
+}  // namespace
+
+std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResults& results) {
+  std::vector<std::string> head{"variant", "error", "particle_steps", "wall_s", "particle_steps_per_s",
+                                "pareto"};
+  for (const Axis& axis : study.axes) head.push_back(csv_text(axis.name));
+  for (const char* name :
+       {"status", "value", "reached", "mean_iterations", "fallbacks", "unconverged", "energy_error"})
+    head.emplace_back(name);
+  for (const ErrorSpec& spec : study.more) head.push_back(csv_text(spec.name));
+  std::string out = fmt::format("{}\n", fmt::join(head, ","));
+  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
+    const StudyRun& run = runs.variants[k];
+    const StudyResult& r = results.variants[k];
+    if (r.status.empty()) continue;
+    const auto error = [&](std::size_t n) { return n < r.errors.size() ? csv_number(r.errors[n]) : ""; };
+    std::vector<std::string> cells{csv_text(run.name),           error(0),
+                                   csv_number(r.particle_steps), csv_number(r.wall),
+                                   csv_number(r.speed),          r.pareto ? "1" : "0"};
+    for (std::size_t axis = 0; axis < study.axes.size(); ++axis)
+      cells.push_back(csv_text(study.axes[axis].choices[run.choice[axis]].name));
+    cells.push_back(r.status);
+    for (const double number : {r.value, r.reached, r.mean_iterations}) cells.push_back(csv_number(number));
+    cells.push_back(fmt::format("{}", r.fallbacks));
+    cells.push_back(fmt::format("{}", r.unconverged));
+    cells.push_back(csv_number(r.energy_error));
+    for (std::size_t n = 0; n < study.more.size(); ++n) cells.push_back(error(n + 1));
+    out += fmt::format("{}\n", fmt::join(cells, ","));
+  }
+  return out;
+}
+
+std::string study_table(const Study& study, const StudyRuns& runs, const StudyResults& results) {
+  std::vector<std::string> head;
+  for (const Axis& axis : study.axes)
+    head.push_back(markdown_text(axis.name == "variants" ? "variant" : axis.name));
+  for (const ErrorSpec& spec : study.more) head.push_back(markdown_text(spec.name));
+  head.push_back("error");
+  if (looks_for_value(study)) head.push_back("value");
+  for (const char* name : {"reached", "wall s", "million particle-steps a second", "iterations a regression",
+                           "fallbacks", "energy error", "front"})
+    head.emplace_back(name);
+  std::string out = fmt::format("| {} |\n|{}\n", fmt::join(head, " | "), [&] {
+    std::string rule;
+    for (std::size_t k = 0; k < head.size(); ++k) rule += "---|";
+    return rule;
+  }());
+  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
+    const StudyResult& r = results.variants[k];
+    if (r.status.empty()) continue;
+    std::vector<std::string> cells;
+    for (std::size_t axis = 0; axis < study.axes.size(); ++axis)
+      cells.push_back(markdown_text(study.axes[axis].choices[runs.variants[k].choice[axis]].name));
+    const auto error = [&](std::size_t n, Relative relative) {
+      return n < r.errors.size() ? percent(r.errors[n], relative) : std::string("–");
+    };
+    for (std::size_t n = 0; n < study.more.size(); ++n)
+      cells.push_back(error(n + 1, study.more[n].rule.relative));
+    cells.push_back(error(0, study.error.rule.relative));
+    if (looks_for_value(study)) cells.push_back(fmt::format("{:.6g}", r.value));
+    cells.push_back(fmt::format("{:.4g}{}", r.reached, r.status == "failed" ? ", failed" : ""));
+    cells.push_back(fmt::format("{:.2f}", r.wall));
+    cells.push_back(fmt::format("{:.2f}", r.speed / 1e6));
+    cells.push_back(fmt::format("{:.2f}", r.mean_iterations));
+    cells.push_back(fmt::format("{}", r.fallbacks));
+    cells.push_back(fmt::format("{:.1e}", r.energy_error));
+    cells.push_back(r.pareto ? "yes" : "");
+    out += fmt::format("| {} |\n", fmt::join(cells, " | "));
+  }
+  out +=
+      fmt::format("\n{}, mpmfast {}, {} thread{}.{}\n", results.machine.cpu, results.machine.version,
+                  results.machine.threads, results.machine.threads == 1 ? "" : "s",
+                  results.reference_failed ? " A reference run failed: errors are of what it reached." : "");
+  return out;
+}
+
+std::vector<std::string> write_report(const Study& study, const StudyRuns& runs, const StudyResults& results,
+                                      const std::filesystem::path& folder) {
+  write_aside(folder / "study.csv", study_csv(study, runs, results));
+  write_aside(folder / "study.md", study_table(study, runs, results));
+  std::vector<std::string> missing;
+  const auto note = [&](const std::string& why) {
+    if (!why.empty()) missing.push_back(why);
+  };
+  for (const Cost cost : study.costs) {
+    const std::string stem =
+        cost == study.costs.front() ? "study" : fmt::format("study_{}", name_of(kCosts, cost));
+    note(draw_cost_chart(study, runs, results, folder, cost, stem));
+  }
+  for (const CurveSpec& spec : study.curves) note(CurveChart(study, runs, results, folder, spec).draw());
+  return missing;
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,33 @@
+#pragma once
+
+/// @file The parts of a study file: what read_axes.cpp offers to read_study.cpp.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/scene/fields.hpp"
+#include "study.hpp"
+
+namespace mpmfast {
+
+std::optional<Formula> read_formula(const Value& value);
+/// Replaces `out` when the key is there and good.
+void read_formula(MapReader& map, const std::string& key, std::optional<Formula>& out);
+
+/// `set`: {dotted key: value}.
+std::vector<Setting> read_settings(MapReader& map);
+
+/// `only`: {axis: value} or {axis: [values]}.
+Only read_only(MapReader& map, const std::vector<Axis>& axes);
+
+/// `vary`: a list holds values of the scene's key, a map holds named choices.
+void read_axes(const Value& vary, std::vector<Axis>& axes);
+
+/// `variants`. `vary` was read before, so that `only` can name its axes.
+Axis read_variants(const Value& list, const std::vector<Axis>& axes);
+
+/// The index of the axis that the value names.
+std::optional<std::size_t> read_axis(const Value& value, const std::vector<Axis>& axes);
+
+}  // namespace mpmfast

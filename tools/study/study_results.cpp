@@ -1,0 +1,158 @@
+#include "study_results.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "engine/errors.hpp"
+#include "pareto.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_text(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// run.json, or nothing when it is not there or not whole.
+std::optional<nlohmann::json> read_summary(const fs::path& folder) {
+  auto json = nlohmann::json::parse(read_text(folder / "run.json"), nullptr, false);
+  if (json.is_discarded() || !json.is_object()) return std::nullopt;
+  return json;
+}
+
+double number(const nlohmann::json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+std::uint64_t count(const nlohmann::json& json, const char* key) {
+  const double value = number(json, key);
+  return value > 0 ? static_cast<std::uint64_t>(value) : 0;
+}
+
+void read_summary(const nlohmann::json& json, StudyResult& result) {
+  result.status = json.value("status", "");
+  result.particle_steps = number(json, "particles") * number(json, "steps");
+  result.wall = number(json, "wall_s");
+  result.speed = number(json, "particle_steps_per_s");
+  result.energy_error = number(json, "energy_error");
+  const auto contact = json.find("contact");
+  if (contact == json.end()) return;
+  result.mean_iterations = number(*contact, "mean_iterations");
+  result.fallbacks = count(*contact, "fallbacks");
+  result.unconverged = count(*contact, "unconverged");
+}
+
+double constant(const std::optional<Formula>& formula, double otherwise, const Constants& constants) {
+  return formula ? evaluate(formula->expression, constants) : otherwise;
+}
+
+ErrorRule rule_of(const ErrorSpec& spec, const Constants& constants) {
+  ErrorRule rule = spec.rule;
+  rule.from = constant(spec.from, rule.from, constants);
+  rule.to = constant(spec.to, rule.to, constants);
+  rule.threshold = constant(spec.threshold, rule.threshold, constants);
+  rule.expected = constant(spec.expected, rule.expected, constants);
+  return rule;
+}
+
+/// The reference of one variant, for one rule.
+Curve reference_curve(const Study& study, const StudyRuns& runs, const StudyRun& run, const fs::path& folder,
+                      const ErrorSpec& spec) {
+  const Expression &x = spec.x->expression, &y = spec.quantity->expression;
+  const Reference& reference = study.reference;
+  switch (reference.kind) {
+    case Reference::Kind::runs:
+      return history_curve(runs.references[run.reference], folder, x, y);
+    case Reference::Kind::expression:
+      return history_curve(run, folder, x, reference.expression->expression);
+    case Reference::Kind::table:
+      return {evaluate(reference.x ? reference.x->expression : x, reference.table, run.let),
+              evaluate(reference.y ? reference.y->expression : y, reference.table, run.let)};
+    case Reference::Kind::none:
+      break;
+  }
+  return {};
+}
+
+void measure(const Study& study, const StudyRuns& runs, const StudyRun& run, const fs::path& folder,
+             StudyResult& result) {
+  std::vector<ErrorSpec> specs{study.error};
+  specs.insert(specs.end(), study.more.begin(), study.more.end());
+  for (const ErrorSpec& spec : specs) {
+    const Curve curve = history_curve(run, folder, spec.x->expression, spec.quantity->expression);
+    const Measured measured =
+        measure_error(rule_of(spec, run.let), curve, reference_curve(study, runs, run, folder, spec));
+    if (result.errors.empty()) {
+      result.value = measured.value;
+      result.reached = curve.x.empty() ? 0 : curve.x.back();
+    }
+    result.errors.push_back(measured.error);
+  }
+}
+
+void mark_front(Cost cost, std::vector<StudyResult>& results) {
+  std::vector<double> costs, errors;
+  for (const StudyResult& result : results) {
+    const bool whole = result.status == "finished" && !result.errors.empty();
+    costs.push_back(cost_of(result, cost));
+    errors.push_back(whole ? result.errors[0] : std::nan(""));
+  }
+  const std::vector<bool> front = pareto_front(costs, errors);
+  for (std::size_t k = 0; k < results.size(); ++k) results[k].pareto = front[k];
+}
+
+}  // namespace
+
+bool has_ended(const StudyRun& run, const fs::path& folder, int threads) {
+  const auto json = read_summary(folder / run.folder);
+  if (!json) return false;
+  const std::string status = json->value("status", "");
+  if (status != "finished" && status != "failed") return false;
+  if (threads > 0 && json->value("threads", 0) != threads) return false;
+  return read_text(folder / run.folder / "scene.yaml") == run.scene.resolved_yaml;
+}
+
+Curve history_curve(const StudyRun& run, const fs::path& folder, const Expression& x, const Expression& y) {
+  const Table table = read_table(folder / run.folder / "history.csv");
+  return {evaluate(x, table, run.let), evaluate(y, table, run.let)};
+}
+
+double cost_of(const StudyResult& result, Cost cost) {
+  return cost == Cost::wall ? result.wall : result.particle_steps;
+}
+
+StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs::path& folder) {
+  StudyResults out;
+  bool references_ended = true;
+  for (const StudyRun& run : runs.references) {
+    references_ended = references_ended && has_ended(run, folder, 0);
+    const auto json = read_summary(folder / run.folder);
+    if (json && json->value("status", "") == "failed") out.reference_failed = true;
+  }
+  for (const StudyRun& run : runs.variants) {
+    StudyResult result;
+    const auto json = read_summary(folder / run.folder);
+    if (json && has_ended(run, folder, 0)) {
+      read_summary(*json, result);
+      out.machine.cpu = json->value("cpu", "");
+      out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));
+      out.machine.threads = json->value("threads", 0);
+      if (references_ended) measure(study, runs, run, folder, result);
+    }
+    out.variants.push_back(std::move(result));
+  }
+  mark_front(study.costs.front(), out.variants);
+  return out;
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,48 @@
+#pragma once
+
+/// @file What the runs of a study came to.
+
+#include <string>
+#include <vector>
+
+#include "study.hpp"
+
+namespace mpmfast {
+
+struct StudyResult {
+  std::string status;          ///< of run.json: finished, failed; empty when not run yet
+  std::vector<double> errors;  ///< Study::error, then Study::more; not a number where nothing can be compared
+  double value = 0;            ///< of Study::error, where it looks for one
+  double reached = 0;          ///< x of the last row of the history
+  double particle_steps = 0, wall = 0, speed = 0;  ///< speed: particle-steps per second of stepping
+  double mean_iterations = 0, energy_error = 0;
+  std::uint64_t fallbacks = 0, unconverged = 0;
+  bool pareto = false;
+};
+
+/// The machine and the program, as the first run tells.
+struct StudyMachine {
+  std::string cpu, version;
+  int threads = 0;
+};
+
+struct StudyResults {
+  std::vector<StudyResult> variants;  ///< as StudyRuns::variants
+  StudyMachine machine;
+  bool reference_failed = false;
+};
+
+/// Reads run.json and history.csv of every run that has ended below `folder`, measures errors and marks the
+/// front of those that finished. Throws FileError.
+StudyResults collect_results(const Study& study, const StudyRuns& runs, const std::filesystem::path& folder);
+
+/// Has this run ended (finished or failed) with the same scene and, unless `threads` is 0, as many threads?
+bool has_ended(const StudyRun& run, const std::filesystem::path& folder, int threads);
+
+/// The x and y of one run's history.
+Curve history_curve(const StudyRun& run, const std::filesystem::path& folder, const Expression& x,
+                    const Expression& y);
+
+double cost_of(const StudyResult& result, Cost cost);
+
+}  // namespace mpmfast

@@ -1,0 +1,44 @@
+#pragma once
+
+/// @file A table of numbers with a header, and curves made of expressions over its columns.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "expression.hpp"
+
+namespace mpmfast {
+
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> columns;
+
+  std::size_t rows() const { return columns.empty() ? 0 : columns[0].size(); }
+  /// Nothing when there is no such column.
+  const std::vector<double>* find(const std::string& name) const;
+};
+
+/// Reads a CSV file with a header (cells may be quoted). A last line without its end, which a kill leaves, is
+/// left out. Throws FileError.
+Table read_table(const std::filesystem::path& file);
+
+/// Names that an expression may use beside the columns.
+using Constants = std::map<std::string, double>;
+
+/// The expression for every row. Throws FileError, naming the column, when a name is neither a column nor a
+/// constant.
+std::vector<double> evaluate(const Expression& expression, const Table& table, const Constants& constants);
+
+/// The expression of constants alone.
+double evaluate(const Expression& expression, const Constants& constants);
+
+struct Curve {
+  std::vector<double> x, y;
+};
+
+/// Linear between the points; not a number outside.
+double value_at(const Curve& curve, double x);
+
+}  // namespace mpmfast
