@@ -34,7 +34,7 @@ std::vector<Override> with(std::vector<Override> a, const std::vector<Override>&
 TEST_CASE("gap: LR contact begins within 1 % of theory on a grid line and mid-cell") {
   const std::vector<Override> quiet{{"output.frames", "0"}};
   for (const auto& position : {std::vector<Override>{}, kMidCell})
-    for (const char* normal : {"logistic_regression", "smoothed_logistic_regression"})
+    for (const char* normal : {"logistic_regression", "smoothed_max_margin"})
       for (const char* update : {"flip", "xpic(5)"})
         for (const char* basis : {"ugimp", "lcpdi"}) {
           CAPTURE(position.size());
