@@ -113,7 +113,7 @@ check_words() {
   says out 'run'
   run 2
   run 2 rnu scene.yaml
-  says err "unknown command 'rnu' (one of run, check, list). Did you mean 'run'?"
+  says err "unknown command 'rnu' (one of run, check, study, plot, list). Did you mean 'run'?"
   run 2 run
   says err 'SCENE is required'
   run 2 run scene.yaml --thread 2
@@ -200,6 +200,82 @@ check_signals() {
   done
 }
 
+# Two variants x two values; one variant throws its block out of the grid.
+write_good_study() {
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+variants:
+  - {name: slow}
+  - {name: fallen, set: {"bodies.0.velocity": [0, -20 km/s]}}
+vary: {method.update: [flip, pic]}
+error: {quantity: block.vy, compare: final, expected: -1}
+STUDY
+}
+
+check_study() {
+  local before
+  write_good_study
+  run 0 study scene_study.yaml --out study
+  says err '[4/4] fallen, pic'
+  says err "failed: step"
+  [[ $(head -n 1 study/study.csv) == variant,error,particle_steps,wall_s,particle_steps_per_s,pareto,* ]] ||
+    fail 'study.csv does not begin with the columns of the contract'
+  [[ $(grep -c ',finished,' study/study.csv) == 2 && $(grep -c '^"fallen, .*,failed,' study/study.csv) == 2 ]] ||
+    fail 'study.csv does not keep two finished and two failed variants'
+  before=$(cat study/*/run.json | md5sum)
+  cp study/study.csv study_before.csv
+  run 0 study scene_study.yaml --out study
+  [[ $(grep -c 'had ended already' err) == 4 && $(cat study/*/run.json | md5sum) == "$before" ]] ||
+    fail 'a second study repeats what has ended'
+  cmp -s study/study.csv study_before.csv || fail 'a second study writes another study.csv'
+  sed -i 's/\[flip, pic\]/[flip, pic, xpic(2)]/' scene_study.yaml
+  run 0 study scene_study.yaml --out study
+  [[ $(grep -c 'had ended already' err) == 4 && $(wc -l <study/study.csv) == 7 ]] ||
+    fail 'a study that grew runs more than what is new'
+  rm -rf study study_before.csv
+}
+
+check_wrong_study() {
+  write_good_study
+  sed -i -e 's/compare: final/comprae: final/' -e 's/\[flip, pic\]/[flip, pik]/' scene_study.yaml
+  run 2 study scene_study.yaml
+  reports scene_study.yaml 6 error.comprae "unknown key. Did you mean 'compare'?"
+  wrote_nothing 'a study with a wrong key'
+  write_good_study
+  sed -i -e 's/\[flip, pic\]/[flip, pik]/' -e 's/block.vy/blok.vy/' scene_study.yaml
+  run 2 study scene_study.yaml
+  reports scene_study.yaml 5 vary.method.update.1 "the scene says: method.update: "
+  reports scene_study.yaml 6 error.quantity "no column of the history 'blok.vy'. Did you mean 'block.vy'?"
+  wrote_nothing 'a study that the scene refuses'
+  write_good_study
+  mkdir other && touch other/precious
+  run 2 study scene_study.yaml --out other
+  says err 'the output folder other holds something else than a study'
+  [[ $(ls other) == precious ]] || fail 'a refused study wrote into the folder'
+  rm -rf other
+  run 4 study scene_nowhere.yaml
+}
+
+check_plot() {
+  local chart
+  run 0 run scene.yaml --steps 4 --out plotted --progress none
+  run 2 plot plotted --columns blok.vy
+  says err "no column 'blok.vy', got 'blok.vy'. Did you mean 'block.vy'?"
+  run 4 plot nowhere
+  if command -v gnuplot >/dev/null; then
+    run 0 plot plotted
+    run 0 plot plotted --columns block.vy --columns='-block.vy * 2'
+    for chart in energy momentum stress columns; do
+      [[ $(head -c 4 "plotted/plot_$chart.png") == $'\x89PNG' ]] || fail "plot_$chart.png is no picture"
+      grep -q '</svg>' "plotted/plot_$chart.svg" || fail "plot_$chart.svg is not whole"
+    done
+  else
+    run 4 plot plotted
+    says err 'gnuplot is not installed'
+  fi
+  rm -rf plotted
+}
+
 check_broken_scenes
 check_unreadable_scenes
 write_good_scene
@@ -209,5 +285,8 @@ check_overrides
 check_output_folder
 check_failed_run
 check_signals
+check_study
+check_wrong_study
+check_plot
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]

@@ -77,6 +77,7 @@ class Expansion {
     for (std::size_t k = 0; k < runs_.references.size(); ++k)
       if (runs_.references[k].choice == own) return k;
     runs_.references.push_back(make("reference", own, study_.reference.per, study_.reference.set));
+    check_reference(runs_.references.back());
     return runs_.references.size() - 1;
   }
 
@@ -127,6 +128,29 @@ class Expansion {
     if (std::any_of(of_scenes_.begin(), of_scenes_.end(), same)) return;
     diagnostic.message += fmt::format(" (in the run '{}')", run);
     of_scenes_.push_back(diagnostic);
+  }
+
+  /// A reference is measured by the same expressions, but knows only the constants of its own axes.
+  void check_reference(const StudyRun& run) {
+    if (run.scene.bodies.empty()) return;  // it could not be read
+    std::set<std::string> others;
+    for (const Axis& axis : study_.axes)
+      for (const Choice& choice : axis.choices)
+        for (const auto& [constant, value] : choice.let)
+          if (!run.let.contains(constant)) others.insert(constant);
+    const auto check = [&](const std::optional<Formula>& formula) {
+      if (!formula) return;
+      for (const std::string& name : formula->expression.names())
+        if (others.contains(name))
+          problems_.add(formula->place, formula->path,
+                        fmt::format("the reference has no constant '{}': its axis is not in per", name));
+    };
+    std::vector<ErrorSpec> specs = study_.more;
+    specs.push_back(study_.error);
+    for (const ErrorSpec& spec : specs)
+      for (const auto& formula : {spec.quantity, spec.x}) check(formula);
+    for (const CurveSpec& curve : study_.curves)
+      for (const auto& formula : {curve.x, curve.y}) check(formula);
   }
 
   void check_formulas(const StudyRun& run) {

@@ -142,6 +142,8 @@ class ExpressionParser {
       if (!std::holds_alternative<Unit>(unit)) return fail("an operator or a unit was expected");
       value = value * std::get<Unit>(unit).multiplier / std::get<Unit>(unit).divisor;
       at_ = last;
+      skip();  // "5 mm^2" is meant as an area, but would be (5 mm)^2
+      if (at_ < text_.size() && text_[at_] == '^') return fail("a unit takes no power (write (5 mm)^2)");
     }
     out_.codes_.push_back({Kind::number, value});
   }

@@ -50,6 +50,7 @@ Reference read_reference(const Value& value, const Study& study) {
 ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
   MapReader map(value, "a map {quantity, x, compare, relative, window, above, below, expected}");
   if (!map.valid()) return spec;
+  const std::size_t before = value.problems().count();
   if (!spec.quantity) map.need("quantity", "a column of history.csv or an expression of columns");
   read_formula(map, "quantity", spec.quantity);
   read_formula(map, "x", spec.x);
@@ -71,6 +72,7 @@ ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
   }
   read_formula(map, "expected", spec.expected);
   map.finish();
+  if (value.problems().count() > before) return spec;  // what would be missing then is not known
   const bool one_value = spec.rule.compare == Compare::crossing || spec.rule.compare == Compare::final_value;
   if (spec.rule.compare == Compare::crossing && !spec.threshold)
     value.report("a crossing needs above or below");
@@ -107,7 +109,7 @@ std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& a
     CurveSpec curve;
     const auto name = map.need("name", "the name of the picture");
     if (name) curve.name = name->name().value_or("");
-    if (!names.insert(curve.name).second || curve.name == "study" || curve.name == "error")
+    if (name && (!names.insert(curve.name).second || curve.name == "study" || curve.name == "error"))
       name->complain("is taken by another file of the study");
     map.need("y", "a column of history.csv or an expression of columns");
     read_formula(map, "x", curve.x);

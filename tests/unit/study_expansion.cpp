@@ -1,0 +1,115 @@
+#include <doctest/doctest.h>
+
+#include "tests/unit/study_fixture.hpp"
+
+using namespace study_test;
+
+namespace {
+
+const std::string kError = "error: {quantity: block.vy, compare: final, expected: 1}\n";
+
+std::vector<std::string> folders_of(const std::vector<StudyRun>& runs) {
+  std::vector<std::string> out;
+  for (const StudyRun& run : runs) out.push_back(run.folder);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the runs of a study are the product of its variants and axes, the last turning fastest") {
+  const StudyFolder folder;
+  const StudyRuns runs =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "variants: [{name: slow}, {name: fast}]\n"
+                                "vary:\n"
+                                "  method.update: [flip, xpic(2)]\n"
+                                "  time.cfl: [0.1, 0.2, 0.4]\n" +
+                                kError));
+  CHECK(runs.references.empty());
+  REQUIRE(runs.variants.size() == 12);
+  CHECK(runs.variants[0].name == "slow, flip, 0.1");
+  CHECK(runs.variants[1].name == "slow, flip, 0.2");
+  CHECK(runs.variants[3].name == "slow, xpic(2), 0.1");
+  CHECK(runs.variants[11].name == "fast, xpic(2), 0.4");
+  CHECK(runs.variants[3].folder == "slow_xpic2_0.1");
+  CHECK(runs.variants[3].choice == std::vector<std::size_t>{0, 1, 0});
+}
+
+TEST_CASE("a run's scene holds the common settings, then the variant's, then those of its axes") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(
+      folder.study("scene: scene.yaml\n"
+                   "set: {time.cfl: 0.1, bodies.0.velocity: [1 m/s, 0]}\n"
+                   "variants:\n"
+                   "  - {name: as it is}\n"
+                   "  - {name: quick, set: {time.cfl: 0.2, \"bodies.0.velocity\": [3 m/s, -4]}}\n"
+                   "vary: {size: {small: {}, half: {set: {time.cfl: 0.5}}}}\n" +
+                   kError));
+  REQUIRE(names_of(runs.variants) ==
+          std::vector<std::string>{"as it is, small", "as it is, half", "quick, small", "quick, half"});
+  const double expected[] = {0.1, 0.5, 0.2, 0.5};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(runs.variants[k].scene.time.cfl == expected[k]);
+  CHECK(runs.variants[0].scene.bodies[0].velocity[0] == 1);
+  CHECK(runs.variants[3].scene.bodies[0].velocity[1] == -4);
+}
+
+TEST_CASE("`only` leaves out the combinations that it does not name") {
+  const StudyFolder folder;
+  const StudyRuns runs =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "variants: [{name: a, only: {method.update: pic}}, {name: b}]\n"
+                                "vary: {method.update: [flip, pic]}\n" +
+                                kError));
+  CHECK(names_of(runs.variants) == std::vector<std::string>{"a, pic", "b, flip", "b, pic"});
+}
+
+TEST_CASE("every run has a folder of its own that any file system takes") {
+  const StudyFolder folder;
+  const StudyRuns runs =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "variants: [{name: \"A b\"}, {name: a/b}, {name: a_b}, {name: \"..\"}, "
+                                "{name: \"()\"}, {name: \"../up\"}]\n" +
+                                kError));
+  CHECK(folders_of(runs.variants) ==
+        std::vector<std::string>{"a_b", "a_b_2", "a_b_3", "run", "run_2", ".._up"});
+}
+
+TEST_CASE("a reference runs once for each value of its own axes, and every variant finds its own") {
+  const StudyFolder folder;
+  const StudyRuns runs =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "variants: [{name: a}, {name: b}]\n"
+                                "vary: {method.update: [flip, pic]}\n"
+                                "reference: {set: {contact: none}, per: [method.update]}\n"
+                                "error: {quantity: block.vy, compare: max}\n"));
+  CHECK(names_of(runs.references) == std::vector<std::string>{"reference, flip", "reference, pic"});
+  REQUIRE(runs.variants.size() == 4);
+  const std::size_t expected[] = {0, 1, 0, 1};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(runs.variants[k].reference == expected[k]);
+}
+
+TEST_CASE("constants of a variant reach the expressions of the study") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(
+      folder.study("scene: scene.yaml\n"
+                   "variants: [{name: a, let: {shift: 2 mm}}, {name: b, let: {shift: 3 * 4}}]\n"
+                   "error: {quantity: block.vy - shift, compare: final, expected: 2 * shift}\n"));
+  CHECK(runs.variants[0].let.at("shift") == doctest::Approx(0.002).epsilon(1e-15));
+  CHECK(runs.variants[1].let.at("shift") == 12);
+}
+
+TEST_CASE("the studies that come with the program can be read and expanded") {
+  const std::filesystem::path studies = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs/studies";
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(studies)) {
+    if (entry.path().extension() != ".yaml") continue;
+    CAPTURE(entry.path().string());
+    ++count;
+    try {
+      CHECK(!expand_study(read_study(entry.path())).variants.empty());
+    } catch (const SceneError& error) {
+      FAIL_CHECK(error.what());
+    }
+  }
+  CHECK(count >= 4);
+}

@@ -1,0 +1,118 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tests/unit/study_fixture.hpp"
+#include "tools/study/report.hpp"
+
+using namespace study_test;
+
+namespace {
+
+/// What a run with 16 particles and 10 steps leaves behind; the speed of the block ends at `vy`.
+void leave_run(const std::filesystem::path& folder, const StudyRun& run, const std::string& status,
+               double wall, double vy) {
+  write_text(folder / run.folder / "scene.yaml", run.scene.resolved_yaml);
+  write_text(folder / run.folder / "history.csv", fmt::format("time_s,block.vy\n0,0\n1e-5,{}\n", vy));
+  write_text(
+      folder / run.folder / "run.json",
+      fmt::format("{{\"status\": \"{}\", \"particles\": 16, \"steps\": 10, \"wall_s\": {}, \"threads\": 2,"
+                  "\"particle_steps_per_s\": 800, \"energy_error\": 0.25}}",
+                  status, wall));
+}
+
+const std::string kStudy =
+    "scene: scene.yaml\n"
+    "variants: [{name: a}, {name: \"b, |\"}, {name: c}, {name: d}, {name: e}]\n"
+    "error: {quantity: block.vy, compare: final, expected: -10}\n"
+    "more: {by itself: {relative: \"no\"}}\n";
+
+}  // namespace
+
+TEST_CASE("results are the errors and costs of the runs that have ended; the front is of the finished") {
+  const StudyFolder folder;
+  const auto out = folder.path() / "out";
+  const Study study = folder.study(kStudy);
+  const StudyRuns runs = expand_study(study);
+  leave_run(out, runs.variants[0], "finished", 2, -11);
+  leave_run(out, runs.variants[1], "finished", 1, -15);
+  leave_run(out, runs.variants[2], "finished", 3, -8);
+  leave_run(out, runs.variants[3], "failed", 0.5, -10);
+  leave_run(out, runs.variants[4], "stopped", 0.5, -10);
+  const StudyResults results = collect_results(study, runs, out);
+  const double errors[] = {0.1, 0.5, 0.2, 0};
+  const bool front[] = {true, true, false, false};
+  for (std::size_t k = 0; k < 4; ++k) {
+    CAPTURE(k);
+    const StudyResult& result = results.variants[k];
+    CHECK(result.errors.at(0) == doctest::Approx(errors[k]));
+    CHECK(result.errors.at(1) == doctest::Approx(10 * errors[k]));
+    CHECK(result.particle_steps == 160);
+    CHECK(result.reached == 1e-5);
+    CHECK(result.pareto == front[k]);
+  }
+  CHECK(results.variants[3].status == "failed");
+  CHECK(results.variants[4].status.empty());
+  CHECK(results.machine.threads == 2);
+  CHECK(study_csv(study, runs, results) ==
+        "variant,error,particle_steps,wall_s,particle_steps_per_s,pareto,variants,status,value,reached,"
+        "mean_iterations,fallbacks,unconverged,energy_error,by itself\n"
+        "a,0.1,160,2,800,1,a,finished,-11,1e-05,0,0,0,0.25,1\n"
+        "\"b, |\",0.5,160,1,800,1,\"b, |\",finished,-15,1e-05,0,0,0,0.25,5\n"
+        "c,0.2,160,3,800,0,c,finished,-8,1e-05,0,0,0,0.25,2\n"
+        "d,0,160,0.5,800,0,d,failed,-10,1e-05,0,0,0,0.25,0\n");
+  const std::string table = study_table(study, runs, results);
+  CHECK(table.find("| b, \\| | 5 | 50.00 % | -15 |") != std::string::npos);
+  CHECK(table.find("1e-05, failed") != std::string::npos);
+}
+
+TEST_CASE("a run has ended only with the same scene, and as many threads where they are asked for") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(folder.study(kStudy));
+  const StudyRun& run = runs.variants[0];
+  CHECK(!has_ended(run, folder.path(), 0));
+  leave_run(folder.path(), run, "finished", 1, 0);
+  CHECK(has_ended(run, folder.path(), 0));
+  CHECK(has_ended(run, folder.path(), 2));
+  CHECK(!has_ended(run, folder.path(), 1));
+  write_text(folder.path() / run.folder / "scene.yaml", run.scene.resolved_yaml + "# another\n");
+  CHECK(!has_ended(run, folder.path(), 0));
+  leave_run(folder.path(), run, "stopped", 1, 0);
+  CHECK(!has_ended(run, folder.path(), 0));
+  write_text(folder.path() / run.folder / "run.json", "{\"status\": \"fini");
+  CHECK(!has_ended(run, folder.path(), 0));
+}
+
+TEST_CASE("a variant is measured against the run of its reference") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "vary: {method.update: [flip, pic]}\n"
+      "reference: {set: {contact: none}, per: [method.update]}\n"
+      "error: {quantity: -block.vy, compare: max}\n");
+  const StudyRuns runs = expand_study(study);
+  const double reference[] = {-4, -5}, variant[] = {-5, -4};
+  for (std::size_t k = 0; k < 2; ++k) leave_run(folder.path(), runs.variants[k], "finished", 1, variant[k]);
+  CHECK(collect_results(study, runs, folder.path()).variants[0].errors.empty());  // its reference has not run
+  for (std::size_t k = 0; k < 2; ++k)
+    leave_run(folder.path(), runs.references[k], "finished", 1, reference[k]);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  CHECK(results.variants[0].errors.at(0) == doctest::Approx(0.25));
+  CHECK(results.variants[1].errors.at(0) == doctest::Approx(0.2));
+}
+
+TEST_CASE("a reference may be an expression of the run's own columns or a table beside the study") {
+  const StudyFolder folder;
+  const std::string head =
+      "scene: scene.yaml\nvariants: [{name: a}]\n"
+      "error: {quantity: block.vy, compare: max, relative: maximum}\n";
+  write_text(folder.path() / "theory.csv", "t_us,v\n0,0\n20,-16\n");
+  for (const char* reference : {"{expression: -8e5 * time_s}", "{table: theory.csv, x: t_us * 1e-6, y: v}"}) {
+    CAPTURE(reference);
+    const Study study = folder.study(head + "reference: " + reference + "\n");
+    const StudyRuns runs = expand_study(study);
+    leave_run(folder.path(), runs.variants[0], "finished", 1, -10);
+    const double scale = study.reference.kind == Reference::Kind::table ? 16 : 8;
+    CHECK(collect_results(study, runs, folder.path()).variants[0].errors.at(0) == doctest::Approx(2 / scale));
+  }
+}
