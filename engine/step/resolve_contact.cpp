@@ -215,8 +215,9 @@ Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting&
   const Vec<Dim> free =
       resolve_pair<Dim>(meeting.stick, entry.normal, separation, law, meeting.reduced, area_time);
   const double along = meeting.stick.dot(entry.normal);
-  const bool holds = Law::scope == LawScope::contact && correction == Correction::initial &&
-                     spec_.persistent && entry.touched && separation < 0 && along > 0;
+  const bool overlaps = spec_.detection == DetectionKind::separation;  // in contact, parting or not
+  const bool lasts = correction == Correction::initial && spec_.persistent && entry.touched;
+  const bool holds = Law::scope == LawScope::contact && (overlaps || lasts) && separation < 0 && along > 0;
   return holds ? Vec<Dim>(along * entry.normal) : free;
 }
 
