@@ -16,7 +16,7 @@ void plan_method(const MethodSpec& method, Plan& plan) {
                                                     : ParticleUpdate::xpic;
   plan.full_mass = method.update == UpdateKind::fmpm;  // gathered as XPIC is
   plan.order = plan.update == ParticleUpdate::xpic ? method.xpic_order : 1;
-  plan.position = method.update == UpdateKind::flip            ? PositionUpdate::grid
+  plan.position = method.position == PositionKind::grid_end    ? PositionUpdate::grid_end
                   : method.position == PositionKind::grid      ? PositionUpdate::grid
                   : method.position == PositionKind::trapezoid ? PositionUpdate::trapezoid
                                                                : PositionUpdate::particle;

@@ -84,6 +84,18 @@ double sum_by_id(const State<Dim>& state, const F& density) {
   return sum;
 }
 
+/// A domain that lies at an angle (about z) is a turned one: F = R.
+template <int Dim>
+void turn_domain(Particles<Dim>& particles, std::size_t p, double angle) {
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const auto f = [&](int i, int j) -> double& {
+    return particles.column(Quantity::deformation_gradient, Dim * i + j)[p];
+  };
+  f(0, 0) = f(1, 1) = cosine;
+  f(1, 0) = sine;
+  f(0, 1) = -sine;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -129,9 +141,11 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     for (std::size_t d = 0; d < Dim; ++d) volume *= 2 * seeds[b].half_size[d];
     const double mass =
         volume * density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
-    for (const Vec3& x : seeds[b].position) {
+    for (std::size_t k = 0; k < seeds[b].position.size(); ++k) {
+      const Vec3& x = seeds[b].position[k];
       // Axisymmetric particles are rings of a full turn.
       const double around = plan.depth == Depth::hoop ? kFullTurn * x[0] : 1.0;
+      const double share = around * (seeds[b].share.empty() ? 1.0 : seeds[b].share[k]);
       if (particles.has(Quantity::out_of_plane_stretch))
         particles.column(Quantity::out_of_plane_stretch)[p] = 1;
       for (int d = 0; d < Dim; ++d) {
@@ -141,8 +155,9 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
         particles.column(Quantity::velocity, d)[p] = scene.bodies[b].velocity[static_cast<std::size_t>(d)];
         particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
       }
-      particles.column(Quantity::mass)[p] = around * mass;
-      particles.column(Quantity::initial_volume)[p] = around * volume;
+      if (!seeds[b].angle.empty()) turn_domain(particles, p, seeds[b].angle[k]);
+      particles.column(Quantity::mass)[p] = share * mass;
+      particles.column(Quantity::initial_volume)[p] = share * volume;
       particles.id()[p] = static_cast<std::uint32_t>(p);
       particles.body()[p] = static_cast<std::uint16_t>(b);
       ++p;

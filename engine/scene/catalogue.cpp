@@ -54,6 +54,13 @@ std::vector<CatalogueEntry> boundaries() {
        "the same at the node nearest to a point"}};
 }
 
+std::vector<CatalogueEntry> seedings() {
+  return {{"lattice", "", "on the grid's lattice, of a box on one of its own (default)"},
+          {"rings", "", "about the centre of a disk or a ring, so that its outline is smooth"},
+          {"{angle: …}", "",
+           "on a lattice turned about z, along the edges of a block that lies across the grid"}};
+}
+
 std::vector<CatalogueEntry> output_keys() {
   const OutputSpec plain;
   return {{"frames", fmt::format("= {}", plain.frames), "particle files, evenly spaced in time; 0: none"},
@@ -68,7 +75,7 @@ std::vector<CatalogueEntry> output_keys() {
 std::vector<std::string> catalogue_topics() {
   return {"spaces",    "materials", "bases",       "updates",    "strains", "deformation_terms",
           "positions", "normals",   "separations", "detections", "laws",    "areas",
-          "fields",    "shapes",    "boundaries",  "output",     "pictures"};
+          "fields",    "shapes",    "seedings",    "boundaries", "output",  "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -86,6 +93,7 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "areas") return words_of(kAreas);
   if (topic == "fields") return words_of(kManyFields);
   if (topic == "shapes") return kinds_of(shape_kinds());
+  if (topic == "seedings") return seedings();
   if (topic == "boundaries") return boundaries();
   if (topic == "output") return output_keys();
   std::vector<CatalogueEntry> out;

@@ -129,59 +129,6 @@ Bounds extent(const BitmapShape& shape) {
   return out;
 }
 
-/// Points along one axis: some, from `begin` on, of first, first + spacing …
-struct Row {
-  double first = 0, spacing = 0;
-  long count = 1, begin = 0;
-
-  double at(long i) const { return first + spacing * static_cast<double>(begin + i); }
-};
-using Lattice = std::array<Row, 3>;
-
-/// A lattice of the box's own, which ends on its faces.
-Lattice lattice_of(const BoxShape& box, const BodySpec& body, const GridSpec& grid, int dimension) {
-  Lattice lattice;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-    const double edge = box.upper[k] - box.lower[k];
-    const double wanted = grid.cell / body.particles_per_cell[k];
-    const long count = std::max(std::lround(edge / wanted), 1L);
-    const double spacing = edge / static_cast<double>(count);
-    lattice[k] = {box.lower[k] + 0.5 * spacing, spacing, count};
-  }
-  return lattice;
-}
-
-/// The grid's lattice where the shape can be, with a point to spare on each side against round-off. All
-/// bodies count from the grid's corner: to the last bit a point is the same for each, so that two grey levels
-/// of a picture never both have it.
-template <class AnyShape>
-Lattice lattice_of(const AnyShape& shape, const BodySpec& body, const GridSpec& grid, int dimension) {
-  const Bounds box = extent(shape);
-  Lattice lattice;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-    const double spacing = grid.cell / body.particles_per_cell[k];
-    const long all = std::lround(grid.size[k] / spacing);
-    const auto index = [&](double x) {
-      return std::clamp((x - grid.origin[k]) / spacing, 0.0, static_cast<double>(all));
-    };
-    const long begin = std::max(static_cast<long>(std::floor(index(box.lower[k]))) - 1, 0L);
-    const long end = std::min(static_cast<long>(std::ceil(index(box.upper[k]))) + 1, all);
-    lattice[k] = {grid.origin[k] + 0.5 * spacing, spacing, std::max(end - begin, 0L), begin};
-  }
-  return lattice;
-}
-
-/// Hands over every point of the lattice, x fastest.
-template <class Visit>
-void each_point(const Lattice& lattice, const Visit& visit) {
-  for (long k = 0; k < lattice[2].count; ++k) {
-    for (long j = 0; j < lattice[1].count; ++j) {
-      for (long i = 0; i < lattice[0].count; ++i)
-        visit(Vec3{lattice[0].at(i), lattice[1].at(j), lattice[2].at(k)});
-    }
-  }
-}
-
 }  // namespace
 
 bool contains(const Shape& shape, const Vec3& point) {
@@ -190,21 +137,6 @@ bool contains(const Shape& shape, const Vec3& point) {
 
 Bounds bounds(const Shape& shape) {
   return std::visit([](const auto& known) { return extent(known); }, shape);
-}
-
-Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension) {
-  Seeds seeds;
-  std::visit(
-      [&](const auto& shape) {
-        constexpr bool kBox = std::is_same_v<std::decay_t<decltype(shape)>, BoxShape>;
-        const Lattice lattice = lattice_of(shape, body, grid, dimension);
-        for (std::size_t k = 0; k < 3; ++k) seeds.half_size[k] = 0.5 * lattice[k].spacing;
-        each_point(lattice, [&](const Vec3& point) {
-          if (kBox || inside(shape, point)) seeds.position.push_back(point);
-        });
-      },
-      body.shape);
-  return seeds;
 }
 
 }  // namespace mpmfast

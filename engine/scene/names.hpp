@@ -51,8 +51,12 @@ inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
     {StrainKind::average, "average", "half before, half after (default): the best energy balance in contact"},
 }};
 
-inline constexpr std::array<Word<PositionKind>, 3> kPositions{{
-    {PositionKind::grid, "grid", "particles move with the grid's midpoint velocity (default)"},
+inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
+    {PositionKind::grid_end, "grid_end",
+     "particles move with the grid's velocity at the end of the step: stable under any pressure (default)"},
+    {PositionKind::grid, "grid",
+     "particles move with the grid's midpoint velocity, as published: exact in free fall, unstable where the "
+     "pressure comes near the moduli"},
     {PositionKind::trapezoid, "trapezoid", "particles move with the mean of old and new velocity"},
     {PositionKind::particle, "particle", "particles move with their new velocity"},
 }};

@@ -87,6 +87,17 @@ void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
   }
 }
 
+void read_seeding(MapReader& map, BodySpec& body) {
+  const auto value = map.find("seeding");
+  if (!value || value->is_word("lattice")) return;
+  body.seeding.rings = value->is_word("rings");
+  if (body.seeding.rings) return;
+  if (!value->is(Node::Kind::map)) return value->complain("not lattice, rings or {angle: …}");
+  MapReader angle(*value);
+  angle.need_quantity("angle", Measure::angle, kAny, body.seeding.angle);
+  angle.finish();
+}
+
 void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   const auto value = map.find("velocity");
   if (!value) return;
@@ -133,6 +144,7 @@ class BodyReader {
     const auto field = map.find("field");
     body.field = (field ? field->name() : std::nullopt).value_or("");
     read_particles_per_cell(map, dimension, body);
+    read_seeding(map, body);
     read_velocity(map, dimension, body);
     read_rotation(map, dimension, body);
     if (map.find("bitmap")) {
@@ -211,6 +223,30 @@ void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& pla
   }
 }
 
+/// A round shape in the plane: a disk, or a ring.
+bool is_round(const Scene& scene, const Shape& shape) {
+  if (scene.dimension() != 2) return false;
+  const auto* ellipse = std::get_if<EllipsoidShape>(&shape);
+  return std::holds_alternative<RingShape>(shape) || (ellipse && ellipse->radii[0] == ellipse->radii[1]);
+}
+
+/// Where particles cannot lie as `seeding` says.
+void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  if (!body.seeding.turned()) return;
+  const auto refuse = [&](const char* why) {
+    if (const auto seeding = MapReader(place.entry).find("seeding")) seeding->complain(why);
+  };
+  const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
+  if (std::holds_alternative<LinearElasticSpec>(model))
+    refuse("linear_elastic takes turned particles for strained ones (neo_hookean does not)");
+  if (std::holds_alternative<BitmapShape>(body.shape))
+    refuse("the levels of a bitmap share the grid's lattice");
+  if (scene.space == Space::axisymmetric)
+    refuse("the particles of an axisymmetric scene lie along the radius");
+  if (body.seeding.rings && !is_round(scene, body.shape))
+    refuse("rings are for disks and rings in the plane");
+}
+
 /// Particles have indices of 32 bits, and nobody means a billion of them.
 void check_count(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
   constexpr double kMost = 1e9;
@@ -249,6 +285,7 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     if (!names.insert(body.name).second)
       places[b].name.report(fmt::format("another body is called '{}'", body.name));
     fields.insert(body.field);
+    check_seeding(scene, body, places[b]);
     if (!grid_known) continue;
     check_inside(scene, body, places[b]);
     check_count(scene, body, places[b]);

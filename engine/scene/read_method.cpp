@@ -58,8 +58,9 @@ void read_method(MapReader& top, MethodSpec& method) {
   map.word("strain", kStrains, method.strain);
   const auto position = map.find("position");
   if (const auto chosen = position ? position->word(kPositions) : std::nullopt) {
-    if (method.update == UpdateKind::flip && *chosen != PositionKind::grid) {
-      position->complain("flip moves particles with the grid (position: grid)");
+    if (method.update == UpdateKind::flip && *chosen != PositionKind::grid &&
+        *chosen != PositionKind::grid_end) {
+      position->complain("flip moves particles with the grid (position: grid_end or grid)");
     }
     if (method.update == UpdateKind::apic && *chosen != PositionKind::particle) {
       position->complain("apic moves particles with their velocity (position: particle)");

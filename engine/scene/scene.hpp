@@ -22,8 +22,9 @@ enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
 /// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
 enum class StrainKind { first, last, average };
-/// How XPIC and PIC move particles: with the grid's midpoint velocity, with ½(V_old + V_new), with V_new.
-enum class PositionKind { grid, trapezoid, particle };
+/// How particles move: with the grid's velocity at the end of the step, with its midpoint velocity, with
+/// ½(V_old + V_new), with V_new.
+enum class PositionKind { grid_end, grid, trapezoid, particle };
 enum class NormalKind {
   logistic_regression,
   smoothed_logistic_regression,
@@ -82,7 +83,7 @@ struct MethodSpec {
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
-  PositionKind position = PositionKind::grid;  ///< FLIP always moves with the grid, APIC with its velocity
+  PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, or kAllTerms.
   int deformation_terms = 2;
   static constexpr int kAllTerms = 0;
@@ -169,12 +170,21 @@ struct RotationSpec {
   TimeTable speed;     ///< rad/s, right-handed about the axis
 };
 
+/// How the particles of a body lie: on a lattice along the axes, on one turned about z, or on rings.
+struct SeedingSpec {
+  bool rings = false;
+  double angle = 0;  ///< rad, of the lattice
+
+  bool turned() const { return rings || angle != 0; }
+};
+
 struct BodySpec {
   std::string name;
   Shape shape;
   int material = 0;   ///< index into Scene::materials
   std::string field;  ///< bodies with the same name here share a velocity field; default: own name
   std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
+  SeedingSpec seeding;
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
   std::optional<RotationSpec> rotation;                    ///< rigid bodies

@@ -188,6 +188,12 @@ std::string velocity_text(const BodySpec& body, int d) {
   return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
+std::string seeding_text(const SeedingSpec& seeding) {
+  if (seeding.rings) return "rings";
+  if (seeding.angle == 0) return "lattice";
+  return fmt::format("{{angle: {}}}", quantity_text(seeding.angle, Measure::angle));
+}
+
 std::string entry_text(const Scene& scene, std::size_t first, std::size_t last) {
   const BodySpec& body = scene.bodies[first];
   const int d = scene.dimension();
@@ -204,8 +210,8 @@ std::string entry_text(const Scene& scene, std::size_t first, std::size_t last) 
                        name_text(body.field));
   }
   const std::vector<int> counts(body.particles_per_cell.begin(), body.particles_per_cell.begin() + d);
-  out += fmt::format("    particles_per_cell: [{}]\n    velocity: {}\n", fmt::join(counts, ", "),
-                     velocity_text(body, d));
+  out += fmt::format("    particles_per_cell: [{}]\n    seeding: {}\n    velocity: {}\n",
+                     fmt::join(counts, ", "), seeding_text(body.seeding), velocity_text(body, d));
   if (!body.rotation) return out;
   const std::string axis =
       d == 3 ? fmt::format(", axis: {}", vector_text(body.rotation->axis, Measure::number, d)) : "";

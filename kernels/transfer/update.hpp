@@ -9,7 +9,9 @@
 namespace mpmfast {
 
 enum class ParticleUpdate { flip, pic, xpic, apic };
-enum class PositionUpdate { grid, trapezoid, particle };
+/// The end velocity makes X and V a symplectic pair. With the midpoint, X ← X + ½Δt (v + v⁺) under forces at
+/// the old X, oscillations held by the geometric stiffness (the pressure) grow by ½(ωΔt)² a step.
+enum class PositionUpdate { grid_end, grid, trapezoid, particle };
 
 struct UpdateRule {
   ParticleUpdate velocity;
@@ -43,8 +45,8 @@ struct TileReport {
 };
 
 /// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41; FMPM
-/// alike); APIC: as PIC, and the slopes about the particle. Positions: grid X ← X + Δt(S v⁺ − ½ S aΔt);
-/// trapezoid ½(V_old + V_new); particle V_new.
+/// alike); APIC: as PIC, and the slopes about the particle. Positions: grid_end X ← X + Δt S v⁺; grid X ← X +
+/// Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new.
 /// @param nodes  v⁺, aΔt (and m(v − v*) when NV is 3)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>
@@ -93,7 +95,8 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
             Lanes v_new = grid;
             if (rule.velocity == ParticleUpdate::flip) v_new = v + jump;
             if (rule.velocity == ParticleUpdate::xpic) v_new = load_lanes(&room.value[2 * Dim + d][k]) + jump;
-            Lanes mean = grid - 0.5 * jump;
+            Lanes mean = grid;
+            if (rule.position == PositionUpdate::grid) mean = grid - 0.5 * jump;
             if (rule.position == PositionUpdate::trapezoid) mean = 0.5 * (v + v_new);
             if (rule.position == PositionUpdate::particle) mean = v_new;
             store_lanes(&room.moved[d][k], x + rule.dt * mean);

@@ -1,7 +1,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -153,17 +152,78 @@ TEST_CASE("a bitmap's row 0 is its top, and a point belongs to its pixel") {
   CHECK(box.upper == Vec3{2, 1, 0});
 }
 
-TEST_CASE("the levels of a bitmap share out all particles, at the cost of one image") {
+TEST_CASE("the levels of a bitmap share out all particles") {
   const auto image = stripes(100, 400, 20);
   const GridSpec grid{{0, 0, 0}, {1, 1, 0}, 0.01};
   std::size_t total = 0;
-  const auto begin = std::chrono::steady_clock::now();
-  for (int grey = 0; grey < 20; ++grey) {
+  for (int grey = 0; grey < 20; ++grey)
     total += fill(body_of(BitmapShape{"", {0, 0, 0}, {1, 1, 0}, grey, image}), grid, 2).position.size();
-  }
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
   CHECK(total == 40000u);
-  CHECK(seconds.count() < 2);  // measured: a few milliseconds; the bound is for sanitizers on a busy machine
+}
+
+TEST_CASE("a turned lattice fills a turned block exactly, row upon row from its faces") {
+  const double angle = 0.7, cosine = std::cos(angle), sine = std::sin(angle);
+  const auto at = [&](double u, double v) {
+    return std::array<double, 2>{0.5 + cosine * u - sine * v, 0.5 + sine * u + cosine * v};
+  };
+  const double u = 0.213, v = 0.117;  // half-edges
+  BodySpec body = body_of(PolygonShape{{at(-u, -v), at(u, -v), at(u, v), at(-u, v)}, 0, 0});
+  body.seeding.angle = angle;
+  const Seeds seeds = fill(body, kGrid, 2);
+  CHECK(measure(seeds, 2) == doctest::Approx(4 * u * v).epsilon(1e-12));
+  CHECK(seeds.angle == std::vector<double>(seeds.position.size(), angle));
+  for (const Vec3& x : seeds.position) {  // the distance from the lower face is an odd number of half-edges
+    const double rows = (cosine * (x[1] - 0.5) - sine * (x[0] - 0.5) + v) / (2 * seeds.half_size[1]) + 0.5;
+    CHECK(rows == doctest::Approx(std::round(rows)).epsilon(1e-10));
+  }
+  body.seeding.angle = 0;
+  CHECK(std::abs(measure(fill(body, kGrid, 2), 2) - 4 * u * v) > 1e-5);  // stairs
+}
+
+TEST_CASE("a turned lattice keeps the area of every shape, in solids too") {
+  const auto turned = [](const Shape& shape, int dimension) {
+    BodySpec body = body_of(shape);
+    body.seeding.angle = -0.4;
+    const Seeds seeds = fill(body, kGrid, dimension);
+    for (const Vec3& point : seeds.position) CHECK(contains(shape, point));
+    return measure(seeds, dimension);
+  };
+  const double pi = std::numbers::pi, h = 0.01;
+  CHECK(std::abs(turned(BoxShape{{0.3, 0.3, 0}, {0.6, 0.5, 0}}, 2) - 0.06) < area_slack(1, h));
+  CHECK(std::abs(turned(EllipsoidShape{{0.5, 0.5, 0}, {0.3, 0.1, 0}, 0.7}, 2) - pi * 0.03) <
+        area_slack(1.4, h));
+  CHECK(std::abs(turned(RingShape{{0.5, 0.5, 0}, 0.1, 0.2, 0}, 2) - pi * 0.03) < area_slack(0.6 * pi, h));
+  CHECK(turned(BoxShape{{0.4, 0.4, 0.4}, {0.6, 0.6, 0.5}}, 3) == doctest::Approx(0.004).epsilon(0.01));
+}
+
+TEST_CASE("rings of particles hold the area of a disk or a ring exactly, and end on its outline") {
+  for (const double inner : {0.0, 0.113}) {
+    const double outer = 0.237;
+    const Vec3 centre{0.41, 0.52, 0};
+    BodySpec body = body_of(inner > 0 ? Shape(RingShape{centre, inner, outer, 0})
+                                      : Shape(EllipsoidShape{centre, {outer, outer, 0}, 0}));
+    body.seeding.rings = true;
+    const Seeds seeds = fill(body, kGrid, 2);
+    double shares = 0, nearest = 1, furthest = 0;
+    Vec3 mean{};
+    for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+      const double x = seeds.position[k][0] - centre[0], y = seeds.position[k][1] - centre[1];
+      const double radius = std::hypot(x, y);
+      nearest = std::min(nearest, radius);
+      furthest = std::max(furthest, radius);
+      shares += seeds.share[k];
+      mean[0] += seeds.share[k] * x;
+      mean[1] += seeds.share[k] * y;
+      CHECK(std::remainder(seeds.angle[k] - std::atan2(y, x), 2 * std::numbers::pi) ==
+            doctest::Approx(0).epsilon(1e-12));
+      CHECK(std::abs(seeds.share[k] - 1) < 0.1);  // nearly squares, the few about the centre too
+    }
+    const double area = std::numbers::pi * (outer * outer - inner * inner);
+    CHECK(shares * 4 * seeds.half_size[0] * seeds.half_size[1] == doctest::Approx(area).epsilon(1e-12));
+    CHECK(furthest + seeds.half_size[0] == doctest::Approx(outer).epsilon(1e-12));
+    CHECK(nearest - seeds.half_size[0] == doctest::Approx(inner).epsilon(1e-12));
+    CHECK(std::hypot(mean[0], mean[1]) < 1e-12 * shares);
+  }
 }
 
 TEST_CASE("every place of a bitmap goes to one level even where it lies on the corner of four pixels") {

@@ -100,6 +100,18 @@ TEST_CASE("the resolved scene keeps the words of every method") {
     check_fixed_point(plain_scene() + "method: {" + method + "}\n");
 }
 
+TEST_CASE("the resolved scene keeps how particles lie") {
+  const std::string rubber =
+      replaced(plain_scene(), "bodies:\n",
+               "  rubber: {model: neo_hookean, density: 1 g/cm^3, young: 2 MPa, poisson: "
+               "0.3}\nbodies:\n");
+  const std::string disk = "  - {disk: {centre: [5 mm, 12 mm], radius: 1 mm}, material: rubber, seeding: ";
+  check_fixed_point(rubber + disk + "rings}\n");
+  check_fixed_point(rubber + disk + "{angle: 33 deg}}\n");
+  CHECK(holds(parse(rubber + disk + "rings}\n").resolved_yaml, "seeding: rings"));
+  CHECK(holds(parse(plain_scene()).resolved_yaml, "seeding: lattice"));
+}
+
 TEST_CASE("the resolved scene keeps solid shapes") {
   check_fixed_point(
       solid_scene() +
