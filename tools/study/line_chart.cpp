@@ -61,7 +61,7 @@ std::string draw_line_chart(const std::filesystem::path& folder, const std::stri
   } else {
     plot = "set key outside right top Left reverse samplen 2\n";
   }
-  plot += "set grid lc rgb '#dddddd'\n";
+  plot += "set grid lc rgb '#dddddd'\nset autoscale xfix\n";
   plot +=
       fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_text(chart.x_label), gnuplot_text(chart.y_label));
   std::size_t blocks = 0;
