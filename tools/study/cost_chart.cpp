@@ -25,7 +25,7 @@ struct Look {
 
   std::string style() const {
     const int filled = kFilled[shape % kFilled.size()];
-    return fmt::format("with points pt {} ps {} lc rgb '{}'", whole ? filled : filled - 1,
+    return fmt::format("with points pt {} ps {}*point lc rgb '{}'", whole ? filled : filled - 1,
                        kSizes[size % kSizes.size()], chart_colour(colour));
   }
 };
@@ -125,7 +125,7 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
   }
   std::string data = gnuplot_data("front", line.x, line.y);
   std::string plot = fmt::format(
-      "set title {}\nset logscale xy\nset grid lc rgb '#dddddd'\n"
+      "set title {}\nset logscale xy\nset grid lt 1 lc rgb '#dddddd'\n"
       "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
       "plot $front with lines lw 2 lc rgb '#999999' title '{}'",
       gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
