@@ -1,8 +1,11 @@
 /// Whole scenes in particle-steps per second, without output: where the seconds of a step go.
 
+#include <algorithm>
 #include <filesystem>
+#include <vector>
 
 #include "bench/support.hpp"
+#include "bench/work.hpp"
 
 namespace {
 
@@ -40,8 +43,9 @@ method: {basis: ugimp, update: flip}
 }
 
 /// kSteps steps after the first, which allocates. @param prepare called with a step not yet taken
+/// @param count_work reports the least bytes and flops of a step: of neo-Hookean particles without contact
 template <int Dim, class Prepare>
-void time_steps(benchmark::State& state, const Scene& scene, Prepare prepare) {
+void time_steps(benchmark::State& state, const Scene& scene, Prepare prepare, bool count_work = false) {
   std::array<double, kPassNames.size()> seconds{};
   double particles = 0, contact_nodes = 0, regressions = 0, total = 0;
   for (auto _ : state) {
@@ -57,6 +61,12 @@ void time_steps(benchmark::State& state, const Scene& scene, Prepare prepare) {
 
     state.PauseTiming();
     particles = running->particles();
+    if (count_work) {
+      const auto& plan = running->step.plan();
+      const PassWork<Dim> work(plan.basis, running->step.state().tiling.slots() / particles);
+      state.counters["B/particle"] = work.step(plan).bytes;
+      state.counters["flop/particle"] = work.step(plan).flops;
+    }
     contact_nodes = static_cast<double>(running->step.contact_counters().nodes_peak);
     regressions += static_cast<double>(running->step.contact_counters().regressions - regressions_before);
     for (std::size_t pass = 0; pass < seconds.size(); ++pass) {
@@ -117,6 +127,34 @@ BENCHMARK_CAPTURE(fields, , "ignore")
 void ellipses(benchmark::State& state, const std::filesystem::path& file) {
   time_steps<2>(state, read_scene(file), [](auto&) {});
 }
+
+/// A scene of configs/bench with about 10^5 particles.
+void block(benchmark::State& state, const std::filesystem::path& file) {
+  const Scene scene = read_scene(file);
+  if (scene.dimension() == 2)
+    return time_steps<2>(
+        state, scene, [](auto&) {}, true);
+  time_steps<3>(
+      state, read_scene(file, {{"grid.cell", "1/23 m"}}), [](auto&) {}, true);
+}
+
+[[maybe_unused]] const bool blocks_listed = [] {
+  const auto folder = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs" / "bench";
+  if (!std::filesystem::is_directory(folder)) return false;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const auto& file : files)
+    benchmark::RegisterBenchmark(("scene/" + file.stem().string()).c_str(), block, file)
+        ->ArgName("threads")
+        ->Arg(1)
+        ->Arg(2)
+        ->UseRealTime()
+        ->Unit(benchmark::kMillisecond);
+  return true;
+}();
+
 [[maybe_unused]] const bool listed = [] {
   const auto file = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs" / "ellipses.yaml";
   if (!std::filesystem::exists(file)) return false;

@@ -225,14 +225,60 @@ check_study() {
   before=$(cat study/*/run.json | md5sum)
   cp study/study.csv study_before.csv
   run 0 study scene_study.yaml --out study
-  [[ $(grep -c 'had ended already' err) == 4 && $(cat study/*/run.json | md5sum) == "$before" ]] ||
+  [[ $(grep -c ' kept: ' err) == 4 && $(cat study/*/run.json | md5sum) == "$before" ]] ||
     fail 'a second study repeats what has ended'
   cmp -s study/study.csv study_before.csv || fail 'a second study writes another study.csv'
   sed -i 's/\[flip, pic\]/[flip, pic, xpic(2)]/' scene_study.yaml
   run 0 study scene_study.yaml --out study
-  [[ $(grep -c 'had ended already' err) == 4 && $(wc -l <study/study.csv) == 7 ]] ||
+  [[ $(grep -c ' kept: ' err) == 4 && $(wc -l <study/study.csv) == 7 ]] ||
     fail 'a study that grew runs more than what is new'
+  says out 'runs             2 now, 4 kept (--force runs all again)'
+  sed -i 's/"git": "[^"]*"/"git": "0ther"/' study/slow_flip/run.json
+  run 0 study scene_study.yaml --out study
+  says out 'runs             1 now, 5 kept'
+  says err "(again: the program's git was 0ther)"
+  run 0 study scene_study.yaml --out study --force
+  [[ $(grep -c ' kept: ' err) == 0 ]] || fail '--force keeps results'
   rm -rf study study_before.csv
+}
+
+# The second of two variants takes for ever and is stopped; what had finished is kept.
+check_stopped_study() {
+  local process code
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+variants:
+  - {name: quick}
+  - {name: endless, set: {time.end: 1 s, "bodies.0.velocity": [0, 0]}}
+error: {quantity: block.vy, compare: final, expected: -1}
+STUDY
+  for _ in 1 2; do
+    "$program" study scene_study.yaml --out study >out 2>err &
+    process=$!
+    for _ in $(seq 100); do
+      [[ -f study/endless/history.csv ]] && grep -q '2/2' err && break
+      sleep 0.1
+    done
+    sleep 0.3
+    kill -s INT "$process"
+    wait "$process"
+    code=$?
+    checks=$((checks + 1))
+    [[ $code == 130 && $(wc -l <study/study.csv) == 2 ]] || fail "a stopped study: exit $code"
+  done
+  says err '    kept: finished'
+  says err '(again: it was stopped before)'
+  rm -rf study
+}
+
+# Without gnuplot the numbers are there, and a message says why no chart is.
+check_study_without_gnuplot() {
+  write_good_study
+  mkdir empty
+  PATH=$PWD/empty run 0 study scene_study.yaml --out study
+  says err 'no picture of study/study.gp: gnuplot is not installed'
+  [[ $(wc -l <study/study.csv) == 5 && -s study/study.md ]] || fail 'a study without gnuplot leaves no table'
+  rm -rf study empty
 }
 
 check_wrong_study() {
@@ -286,6 +332,8 @@ check_output_folder
 check_failed_run
 check_signals
 check_study
+check_stopped_study
+check_study_without_gnuplot
 check_wrong_study
 check_plot
 printf '%d checks, %d failures\n' "$checks" "$failures"

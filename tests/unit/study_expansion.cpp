@@ -111,5 +111,20 @@ TEST_CASE("the studies that come with the program can be read and expanded") {
       FAIL_CHECK(error.what());
     }
   }
-  CHECK(count >= 4);
+  CHECK(count >= 6);
+}
+
+TEST_CASE("cell size, particles a cell and time step are axes, also where the scene leaves them to the defaults") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(folder.study(
+      "scene: scene.yaml\n"
+      "vary: {grid.cell: [1 mm, 0.5 mm], bodies.0.particles_per_cell: [2, 3], time.cfl: [0.2, 0.4]}\n"
+      "error: {quantity: block.vy, compare: final, expected: 1}\n"));
+  REQUIRE(runs.variants.size() == 8);
+  CHECK(runs.variants[0].name == "1 mm, 2, 0.2");
+  const Scene& first = runs.variants[0].scene;
+  const Scene& last = runs.variants[7].scene;
+  CHECK((first.grid.cell == doctest::Approx(1e-3) && last.grid.cell == doctest::Approx(0.5e-3)));
+  CHECK((first.time.cfl == 0.2 && last.time.cfl == 0.4));
+  CHECK((first.bodies[0].particles_per_cell[0] == 2 && last.bodies[0].particles_per_cell[0] == 3));
 }

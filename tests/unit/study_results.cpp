@@ -1,9 +1,13 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
+#include "mpmfast_version.hpp"
 #include "tests/unit/study_fixture.hpp"
 #include "tools/study/report.hpp"
+#include "tools/study/run_study.hpp"
 
 using namespace study_test;
 
@@ -11,14 +15,17 @@ namespace {
 
 /// What a run with 16 particles and 10 steps leaves behind; the speed of the block ends at `vy`.
 void leave_run(const std::filesystem::path& folder, const StudyRun& run, const std::string& status,
-               double wall, double vy) {
+               double wall, double vy, const std::string& commit = kGit) {
   write_text(folder / run.folder / "scene.yaml", run.scene.resolved_yaml);
   write_text(folder / run.folder / "history.csv", fmt::format("time_s,block.vy\n0,0\n1e-5,{}\n", vy));
   write_text(
       folder / run.folder / "run.json",
-      fmt::format("{{\"status\": \"{}\", \"particles\": 16, \"steps\": 10, \"wall_s\": {}, \"threads\": 2,"
+      fmt::format("{{\"version\": \"{}\", \"git\": \"{}\", \"compiler\": \"{}\", \"flags\": \"{}\", "
+                  "\"status\": \"{}\","
+                  "\"reason\": \"{}\", \"particles\": 16, \"steps\": 10, \"wall_s\": {}, \"threads\": 2,"
                   "\"particle_steps_per_s\": 800, \"energy_error\": 0.25}}",
-                  status, wall));
+                  kVersion, commit, kCompiler, kFlags, status, status == "failed" ? "it fell | out" : "",
+                  wall));
 }
 
 const std::string kStudy =
@@ -56,31 +63,74 @@ TEST_CASE("results are the errors and costs of the runs that have ended; the fro
   CHECK(results.machine.threads == 2);
   CHECK(study_csv(study, runs, results) ==
         "variant,error,particle_steps,wall_s,particle_steps_per_s,pareto,variants,status,value,reached,"
-        "mean_iterations,fallbacks,unconverged,energy_error,by itself\n"
-        "a,0.1,160,2,800,1,a,finished,-11,1e-05,0,0,0,0.25,1\n"
-        "\"b, |\",0.5,160,1,800,1,\"b, |\",finished,-15,1e-05,0,0,0,0.25,5\n"
-        "c,0.2,160,3,800,0,c,finished,-8,1e-05,0,0,0,0.25,2\n"
-        "d,0,160,0.5,800,0,d,failed,-10,1e-05,0,0,0,0.25,0\n");
+        "mean_iterations,fallbacks,unconverged,energy_error,reason,by itself\n"
+        "a,0.1,160,2,800,1,a,finished,-11,1e-05,0,0,0,0.25,,1\n"
+        "\"b, |\",0.5,160,1,800,1,\"b, |\",finished,-15,1e-05,0,0,0,0.25,,5\n"
+        "c,0.2,160,3,800,0,c,finished,-8,1e-05,0,0,0,0.25,,2\n"
+        "d,0,160,0.5,800,0,d,failed,-10,1e-05,0,0,0,0.25,it fell | out,0\n");
   const std::string table = study_table(study, runs, results);
   CHECK(table.find("| b, \\| | 5 | 50.00 % | -15 |") != std::string::npos);
   CHECK(table.find("1e-05, failed") != std::string::npos);
+  CHECK(table.find("\nd failed: it fell \\| out\n") != std::string::npos);
 }
 
-TEST_CASE("a run has ended only with the same scene, and as many threads where they are asked for") {
+TEST_CASE("an earlier run counts only with the same scene, by the same program, with the threads asked for") {
   const StudyFolder folder;
   const StudyRuns runs = expand_study(folder.study(kStudy));
   const StudyRun& run = runs.variants[0];
-  CHECK(!has_ended(run, folder.path(), 0));
+  const auto note = [&](int threads = 0) { return earlier_run(run, folder.path(), threads).note; };
+  const auto ended = [&](int threads = 0) { return earlier_run(run, folder.path(), threads).ended; };
+  CHECK((!ended() && note() == ""));
   leave_run(folder.path(), run, "finished", 1, 0);
-  CHECK(has_ended(run, folder.path(), 0));
-  CHECK(has_ended(run, folder.path(), 2));
-  CHECK(!has_ended(run, folder.path(), 1));
+  CHECK((ended() && ended(2) && note() == "finished, 1.00 s"));
+  CHECK((!ended(1) && note(1) == "the threads were others"));
+  leave_run(folder.path(), run, "failed", 1, 0);
+  CHECK((ended() && note() == "failed: it fell | out"));
+  leave_run(folder.path(), run, "finished", 1, 0, "0ther");
+  CHECK((!ended() && note() == "the program's git was 0ther"));
+  leave_run(folder.path(), run, "finished", 1, 0);
   write_text(folder.path() / run.folder / "scene.yaml", run.scene.resolved_yaml + "# another\n");
-  CHECK(!has_ended(run, folder.path(), 0));
+  CHECK((!ended() && note() == "the scene was another"));
   leave_run(folder.path(), run, "stopped", 1, 0);
-  CHECK(!has_ended(run, folder.path(), 0));
+  CHECK((!ended() && note() == "it was stopped before"));
   write_text(folder.path() / run.folder / "run.json", "{\"status\": \"fini");
-  CHECK(!has_ended(run, folder.path(), 0));
+  CHECK((!ended() && note() == ""));
+}
+
+TEST_CASE("a study started again runs what has not ended; by force, everything") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\nset: {output.frames: 0}\n"
+      "variants: [{name: a}, {name: b}, {name: falls, set: {\"bodies.0.velocity\": [0, -200 m/s], "
+      "\"time.end\": 1 ms}}]\n"
+      "error: {quantity: block.vy, compare: final, expected: 0}\n");
+  const StudyRuns runs = expand_study(study);
+  StudyOptions options;
+  options.folder = folder.path() / "out";
+  std::vector<std::string> notes;
+  options.ended = [&](const StudyRun& run, const std::string& note) {
+    notes.push_back(run.name + " " + note);
+  };
+  StudyProgress progress = run_study(runs, options);
+  CHECK((progress.ran == 3 && progress.kept == 0 && !progress.stopped));
+  CHECK(notes.at(2).find("falls failed: step ") == 0);
+  const StudyResults results = collect_results(study, runs, options.folder);
+  CHECK(results.variants[2].status == "failed");
+  CHECK(results.variants[2].reason.find("left the grid") != std::string::npos);
+  leave_run(options.folder, runs.variants[1], "stopped", 1, 0);
+  notes.clear();
+  progress = run_study(runs, options);
+  CHECK((progress.ran == 1 && progress.kept == 2));
+  CHECK(notes.at(0).find("a kept: finished, ") == 0);
+  CHECK(notes.at(1).find("(again: it was stopped before)") != std::string::npos);
+  CHECK(notes.at(2).find("falls kept: failed: step ") == 0);
+  options.force = true;
+  progress = run_study(runs, options);
+  CHECK((progress.ran == 3 && progress.kept == 0));
+  const int stop = 2;
+  options.stop_signal = &stop;
+  progress = run_study(runs, options);
+  CHECK((progress.stopped && progress.ran == 1));
 }
 
 TEST_CASE("a variant is measured against the run of its reference") {
@@ -115,4 +165,22 @@ TEST_CASE("a reference may be an expression of the run's own columns or a table 
     const double scale = study.reference.kind == Reference::Kind::table ? 16 : 8;
     CHECK(collect_results(study, runs, folder.path()).variants[0].errors.at(0) == doctest::Approx(2 / scale));
   }
+}
+
+TEST_CASE("a chart of curves shows its window and names a run by what differs") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "variants: [{name: a}]\n"
+      "vary: {grid.cell: [1 mm, 0.5 mm]}\n"
+      "error: {quantity: block.vy, compare: final, expected: 1}\n"
+      "curves: [{name: speed, y: 2 * block.vy, window: [1e-6, 1], only: {grid.cell: 0.5 mm}}]\n");
+  const StudyRuns runs = expand_study(study);
+  for (const StudyRun& run : runs.variants) leave_run(folder.path(), run, "finished", 1, 3);
+  write_report(study, runs, collect_results(study, runs, folder.path()), folder.path());
+  std::ifstream file(folder.path() / "speed.gp");
+  const std::string script{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  CHECK(script.find("$curve0 << EOD\n1e-05 6\nEOD\n") != std::string::npos);  // the row at 0 s is outside
+  CHECK(script.find("title 'a'") != std::string::npos);
+  CHECK(script.find("$curve1") == std::string::npos);
 }

@@ -50,12 +50,14 @@ int study_command(const CommandLine& line) {
   try_set_up(runs, options);
   catch_stop_signals();
   prepare_study_folder(study, options.folder);
-  const bool all = run_study(runs, options);
+  const StudyProgress progress = run_study(runs, options);
   const StudyResults results = collect_results(study, runs, options.folder);
   const std::vector<std::string> missing = write_report(study, runs, results, options.folder);
-  fmt::print("{}\noutput           {}\n", study_table(study, runs, results), options.folder.string());
+  fmt::print("{}\nruns             {} now, {} kept{}\noutput           {}\n",
+             study_table(study, runs, results), progress.ran, progress.kept,
+             progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
   for (const std::string& why : missing) fmt::print(stderr, "mpmfast: {}\n", why);
-  return all ? 0 : kExitSignal + *stop_signal();
+  return progress.stopped ? kExitSignal + *stop_signal() : 0;
 }
 
 }  // namespace mpmfast

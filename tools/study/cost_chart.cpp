@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSmallest = 1e-16;  // an error of zero has no place on a logarithmic axis
 constexpr std::array<int, 6> kFilled{7, 5, 9, 13, 11, 15};
-constexpr std::array<double, 5> kSizes{1.1, 1.7, 0.7, 2.2, 0.5};
+constexpr std::array<double, 5> kSizes{1.9, 1.3, 0.8, 2.5, 0.5};
 
 /// How a point looks: the first axis chooses the colour, the second the shape, the third the size. With one
 /// axis the shape helps to tell the colours apart.
@@ -25,7 +25,7 @@ struct Look {
 
   std::string style() const {
     const int filled = kFilled[shape % kFilled.size()];
-    return fmt::format("with points pt {} ps {} lc rgb '{}'", whole ? filled : filled - 1,
+    return fmt::format("with points pt {} ps {}*point lc rgb '{}'", whole ? filled : filled - 1,
                        kSizes[size % kSizes.size()], chart_colour(colour));
   }
 };
@@ -39,15 +39,17 @@ Look look_of(const std::vector<std::size_t>& choice, bool whole) {
   return look;
 }
 
-/// Ticks that are also there when the axis spans less than a decade.
+/// Ticks, the more of a decade the fewer decades the axis spans.
 std::string ticks(double low, double high) {
   std::string out;
-  const bool narrow = high / low < 20;
+  const std::vector<double> digits = high / low < 20    ? std::vector{1.0, 1.5, 2.0, 3.0, 5.0, 7.0}
+                                     : high / low < 300 ? std::vector{1.0, 2.0, 5.0}
+                                                        : std::vector{1.0};
   for (int power = static_cast<int>(std::floor(std::log10(low))); power <= std::ceil(std::log10(high));
        ++power)
-    for (const double digit : {1.0, 1.5, 2.0, 3.0, 5.0, 7.0}) {
+    for (const double digit : digits) {
       const double tick = digit * std::pow(10.0, power);
-      if (tick < low || tick > high || (digit != 1.0 && !narrow)) continue;
+      if (tick < low || tick > high) continue;
       out += fmt::format("{}{:g}", out.empty() ? "(" : ", ", tick);
     }
   return out.empty() ? "auto" : out + ")";
@@ -123,7 +125,7 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
   }
   std::string data = gnuplot_data("front", line.x, line.y);
   std::string plot = fmt::format(
-      "set title {}\nset logscale xy\nset grid lc rgb '#dddddd'\n"
+      "set title {}\nset logscale xy\nset grid lt 1 lc rgb '#dddddd'\n"
       "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
       "plot $front with lines lw 2 lc rgb '#999999' title '{}'",
       gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),

@@ -175,6 +175,8 @@ class Expansion {
     for (const CurveSpec& curve : study_.curves) {
       check(curve.x);
       check(curve.y);
+      check_constant(curve.from);
+      check_constant(curve.to);
     }
     check_table(run);
   }

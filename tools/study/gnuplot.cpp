@@ -68,6 +68,7 @@ std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::st
                   "do for [format in 'png svg'] {{\n"
                   "if (format eq 'png') {{ set terminal pngcairo size {2},{3} noenhanced font 'sans,11' }} "
                   "else {{ set terminal svg size {2},{3} noenhanced font 'sans,12' background 'white' }}\n"
+                  "point = format eq 'svg' ? 0.6 : 1.0\n"
                   "set output '{0}.' . format\n{4}\nunset output\n}}\n",
                   stem, data, width, height, plot));
   const std::filesystem::path messages = std::filesystem::absolute(folder / (stem + ".gp.messages"));

@@ -16,7 +16,8 @@ std::string gnuplot_text(const std::string& text);
 std::string gnuplot_data(const std::string& name, std::span<const double> x, std::span<const double> y);
 
 /// Writes STEM.gp and lets gnuplot draw STEM.png and STEM.svg from it.
-/// @param data blocks; @param plot what is drawn once for each of the two pictures
+/// @param data blocks; @param plot what is drawn once for each of the two pictures; sizes of points are
+/// multiples of `point` there, since gnuplot draws them larger in SVG
 /// @return empty, or why there is no picture (gnuplot is missing or refuses). Throws FileError.
 std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& stem,
                               const std::string& data, const std::string& plot, int width, int height);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <utility>
+#include <vector>
 
 #include "gnuplot.hpp"
 
@@ -33,15 +34,19 @@ std::string style_of(const ChartCurve& curve) {
 
 /// A panel that holds nothing but what the colours of the others mean.
 std::string legend_panel(const LineChart& chart) {
-  std::vector<std::string> seen;
-  std::string plot;
+  std::vector<const ChartCurve*> curves;
   for (const ChartPanel& panel : chart.panels)
-    for (const ChartCurve& curve : panel.curves) {
-      if (std::find(seen.begin(), seen.end(), curve.title) != seen.end()) continue;
-      seen.push_back(curve.title);
-      plot += fmt::format("{}NaN {} title {}", plot.empty() ? "plot [0:1][0:1] " : ", \\\n  ",
-                          style_of(curve), gnuplot_text(curve.title));
-    }
+    for (const ChartCurve& curve : panel.curves)
+      if (std::none_of(curves.begin(), curves.end(),
+                       [&](const ChartCurve* c) { return c->title == curve.title; }))
+        curves.push_back(&curve);
+  std::stable_sort(curves.begin(), curves.end(), [](const ChartCurve* a, const ChartCurve* b) {
+    return std::pair(a->dashed, a->colour) < std::pair(b->dashed, b->colour);
+  });
+  std::string plot;
+  for (const ChartCurve* curve : curves)
+    plot += fmt::format("{}NaN {} title {}", plot.empty() ? "plot [0:1][0:1] " : ", \\\n  ", style_of(*curve),
+                        gnuplot_text(curve->title));
   return "unset border\nunset tics\nunset xlabel\nunset ylabel\nunset title\nunset grid\n"
          "set key at graph 0,1 left top Left reverse samplen 2\n" +
          plot + "\nset border\nset tics\n";
@@ -61,7 +66,7 @@ std::string draw_line_chart(const std::filesystem::path& folder, const std::stri
   } else {
     plot = "set key outside right top Left reverse samplen 2\n";
   }
-  plot += "set grid lc rgb '#dddddd'\n";
+  plot += "set grid lt 1 lc rgb '#dddddd'\nset autoscale xfix\n";
   plot +=
       fmt::format("set xlabel {}\nset ylabel {}\n", gnuplot_text(chart.x_label), gnuplot_text(chart.y_label));
   std::size_t blocks = 0;

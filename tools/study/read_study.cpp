@@ -46,6 +46,15 @@ Reference read_reference(const Value& value, const Study& study) {
   return out;
 }
 
+void read_window(MapReader& map, std::optional<Formula>& from, std::optional<Formula>& to) {
+  const auto window = map.find("window");
+  if (!window) return;
+  if (!window->is(Node::Kind::list) || window->size() != 2)
+    return window->complain("not a list [from, to] of values of x");
+  from = read_formula(window->item(0));
+  to = read_formula(window->item(1));
+}
+
 /// What `spec` holds already is the default.
 ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
   MapReader map(value, "a map {quantity, x, compare, relative, window, above, below, expected}");
@@ -56,14 +65,7 @@ ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
   read_formula(map, "x", spec.x);
   map.word("compare", kCompares, spec.rule.compare);
   map.word("relative", kRelatives, spec.rule.relative);
-  if (const auto window = map.find("window")) {
-    if (!window->is(Node::Kind::list) || window->size() != 2) {
-      window->complain("not a list [from, to] of values of x");
-    } else {
-      spec.from = read_formula(window->item(0));
-      spec.to = read_formula(window->item(1));
-    }
-  }
+  read_window(map, spec.from, spec.to);
   const auto above = map.find("above"), below = map.find("below");
   if (above && below) below->report("above is given too");
   if (above || below) {
@@ -105,7 +107,7 @@ std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& a
   }
   std::set<std::string> names;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    MapReader map(list.item(k), "a map {name, title, x, y, x_label, y_label, panels, only}");
+    MapReader map(list.item(k), "a map {name, title, x, y, window, x_label, y_label, panels, only}");
     CurveSpec curve;
     const auto name = map.need("name", "the name of the picture");
     if (name) curve.name = name->name().value_or("");
@@ -114,6 +116,7 @@ std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& a
     map.need("y", "a column of history.csv or an expression of columns");
     read_formula(map, "x", curve.x);
     read_formula(map, "y", curve.y);
+    read_window(map, curve.from, curve.to);
     const auto words = [&](const char* key, std::string& text) {
       const auto found = map.find(key);
       if (found) text = found->text().value_or("");

@@ -41,14 +41,25 @@ bool looks_for_value(const Study& study) {
 ChartCurve curve_of(const StudyRun& run, const std::filesystem::path& folder, const CurveSpec& spec,
                     const Study& study) {
   const Formula& x = spec.x ? *spec.x : *study.error.x;
-  return {run.name, history_curve(run, folder, x.expression, spec.y->expression), 0, false};
+  const double from = spec.from ? evaluate(spec.from->expression, run.let) : -INFINITY;
+  const double to = spec.to ? evaluate(spec.to->expression, run.let) : INFINITY;
+  const Curve whole = history_curve(run, folder, x.expression, spec.y->expression);
+  ChartCurve out{run.name, {}, 0, false};
+  for (std::size_t k = 0; k < whole.x.size(); ++k) {
+    if (whole.x[k] < from || whole.x[k] > to) continue;
+    out.curve.x.push_back(whole.x[k]);
+    out.curve.y.push_back(whole.y[k]);
+  }
+  return out;
 }
 
-/// The name of a variant without the axis that has panels.
+/// The name of a variant without the axis that has panels and those of which one value is shown.
 std::string name_in_panel(const Study& study, const StudyRun& run, const CurveSpec& spec) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < run.choice.size(); ++k)
-    if (k != spec.panels) parts.push_back(study.axes[k].choices[run.choice[k]].name);
+    if (k != spec.panels &&
+        !(spec.only.contains(study.axes[k].name) && spec.only.at(study.axes[k].name).size() == 1))
+      parts.push_back(study.axes[k].choices[run.choice[k]].name);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -64,6 +75,8 @@ class CurveChart {
     chart_.x_label = spec_.x_label.empty() ? x.expression.text() : spec_.x_label;
     chart_.y_label = spec_.y_label.empty() ? spec_.y->expression.text() : spec_.y_label;
     const std::size_t panels = spec_.panels ? study_.axes[*spec_.panels].choices.size() : 1;
+    for (const StudyRun& run : runs_.variants)  // the colours in the order of the study
+      if (goes_with(study_.axes, run.choice, spec_.only)) colour_of(name_in_panel(study_, run, spec_));
     for (std::size_t panel = 0; panel < panels; ++panel) fill(panel);
     return draw_line_chart(folder_, spec_.name, chart_);
   }
@@ -116,8 +129,8 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
   std::vector<std::string> head{"variant", "error", "particle_steps", "wall_s", "particle_steps_per_s",
                                 "pareto"};
   for (const Axis& axis : study.axes) head.push_back(csv_text(axis.name));
-  for (const char* name :
-       {"status", "value", "reached", "mean_iterations", "fallbacks", "unconverged", "energy_error"})
+  for (const char* name : {"status", "value", "reached", "mean_iterations", "fallbacks", "unconverged",
+                           "energy_error", "reason"})
     head.emplace_back(name);
   for (const ErrorSpec& spec : study.more) head.push_back(csv_text(spec.name));
   std::string out = fmt::format("{}\n", fmt::join(head, ","));
@@ -136,6 +149,7 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
     cells.push_back(fmt::format("{}", r.fallbacks));
     cells.push_back(fmt::format("{}", r.unconverged));
     cells.push_back(csv_number(r.energy_error));
+    cells.push_back(csv_text(r.reason));
     for (std::size_t n = 0; n < study.more.size(); ++n) cells.push_back(error(n + 1));
     out += fmt::format("{}\n", fmt::join(cells, ","));
   }
@@ -179,6 +193,9 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
     cells.push_back(r.pareto ? "yes" : "");
     out += fmt::format("| {} |\n", fmt::join(cells, " | "));
   }
+  for (std::size_t k = 0; k < runs.variants.size(); ++k)
+    if (const StudyResult& r = results.variants[k]; r.status == "failed")
+      out += fmt::format("\n{} failed: {}\n", markdown_text(runs.variants[k].name), markdown_text(r.reason));
   out +=
       fmt::format("\n{}, mpmfast {}, {} thread{}.{}\n", results.machine.cpu, results.machine.version,
                   results.machine.threads, results.machine.threads == 1 ? "" : "s",

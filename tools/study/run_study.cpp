@@ -50,7 +50,7 @@ void prepare_study_folder(const Study& study, const fs::path& folder) {
 
 void try_set_up(const StudyRuns& runs, const StudyOptions& options) {
   for (const StudyRun* run : all_of(runs)) {
-    if (!options.force && has_ended(*run, options.folder, options.threads)) continue;
+    if (!options.force && earlier_run(*run, options.folder, options.threads).ended) continue;
     if (run->scene.dimension() == 3) {
       Step<3> step(run->scene);
     } else {
@@ -59,28 +59,34 @@ void try_set_up(const StudyRuns& runs, const StudyOptions& options) {
   }
 }
 
-bool run_study(const StudyRuns& runs, const StudyOptions& options) {
+StudyProgress run_study(const StudyRuns& runs, const StudyOptions& options) {
   const std::vector<const StudyRun*> all = all_of(runs);
-  for (std::size_t k = 0; k < all.size(); ++k) {
+  StudyProgress progress;
+  for (std::size_t k = 0; k < all.size() && !progress.stopped; ++k) {
     const StudyRun& run = *all[k];
     const auto ended = [&](const std::string& note) {
       if (options.ended) options.ended(run, note);
     };
     if (options.starting) options.starting(run, k + 1, all.size());
-    if (!options.force && has_ended(run, options.folder, options.threads)) {
-      ended("had ended already");
+    const EarlierRun earlier = earlier_run(run, options.folder, options.threads);
+    if (earlier.ended && !options.force) {
+      ++progress.kept;
+      ended("kept: " + earlier.note);
       continue;
     }
+    const std::string again =
+        options.force || earlier.note.empty() ? "" : fmt::format(" (again: {})", earlier.note);
+    ++progress.ran;
     try {
       const RunSummary summary = run_scene(run.scene, options_of(run, options));
-      ended(fmt::format("{}, {:.2f} s", summary.status, summary.wall));
-      if (summary.status == "stopped") return false;
+      ended(fmt::format("{}, {:.2f} s{}", summary.status, summary.wall, again));
+      progress.stopped = summary.status == "stopped";
     } catch (const RunFailure& failure) {
-      ended(fmt::format("failed: {}", failure.what()));
+      ended(fmt::format("failed: {}{}", failure.what(), again));
     }
-    if (options.stop_signal && *options.stop_signal) return false;
+    progress.stopped = progress.stopped || (options.stop_signal && *options.stop_signal);
   }
-  return true;
+  return progress;
 }
 
 }  // namespace mpmfast

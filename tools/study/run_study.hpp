@@ -33,8 +33,12 @@ void prepare_study_folder(const Study& study, const std::filesystem::path& folde
 /// cannot be (a particle outside the grid).
 void try_set_up(const StudyRuns& runs, const StudyOptions& options);
 
-/// Runs what has not ended; a run that fails physically is kept as far as it got. False when a signal stopped
-/// it. Throws FileError.
-bool run_study(const StudyRuns& runs, const StudyOptions& options);
+struct StudyProgress {
+  std::size_t ran = 0, kept = 0;  ///< kept: what an earlier start had ended
+  bool stopped = false;           ///< by a signal
+};
+
+/// Runs what has not ended; a run that fails physically is kept as far as it got. Throws FileError.
+StudyProgress run_study(const StudyRuns& runs, const StudyOptions& options);
 
 }  // namespace mpmfast

@@ -73,6 +73,7 @@ inline constexpr std::array<Word<Cost>, 2> kCosts{{
 struct CurveSpec {
   std::string name, title, x_label, y_label;
   std::optional<Formula> x, y;
+  std::optional<Formula> from, to;    ///< the window of x that is shown
   std::optional<std::size_t> panels;  ///< the axis that has a panel for each value
   Only only;
 };

@@ -2,13 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "engine/errors.hpp"
+#include "mpmfast_version.hpp"
 #include "pareto.hpp"
 
 namespace mpmfast {
@@ -41,6 +44,7 @@ std::uint64_t count(const nlohmann::json& json, const char* key) {
 
 void read_summary(const nlohmann::json& json, StudyResult& result) {
   result.status = json.value("status", "");
+  result.reason = json.value("reason", "");
   result.particle_steps = number(json, "particles") * number(json, "steps");
   result.wall = number(json, "wall_s");
   result.speed = number(json, "particle_steps_per_s");
@@ -113,13 +117,21 @@ void mark_front(Cost cost, std::vector<StudyResult>& results) {
 
 }  // namespace
 
-bool has_ended(const StudyRun& run, const fs::path& folder, int threads) {
+EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads) {
   const auto json = read_summary(folder / run.folder);
-  if (!json) return false;
+  if (!json) return {};
   const std::string status = json->value("status", "");
-  if (status != "finished" && status != "failed") return false;
-  if (threads > 0 && json->value("threads", 0) != threads) return false;
-  return read_text(folder / run.folder / "scene.yaml") == run.scene.resolved_yaml;
+  if (status != "finished" && status != "failed") return {false, "it was stopped before"};
+  if (read_text(folder / run.folder / "scene.yaml") != run.scene.resolved_yaml)
+    return {false, "the scene was another"};
+  constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
+      {{"version", kVersion}, {"git", kGit}, {"compiler", kCompiler}, {"flags", kFlags}}};
+  for (const auto& [key, value] : kProgram)
+    if (json->value(key, "") != value)
+      return {false, fmt::format("the program's {} was {}", key, json->value(key, "not known"))};
+  if (threads > 0 && json->value("threads", 0) != threads) return {false, "the threads were others"};
+  if (status == "failed") return {true, fmt::format("failed: {}", json->value("reason", ""))};
+  return {true, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
 }
 
 Curve history_curve(const StudyRun& run, const fs::path& folder, const Expression& x, const Expression& y) {
@@ -135,14 +147,14 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
   StudyResults out;
   bool references_ended = true;
   for (const StudyRun& run : runs.references) {
-    references_ended = references_ended && has_ended(run, folder, 0);
+    references_ended = references_ended && earlier_run(run, folder, 0).ended;
     const auto json = read_summary(folder / run.folder);
     if (json && json->value("status", "") == "failed") out.reference_failed = true;
   }
   for (const StudyRun& run : runs.variants) {
     StudyResult result;
     const auto json = read_summary(folder / run.folder);
-    if (json && has_ended(run, folder, 0)) {
+    if (json && earlier_run(run, folder, 0).ended) {
       read_summary(*json, result);
       out.machine.cpu = json->value("cpu", "");
       out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));

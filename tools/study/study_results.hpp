@@ -11,6 +11,7 @@ namespace mpmfast {
 
 struct StudyResult {
   std::string status;          ///< of run.json: finished, failed; empty when not run yet
+  std::string reason;          ///< of run.json: why it failed
   std::vector<double> errors;  ///< Study::error, then Study::more; not a number where nothing can be compared
   double value = 0;            ///< of Study::error, where it looks for one
   double reached = 0;          ///< x of the last row of the history
@@ -36,8 +37,14 @@ struct StudyResults {
 /// front of those that finished. Throws FileError.
 StudyResults collect_results(const Study& study, const StudyRuns& runs, const std::filesystem::path& folder);
 
-/// Has this run ended (finished or failed) with the same scene and, unless `threads` is 0, as many threads?
-bool has_ended(const StudyRun& run, const std::filesystem::path& folder, int threads);
+/// What an earlier start of the study left of a run.
+struct EarlierRun {
+  bool ended = false;  ///< finished or failed, with this scene and by this program: nothing to do
+  std::string note;    ///< how it ended, or why it does not count; empty when there is nothing
+};
+
+/// @param threads  the earlier run must have had as many, unless 0
+EarlierRun earlier_run(const StudyRun& run, const std::filesystem::path& folder, int threads);
 
 /// The x and y of one run's history.
 Curve history_curve(const StudyRun& run, const std::filesystem::path& folder, const Expression& x,

@@ -1,0 +1,114 @@
+#!/usr/bin/env bash
+# Checks bench/run with a benchmark program that says what it is told, and bench/compare with tiny sets of figures.
+# usage: run_bench.sh SOURCE_DIR
+set -u
+command -v python3 >/dev/null || { echo 'python3 is not installed'; exit 77; }
+source_dir=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+checks=0
+
+fail() {
+  failures=$((failures + 1))
+  printf 'FAILED: %s\n' "$1"
+  sed 's/^/    /' out err
+}
+
+# run EXPECTED_CODE PROGRAM WORDS…
+run() {
+  local expected=$1 code
+  shift
+  checks=$((checks + 1))
+  "$source_dir/bench/$1" "${@:2}" >out 2>err
+  code=$?
+  [[ $code == "$expected" ]] || fail "bench/$*: exit $code, expected $expected"
+}
+
+says() {
+  checks=$((checks + 1))
+  grep -qF -- "$2" "$1" || fail "'$2' is missing from $1"
+}
+
+# A memory bound of 10 GB/s and an arithmetic one of 20 Gflop/s; the pass does 50 million particles a second with 100 bytes
+# each: half of what the memory allows. A triad in the caches and an aggregate must not count.
+write_fake_build() {
+  mkdir -p "$1/bench"
+  cat >"$1/bench/benchmarks" <<'PROGRAM'
+#!/bin/sh
+cat <<'JSON'
+{"context": {"lanes": "4", "git": "abc"}, "benchmarks": [
+ {"name": "machine/triad/threads:1/KiB:4096/real_time", "run_type": "iteration", "B/s": 9e10},
+ {"name": "machine/triad/threads:1/KiB:131072/min_time:0.005/repeats:2/real_time", "run_type": "iteration", "B/s": 1e10},
+ {"name": "machine/triad/threads:1/KiB:131072/min_time:0.005/repeats:2/real_time", "run_type": "iteration", "B/s": 8e9},
+ {"name": "machine/multiply_add/threads:1/real_time", "run_type": "iteration", "flop/s": 2e10},
+ {"name": "project/ugimp/2d/threads:1/real_time", "run_type": "iteration", "items_per_second": 5e7, "B/particle": 100, "flop/particle": 60},
+ {"name": "project/ugimp/2d/threads:1/real_time_mean", "run_type": "aggregate", "items_per_second": 1},
+ {"name": "scene/disks/2d/threads:1/real_time", "run_type": "iteration", "items_per_second": 9.7e6, "contact_nodes": 105}
+]}
+JSON
+PROGRAM
+  chmod +x "$1/bench/benchmarks"
+}
+
+check_run() {
+  write_fake_build old
+  write_fake_build new
+  sed -i 's/5e7/4e7/' new/bench/benchmarks
+  run 0 run old --out figures --repetitions 2
+  says out 'Bounds of 1 thread: 10 GB/s, 20 Gflop/s.'
+  says out '| project/ugimp/2d | 100, 60 | 50.0 | 50 % |  |'
+  says out '| scene/disks/2d |  | 9.7 |  | 105 |'
+  cmp -s <(grep '^|' out) <(grep '^|' figures/figures.md) || fail 'the table on the screen is not that of the file'
+  says figures/bounds.svg '50 % (50)</text>'
+  python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' figures/bounds.svg ||
+    fail 'bounds.svg is not XML'
+  run 0 run old new --out both --repetitions 5
+  run 1 compare both/old both/new
+  says out 'SLOWER  -20.0 %  project/ugimp/2d, 1 thread'
+  says out '2 compared: 1 changed beyond noise, 1 slower by more than 5 %.'
+  run 1 run nowhere --out none
+  says err 'nowhere/bench/benchmarks: No such file or directory'
+}
+
+# figures FILE RATES: one benchmark with these rates.
+figures() {
+  printf '{"format": "mpmfast benchmarks 1", "processor": "p", "bounds": {}, "benchmarks": [
+    {"name": "pass", "threads": 1, "rates": [%s]}, {"name": "other", "threads": 2, "rates": [5, 5, 5, 5, 5]}]}' "$2" >"$1"
+}
+
+check_compare() {
+  figures a.json '100, 101, 102, 103, 104'
+  figures slow.json '80, 81, 82, 83, 84'
+  figures noisy.json '80, 81, 82, 83, 100.5'
+  figures few.json '80, 81, 82, 83'
+  run 1 compare a.json slow.json
+  says out 'SLOWER  -19.6 %  pass, 1 thread'
+  run 0 compare a.json slow.json --slower 0.25
+  says out 'slower  -19.6 %  pass, 1 thread'
+  run 0 compare slow.json a.json
+  says out 'faster  +24.4 %  pass, 1 thread'
+  run 0 compare a.json a.json
+  says out '2 compared: 0 changed beyond noise'
+  # One repetition of five is as fast as before: not yet beyond noise.
+  run 0 compare a.json noisy.json
+  says out '2 compared: 0 changed beyond noise'
+  run 0 compare a.json few.json
+  says out '1 with too few repetitions to tell'
+  sed 's/"pass"/"a"/; s/"other"/"b"/' a.json >others.json
+  run 2 compare a.json others.json
+  says err 'no benchmark is in both'
+  echo '{' >broken.json
+  run 2 compare a.json broken.json
+  says err 'broken.json: not JSON'
+  run 2 compare a.json nowhere.json
+  echo '{}' >empty.json
+  run 2 compare a.json empty.json
+  says err 'empty.json: not the figures of bench/run'
+}
+
+check_run
+check_compare
+printf '%d checks, %d failures\n' "$checks" "$failures"
+[[ $failures == 0 ]]

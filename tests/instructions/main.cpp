@@ -1,0 +1,139 @@
+/// Counts the instructions per particle-step of small scenes and compares them with bounds.txt: a figure of
+/// speed without noise.
+///
+/// usage: instruction_count BOUNDS
+///
+/// Exit status: 0 within the bounds, 1 above one, 2 wrong input, 77 not possible here (ctest: skipped).
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "engine/scene/read_scene.hpp"
+#include "engine/step/step.hpp"
+#include "kernels/simd/lanes.hpp"
+#include "single_step.hpp"
+
+namespace {
+
+using namespace mpmfast;
+
+constexpr int kSkipped = 77;  // ctest: SKIP_RETURN_CODE
+constexpr int kSteps = 3;
+
+struct Case {
+  const char *name, *scene;
+};
+
+const std::vector<Case> kCases{
+    // One field: 256 particles in 8 x 8 cells that stretch.
+    {"flip", R"(
+space: plane_strain
+grid: {size: [16 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {rubber: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+method: {basis: ugimp, update: flip}
+bodies:
+  - {name: left, box: {from: [4 mm, 4 mm], to: [8 mm, 12 mm]}, material: rubber, velocity: [-5 m/s, 1 m/s]}
+  - {name: right, box: {from: [8 mm, 4 mm], to: [12 mm, 12 mm]}, material: rubber, velocity: [5 m/s, 0 m/s]}
+contact: none
+)"},
+    // Two disks of about 110 particles that are pressed together, XPIC(2) with contact.
+    {"contact", R"(
+space: plane_strain
+grid: {size: [20 mm, 12 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {rubber: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+method: {basis: ugimp, update: xpic(2)}
+contact: {law: coulomb, friction: 0.2}
+bodies:
+  - {name: left, disk: {centre: [7.1 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [20 m/s, 2 m/s]}
+  - {name: right, disk: {centre: [13 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [-20 m/s, -2 m/s]}
+)"}};
+
+struct Count {
+  double per_particle_step = 0;
+  std::uint64_t contact_nodes = 0;
+};
+
+/// After two steps, of which the first allocates.
+Count count_of(const Case& test) {
+  const Scene scene = parse_scene(test.scene, test.name);
+  Step<2> step(scene);
+  for (int k = 0; k < 2; ++k) step.advance(step.stable_dt());
+  instructions::start_counting();
+  for (int k = 0; k < kSteps; ++k) step.advance(step.stable_dt());
+  const std::uint64_t counted = instructions::stop_counting();
+  const auto work = static_cast<double>(step.state().particles.size() * kSteps);
+  return {static_cast<double>(counted) / work, step.contact_counters().nodes_peak};
+}
+
+struct Bounds {
+  double slack = 0;
+  std::map<std::pair<std::string, int>, double> measured;  ///< by case and lanes
+};
+
+/// "slack 1.25" and lines "CASE LANES MEASURED"; # starts a comment.
+Bounds read_bounds(const char* file) {
+  Bounds bounds;
+  std::ifstream stream(file);
+  for (std::string line; std::getline(stream, line);) {
+    std::istringstream words(line.substr(0, line.find('#')));
+    std::string name;
+    int lanes = 0;
+    double measured = 0;
+    if (!(words >> name)) continue;
+    if (name == "slack" ? !(words >> bounds.slack) : !(words >> lanes >> measured)) return {};
+    if (name != "slack") bounds.measured[{name, lanes}] = measured;
+  }
+  return bounds;
+}
+
+}  // namespace
+
+int main(int count, char** arguments) {
+  const Bounds bounds = count == 2 ? read_bounds(arguments[1]) : Bounds{};
+  if (!(bounds.slack > 1)) {
+    fmt::print(stderr,
+               "usage: instruction_count BOUNDS, a file with a line 'slack FACTOR' and lines 'CASE LANES "
+               "MEASURED'\n");
+    return 2;
+  }
+  if (!instructions::can_count()) {
+    fmt::print("instructions cannot be counted on this architecture\n");
+    return kSkipped;
+  }
+#ifndef NDEBUG
+  fmt::print("the bounds are those of an optimised build\n");
+  return kSkipped;
+#endif
+  omp_set_num_threads(1);  // what another thread does would not be counted
+  bool above = false, known = false;
+  for (const Case& test : kCases) {
+    const Count counted = count_of(test);
+    fmt::print("{:8} {} lanes: {:.0f} instructions per particle-step", test.name, kLanes,
+               counted.per_particle_step);
+    if (counted.contact_nodes > 0) fmt::print(", {} contact nodes", counted.contact_nodes);
+    const auto found = bounds.measured.find({test.name, kLanes});
+    if (found == bounds.measured.end()) {
+      fmt::print("; no bound for so many lanes\n");
+      continue;
+    }
+    known = true;
+    const double bound = bounds.slack * found->second;
+    const bool too_many = !(counted.per_particle_step <= bound);
+    above = above || too_many;
+    fmt::print("; recorded {:.0f}, bound {:.0f}{}\n", found->second, bound, too_many ? ": TOO MANY" : "");
+    if (counted.per_particle_step < found->second / bounds.slack)
+      fmt::print("         far fewer than recorded: lower the figure in {}\n", arguments[1]);
+    std::fflush(stdout);
+  }
+  return above ? 1 : known ? 0 : kSkipped;
+}
