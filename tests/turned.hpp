@@ -14,8 +14,8 @@ namespace mpmfast::test {
 
 inline constexpr double kDegree = std::numbers::pi / 180;
 
-/// Turns the unstressed particles of a new step by an angle about a point: positions, velocities, F = R (no
-/// stress in a neo-Hookean material) and the domains of lcpdi. Domains of ugimp stay along the axes.
+/// Turns the unstressed particles of a new step by an angle about a point: positions, velocities, F (F = R is
+/// no stress to a neo-Hookean material) and the domains of lcpdi. Domains of ugimp stay along the axes.
 inline void turn(Step<2>& step, double angle, const Vec<2>& centre) {
   const Mat<2> rotation = Eigen::Rotation2Dd(angle).toRotationMatrix();
   auto& particles = step.state().particles;
@@ -26,13 +26,13 @@ inline void turn(Step<2>& step, double angle, const Vec<2>& centre) {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     turn_vector(Quantity::position, p, centre);
     turn_vector(Quantity::velocity, p, Vec<2>::Zero());
-    const auto& half_size = step.state().bodies[particles.body()[p]].half_size;
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j) {
-        particles.column(Quantity::deformation_gradient, 2 * i + j)[p] = rotation(i, j);
-        if (particles.has(Quantity::domain_edges))
-          particles.column(Quantity::domain_edges, 2 * i + j)[p] = rotation(i, j) * half_size[j];
-      }
+    for (Quantity q : {Quantity::deformation_gradient, Quantity::domain_edges}) {
+      if (!particles.has(q)) continue;
+      Mat<2> tensor;
+      for (int e = 0; e < 4; ++e) tensor(e / 2, e % 2) = particles.column(q, e)[p];
+      tensor = rotation * tensor;
+      for (int e = 0; e < 4; ++e) particles.column(q, e)[p] = tensor(e / 2, e % 2);
+    }
   }
 }
 
