@@ -53,14 +53,14 @@ constexpr double kInstant = 1e-15;
 template <int Dim>
 void project(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
-      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state()); },
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state(), false); },
       [](const Block<Dim>& block) { return block.work.project(); });
 }
 
 template <int Dim>
 void project_affine(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
-      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state()); },
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state(), false); },
       [](const Block<Dim>& block) { return block.work.project_affine(); }, "apic");
 }
 
