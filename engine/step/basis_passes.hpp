@@ -61,12 +61,11 @@ class BasisPasses final : public Passes<Dim> {
   bool project(State<Dim>& state, bool with_force) override {
     auto& nodes = state.nodes;
     NodeColumns<1 + Dim> inertia;
-    NodeColumns<4 + Dim> load{};
+    NodeColumns<kLoadEntries<Dim>> load{};
     inertia.column[0] = load.column[0] = nodes.column(Nodal::mass);
-    for (int d = 0; d < Dim; ++d) {
+    for (int d = 0; d < Dim; ++d)
       inertia.column[1 + d] = load.column[1 + d] = nodes.column(Nodal::momentum, d);
-      load.column[4 + d] = nodes.column(Nodal::force, d);
-    }
+    for (int e = 4; e < kLoadEntries<Dim>; ++e) load.column[e] = nodes.column(Nodal::force, (e - 4) % Dim);
     outside_.assign(rooms_.size(), 0);
     const bool affine = state.particles.has(Quantity::velocity_slopes);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {

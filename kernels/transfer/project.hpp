@@ -11,17 +11,22 @@
 
 namespace mpmfast {
 
+/// Of a node's record: mass and momentum, nothing in 2-D, and the force; in 2-D this is in two parts, those
+/// that come with ∂/∂x and with ∂/∂y.
+template <int Dim>
+inline constexpr int kLoadEntries = Dim == 2 ? 8 : 7;
+
 template <int Dim, class Basis>
 struct ProjectRoom {
-  using LoadWindow = Window<Dim, 4 + Dim>;
+  using LoadWindow = Window<Dim, kLoadEntries<Dim>>;
   WeightRoom<Dim, Basis> weights;
   Window<Dim, 1 + Dim> mass_momentum;
   LoadWindow load;
   Window<Dim, Dim> gradient_volume, mass_position, mass_displacement;
   Window<Dim, 1> volume;
   Record record[kChunk<Dim>];
-  // Of entries that are never set, here zero: those of the other half of a wide record.
-  typename LoadWindow::Node inertia[kChunk<Dim>], stress[Dim][kChunk<Dim>];
+  // Entries that are never set stay zero: those of the other half of a wide record.
+  typename LoadWindow::Node inertia[kChunk<Dim>], stress[kGradientRecords<Dim>][kChunk<Dim>];
 };
 
 namespace detail {
@@ -54,25 +59,27 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
 
 /// As project_tile, with the internal force f_i −= Σ_p V_p0 τ_p·G_pi beside: for stresses that the step does
 /// not change before its forces.
-/// @param out  mass, momentum, (2-D) nothing, force; accumulated
+/// @param out  see kLoadEntries; accumulated
 template <int Dim, class Basis>
 bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
-                        const NodeColumns<4 + Dim>& out) {
+                        const NodeColumns<kLoadEntries<Dim>>& out) {
   const ParticleView<Dim>& p = *c.particles;
+  auto& at = room.load.at;
   constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;
+  constexpr bool single = wide && Dim == 2;  // one record has all of a particle
   clear(room.load);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(p, begin, count, room.inertia);
-        for (int d = 0; d < Dim; ++d) stack_stress(p, d, begin, count, room.stress[d], wide ? 1 : 0);
+        stack_stress(p, begin, count, wide ? 1 : 0, single ? &room.inertia : room.stress);
         for (int k = 0; k < count; ++k) {
-          typename Window<Dim, 4 + Dim>::Node row[Dim];
-          for (int d = 0; d < Dim; ++d) row[d] = room.stress[d][k];
-          if constexpr (wide) {
-            scatter(w, k, room.inertia[k], row, room.load.at[0]);
+          if constexpr (single) {
+            scatter_pairs(w, k, room.inertia[k], at[0]);
+          } else if constexpr (wide) {
+            scatter(w, k, room.inertia[k], {room.stress[0][k], room.stress[1][k], room.stress[2][k]}, at[0]);
           } else {
-            scatter_values(w, k, room.inertia[k], room.load.at[0]);
-            scatter_gradients(w, k, row, room.load.at[1]);
+            scatter_values(w, k, room.inertia[k], at[0]);
+            scatter_stress<Dim>(w, k, room.stress, at[1]);
           }
         }
       });

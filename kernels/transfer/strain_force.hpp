@@ -12,31 +12,54 @@ namespace mpmfast {
 template <int Dim, class Basis>
 struct StrainForceRoom : StrainRoom<Dim> {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, Dim> velocity, force;
-  Record row[Dim][kChunk<Dim>];  ///< ∂v/∂x_d of a particle, components of v; then rows of its stress
+  static constexpr int kEntries = Dim == 2 ? 4 : Dim;  ///< in 2-D a vector twice, for a record of pairs
+  Window<Dim, kEntries> velocity, force;
+  Record row[kGradientRecords<Dim>][kChunk<Dim>];  ///< ∇v of a particle; then its stress
 };
+
+/// A nodal vector as the windows above have it.
+template <int Dim>
+inline auto for_gradients(const NodeColumns<Dim>& vector) {
+  NodeColumns<Dim == 2 ? 4 : Dim> entries;
+  int at = 0;
+  for (double*& column : entries.column) column = vector.column[at++ % Dim];
+  return entries;
+}
+
+/// Gradients in pairs, at quad `quad` of the records, to room.gradient.
+template <class R, class Room>
+inline void unstack_pairs(const R* in, int count, int quad, Room& room) {
+  for (int k = 0; k < count; k += 4) {
+    Record row[4];
+    for (int i = 0; i < 4; ++i)
+      row[i] = detail::load_row(reinterpret_cast<const double*>(in + k + i) + 4 * quad);
+    transpose(row[0], row[1], row[2], row[3]);
+    for (int i = 0; i < 4; ++i) detail::store_row(&room.gradient[4 * (i / 2) + i % 2][k], row[i]);
+  }
+}
 
 /// Velocity gradients of a chunk, ∇v_p = Σ_i v_i ⊗ G_pi (N20 Eq. 28), staged in room.gradient.
 template <int Dim, class Weights, class Room>
 inline void gather_velocity_gradient(const Weights& w, int count, const Record* velocity, Room& room) {
-  for (int k = 0; k < count; ++k) {
-    Record out[Dim];
-    gather_gradients(w, k, velocity, out);
-    for (int d = 0; d < Dim; ++d) room.row[d][k] = out[d];
+  if constexpr (Dim == 2) {
+    for (int k = 0; k < count; ++k) room.row[0][k] = gather_pairs(w, k, velocity);
+    unstack_pairs(room.row[0], count, 0, room);
+  } else {
+    for (int k = 0; k < count; ++k) {
+      Record out[Dim];
+      gather_gradients(w, k, velocity, out);
+      for (int d = 0; d < Dim; ++d) room.row[d][k] = out[d];
+    }
+    for (int d = 0; d < Dim; ++d) unstack<Dim, Dim>(room.row[d], count, &room.gradient[4 * d]);
   }
-  for (int d = 0; d < Dim; ++d) unstack<Dim, Dim>(room.row[d], count, &room.gradient[4 * d]);
 }
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
 template <int Dim, class Weights, class Room>
 inline void scatter_force(const ParticleView<Dim>& p, const Weights& w, std::uint32_t begin, int count,
                           Room& room) {
-  for (int d = 0; d < Dim; ++d) stack_stress(p, d, begin, count, room.row[d], 0);
-  for (int k = 0; k < count; ++k) {
-    Record row[Dim];
-    for (int d = 0; d < Dim; ++d) row[d] = room.row[d][k];
-    scatter_gradients(w, k, row, room.force.at[0]);
-  }
+  stack_stress(p, begin, count, 0, room.row);
+  for (int k = 0; k < count; ++k) scatter_stress<Dim>(w, k, room.row, room.force.at[0]);
 }
 
 /// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The
@@ -71,7 +94,7 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
   constexpr bool hoop = D == Depth::hoop;
   const ParticleView<Dim>& p = *c.particles;
   double smallest = 1e300;
-  if (dt_strain > 0) load_window(velocity, c.tile->slot, room.velocity);
+  if (dt_strain > 0) load_window(for_gradients(velocity), c.tile->slot, room.velocity);
   clear(room.force);
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
@@ -88,7 +111,7 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
                                scatter_force(p, w, begin, count, room);
                                if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
                              });
-  flush_window(room.force, c.tile->slot, force);
+  flush_window(room.force, c.tile->slot, for_gradients(force));
   return smallest;
 }
 

@@ -20,7 +20,20 @@ inline void for_each_support_row(R* first, const F& f) {
     for (int y = 0; y < K; ++y) f(z, y, first + (z * kWindowSide + y) * kWindowSide);
 }
 
+/// Which lanes of a record of pairs go with ∂/∂x (0) and ∂/∂y (1).
+template <class R>
+inline auto pair_lanes(int d) {
+  constexpr int lanes = sizeof(R) / sizeof(double);
+  std::int64_t __attribute__((vector_size(sizeof(R)))) mask{};
+  for (int i = 0; i < 2; ++i) mask[lanes - 4 + 2 * d + i] = -1;
+  return mask;
+}
+
 }  // namespace detail
+
+/// Number of records that hold the gradient of a vector.
+template <int Dim>
+inline constexpr int kGradientRecords = Dim == 2 ? 1 : Dim;
 
 // Weights of any kind, node by node.
 
@@ -79,6 +92,29 @@ template <int Dim, int K, class R>
 inline R gather(const ChunkWeights<Dim, K>& w, int k, const R* window, R (&out)[Dim]) {
   gather_gradients(w, k, window, out);
   return gather_values(w, k, window);
+}
+
+template <class R, int K>
+inline R pair_weight(const ChunkWeights<2, K>& w, int n, int k) {
+  const R x = detail::pair_lanes<R>(0) ? broadcast<R>(w.gradient[0][n][k]) : broadcast<R>(w.value[n][k]);
+  return detail::pair_lanes<R>(1) ? broadcast<R>(w.gradient[1][n][k]) : x;
+}
+
+template <int K, class R>
+inline void scatter_pairs(const ChunkWeights<2, K>& w, int k, R a, R* window) {
+  R* target = window + w.first[k];
+#pragma GCC unroll 64
+  for (int n = 0; n < w.kNodes; ++n) target[window_offset<2, K>(n)] += pair_weight<R>(w, n, k) * a;
+}
+
+template <int K, class R>
+inline R gather_pairs(const ChunkWeights<2, K>& w, int k, const R* window) {
+  const R* source = window + w.first[k];
+  R sum[K] = {};
+#pragma GCC unroll 64
+  for (int n = 0; n < w.kNodes; ++n) sum[n % K] += pair_weight<R>(w, n, k) * source[window_offset<2, K>(n)];
+  for (int i = 1; i < K; ++i) sum[0] += sum[i];
+  return sum[0];
 }
 
 // Weights that are products.
@@ -165,6 +201,36 @@ inline R gather_values(const ProductWeights<Dim, K>& w, int k, const R* window) 
     plane = R{};
   });
   return value;
+}
+
+/// The factor along d on node i of a record's lanes: the slope where they go with ∂/∂x_d, else the value.
+template <class R, int K>
+inline R pair_factor(const ProductWeights<2, K>& w, int d, int i, int k) {
+  return detail::pair_lanes<R>(d) ? broadcast<R>(w.slope[d][i][k]) : broadcast<R>(w.value[d][i][k]);
+}
+
+template <int K, class R>
+inline void scatter_pairs(const ProductWeights<2, K>& w, int k, R a, R* window) {
+  R along_x[K];
+  for (int x = 0; x < K; ++x) along_x[x] = pair_factor<R>(w, 0, x, k);
+  detail::for_each_support_row<2, K>(window + w.first[k], [&](int, int y, R* row) {
+    const R p = pair_factor<R>(w, 1, y, k) * a;
+#pragma GCC unroll 4
+    for (int x = 0; x < K; ++x) row[x] += along_x[x] * p;
+  });
+}
+
+template <int K, class R>
+inline R gather_pairs(const ProductWeights<2, K>& w, int k, const R* window) {
+  R along_x[K], all{};
+  for (int x = 0; x < K; ++x) along_x[x] = pair_factor<R>(w, 0, x, k);
+  detail::for_each_support_row<2, K>(window + w.first[k], [&](int, int y, const R* row) {
+    R sum = along_x[0] * row[0];
+#pragma GCC unroll 4
+    for (int x = 1; x < K; ++x) sum += along_x[x] * row[x];
+    all += pair_factor<R>(w, 1, y, k) * sum;
+  });
+  return all;
 }
 
 }  // namespace mpmfast

@@ -9,20 +9,41 @@
 
 namespace mpmfast {
 
-/// NC nodal quantities on their way to the particles.
+/// Of a node's record: v⁺ and a Δt, in 2-D v⁺ twice more for its gradient, and for XPIC m(v − v*).
+template <int Dim>
+constexpr int update_entries(int vectors) {
+  return Dim * (vectors + (Dim == 2 ? 2 : 0));
+}
+
+/// The columns of these entries. @param vectors v⁺, a Δt and the third, if there is one
+template <int Dim, int NV>
+inline auto entry_columns(const NodeColumns<NV * Dim>& vectors) {
+  NodeColumns<update_entries<Dim>(NV)> entries;
+  int at = 0;
+  const auto add = [&](int vector) {
+    for (int d = 0; d < Dim; ++d) entries.column[at++] = vectors.column[Dim * vector + d];
+  };
+  for (int vector : {0, 1}) add(vector);
+  if (Dim == 2)
+    for (int copy = 0; copy < 2; ++copy) add(0);
+  if (NV == 3) add(NV - 1);
+  return entries;
+}
+
+/// What a chunk gathers of NC nodal entries.
 template <int Dim, int NC>
 struct GatherRoom {
   Window<Dim, NC> window;
   using Node = typename Window<Dim, NC>::Node;
   Node value[Window<Dim, NC>::kRecords][kChunk<Dim>];
-  Node slope[Dim][kChunk<Dim>];  ///< ∂/∂x_d of the first record
+  Node slope[Dim][kChunk<Dim>];  ///< ∂/∂x_d of the first record (3-D); moments about the particle
 };
 
 template <int Dim, class Basis>
 struct UpdateRoom : StrainForceRoom<Dim, Basis> {
-  GatherRoom<Dim, 2 * Dim> two;
-  GatherRoom<Dim, 3 * Dim> three;
-  alignas(64) double value[Window<Dim, 3 * Dim>::kQuads * 4][kChunk<Dim>];  ///< by component
+  GatherRoom<Dim, update_entries<Dim>(2)> two;
+  GatherRoom<Dim, update_entries<Dim>(3)> three;
+  alignas(64) double value[Dim == 2 ? 8 : 16][kChunk<Dim>];  ///< the vectors by component
 };
 
 /// What an update reports of a tile, by lane.
@@ -39,25 +60,35 @@ struct LaneReport {
   }
 };
 
-/// All nodal quantities of a chunk by component in room.value, and the gradient of the first ones, v⁺, in
-/// room.gradient if it is wanted.
-template <int Dim, int NC, class Weights, class Room>
-inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<Dim, NC>& from, Room& room) {
-  for (int k = 0; k < count; ++k) {
-    if (!gradient) {
-      from.value[0][k] = gather_values(w, k, from.window.at[0]);
-      continue;
+/// The nodal vectors of a chunk by component in room.value, and the gradient of v⁺ in room.gradient if it is
+/// wanted: in 2-D from the pairs beside the values.
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room) {
+  constexpr int last = from.window.kRecords - 1, pairs = 4 / from.window.kPerNode;
+  for (int r = 0; r <= last; ++r)
+    if (gradient && r == pairs)
+      for (int k = 0; k < count; ++k) from.value[r][k] = gather_pairs(w, k, from.window.at[r]);
+    else
+      for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
+  unstack<2, 4>(from.value[0], count, room.value);
+  if (NC > 8) unstack<2, 4>(from.value[last], count, room.value + 4);
+  if (gradient) unstack_pairs(from.value[pairs], count, 1 - pairs, room);
+}
+
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room) {
+  if (gradient) {
+    for (int k = 0; k < count; ++k) {
+      typename GatherRoom<3, NC>::Node slope[3];
+      from.value[0][k] = gather(w, k, from.window.at[0], slope);
+      for (int d = 0; d < 3; ++d) from.slope[d][k] = slope[d];
     }
-    typename GatherRoom<Dim, NC>::Node slope[Dim];
-    from.value[0][k] = gather(w, k, from.window.at[0], slope);
-    for (int d = 0; d < Dim; ++d) from.slope[d][k] = slope[d];
+    for (int d = 0; d < 3; ++d) unstack<3, 3>(from.slope[d], count, &room.gradient[4 * d]);
   }
-  for (int r = 1; r < from.window.kRecords; ++r)
+  for (int r = gradient ? 1 : 0; r < from.window.kRecords; ++r)
     for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   for (int r = 0; r < from.window.kRecords; ++r)
-    unstack<Dim, from.window.kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
-  if (!gradient) return;
-  for (int d = 0; d < Dim; ++d) unstack<Dim, Dim>(from.slope[d], count, &room.gradient[4 * d]);
+    unstack<3, from.window.kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
 }
 
 /// New velocities and positions (and domains) of a chunk from the nodal quantities in `value`.
@@ -111,13 +142,14 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
   const bool strains = rule.dt_strain > 0;
   TileReport report;
   LaneReport lanes;
-  auto& from = [&]() -> GatherRoom<Dim, NV * Dim>& {
+  auto& from = [&]() -> auto& {
     if constexpr (NV == 2)
       return room.two;
     else
       return room.three;
-  }();
-  load_window(nodes, c.tile->slot, from.window);
+  }
+  ();
+  load_window(entry_columns<Dim, NV>(nodes), c.tile->slot, from.window);
   for_each_chunk<Dim, Basis>(
       c, room.weights, strains ? Wanted::both : Wanted::values,
       [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
