@@ -234,24 +234,25 @@ void Tiling<Dim>::stack_up() {
   const auto place_of = [&](const Stack<Dim>& s) {
     return node_tiles[static_cast<std::size_t>(s.begin)].place;
   };
-  for (auto& stack : stacks)
-    for (int k = 0; k < power(3, Dim); ++k) {
-      NodeIndex<Dim> at = coordinates(place_of(stack));
-      int digits = k;
+  // Stacks lie in order of their places, and so do their neighbours on one side: one walk for each side.
+  for (int k = 0; k < power(3, Dim); ++k) {
+    NodeIndex<Dim> side;
+    int digits = k;
+    for (int d = 0; d < Dim; ++d, digits /= 3) side[d] = digits % 3 - 1;
+    std::size_t next = 0;
+    for (auto& stack : stacks) {
+      const NodeIndex<Dim> at = stack.first_node / kTileSide + side;
       bool within = true;
-      for (int d = 0; d < Dim; ++d) {
-        at[d] += digits % 3 - 1;
-        digits /= 3;
+      for (int d = 0; d < Dim; ++d)
         within &= at[d] >= -kMargin && at[d] < span_[static_cast<std::size_t>(d)] - kMargin;
-      }
       stack.neighbour[k] = -1;
       if (!within) continue;
       const std::int64_t wanted = place(at);
-      const auto it = std::lower_bound(stacks.begin(), stacks.end(), wanted,
-                                       [&](const Stack<Dim>& s, std::int64_t p) { return place_of(s) < p; });
-      if (it != stacks.end() && place_of(*it) == wanted)
-        stack.neighbour[k] = static_cast<int>(it - stacks.begin());
+      while (next < stacks.size() && place_of(stacks[next]) < wanted) ++next;
+      if (next < stacks.size() && place_of(stacks[next]) == wanted)
+        stack.neighbour[k] = static_cast<int>(next);
     }
+  }
 }
 
 template <int Dim>
