@@ -148,7 +148,9 @@ space: 3d
 grid: {size: [12 mm, 12 mm, 12 mm], cell: 1 mm}
 time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies: [{name: b, sphere: {centre: [6 mm, 6 mm, 6 mm], radius: 3 mm}, material: m, velocity: [3 m/s, 4 m/s, 5 m/s]}]
+bodies:
+  - {name: b, sphere: {centre: [6 mm, 6 mm, 6 mm], radius: 3 mm}, material: m,
+     velocity: [3 m/s, 4 m/s, 5 m/s]}
 )",
                                  {{"method.basis", basis}});
   Step<Dim> step(scene);
