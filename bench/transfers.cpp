@@ -3,6 +3,7 @@
 #include "bench/support.hpp"
 #include "bench/work.hpp"
 #include "engine/scene/names.hpp"
+#include "kernels/transfer/update_rule.hpp"
 
 namespace {
 
@@ -53,14 +54,21 @@ constexpr double kInstant = 1e-15;
 template <int Dim>
 void project(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
-      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state()); },
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state(), false); },
       [](const Block<Dim>& block) { return block.work.project(); });
+}
+
+template <int Dim>
+void project_force(benchmark::State& state, BasisKind basis) {
+  time_pass<Dim>(
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state(), true); },
+      [](const Block<Dim>& block) { return block.work.project_force(); });
 }
 
 template <int Dim>
 void project_affine(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
-      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state()); },
+      state, basis, [](auto& block, auto&) { block.passes->project(block.step.state(), false); },
       [](const Block<Dim>& block) { return block.work.project_affine(); }, "apic");
 }
 
@@ -81,6 +89,17 @@ void update(benchmark::State& state, BasisKind basis) {
         block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
       },
       [](const Block<Dim>& block) { return block.work.update(update_vectors(Update)); });
+}
+
+template <int Dim>
+void update_strain(benchmark::State& state, BasisKind basis) {
+  time_pass<Dim>(
+      state, basis,
+      [](auto& block, auto&) {
+        const UpdateRule rule{ParticleUpdate::flip, PositionUpdate::grid, kInstant, kInstant, 2};
+        block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
+      },
+      [](const Block<Dim>& block) { return block.work.update_strain(update_vectors(ParticleUpdate::flip)); });
 }
 
 template <int Dim>
@@ -132,8 +151,10 @@ void list_passes(BasisKind basis) {
         ->Unit(benchmark::kMillisecond);
   };
   add("project", project<Dim>);
+  add("project_force", project_force<Dim>);
   add("strain_and_force", strain_and_force<Dim>);
   add("update_flip", update<Dim, ParticleUpdate::flip>);
+  add("update_strain", update_strain<Dim>);
   add("update_xpic", update<Dim, ParticleUpdate::xpic>);
   add("xpic_plain", xpic<Dim, false>);
   add("xpic_paired", xpic<Dim, true>);

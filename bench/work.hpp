@@ -36,6 +36,13 @@ class PassWork {
     return {bytes(where() + doubles<Dim>({Quantity::mass, Quantity::velocity}), 2 * (1 + Dim)),
             values() + Dim + scatter(1 + Dim)};
   }
+  /// The internal force beside mass and momentum, from stresses as they are.
+  Work project_force() const {
+    const int rows = doubles<Dim>({Quantity::mass, Quantity::velocity, Quantity::initial_volume}) +
+                     Dim * (Dim + 1) / 2;  // of a stress in the plane or in space
+    return {bytes(where() + rows, 2 * (1 + 2 * Dim)),
+            both() + Dim + scatter(1 + Dim) + scatter(Dim * Dim) + Dim * Dim};
+  }
   /// APIC: slopes beside the velocity.
   Work project_affine() const {
     const Work plain = project();
@@ -56,6 +63,14 @@ class PassWork {
     if (convected) rows += doubles<Dim>({Quantity::domain_edges, Quantity::deformation_gradient});
     return {bytes(rows, vectors * Dim),
             values() + scatter(vectors * Dim) + 10 * Dim + (convected ? 4 * Dim * Dim : 0)};
+  }
+  /// With strain and stress after the velocities.
+  Work update_strain(int vectors) const {
+    const Work plain = update(vectors);
+    const int rows = (is_convected() ? 1 : 2) * doubles<Dim>({Quantity::deformation_gradient}) +
+                     doubles<Dim>({Quantity::kirchhoff_stress});
+    return {plain.bytes + 8.0 * rows,
+            plain.flops - values() + both() + scatter(Dim * Dim) + kStrain + kNeoHookean};
   }
   /// APIC: the moments of the velocity beside it.
   Work update_affine() const {
@@ -133,6 +148,11 @@ class PassWork {
   double gradients() const {
     if (is_convected()) return corners(Dim) + nodes() * Dim * 2.0 * Dim;
     return one_dimensional() + nodes() * Dim * (Dim - 1.0);
+  }
+  /// Both from the same functions of one dimension, or at the same corners.
+  double both() const {
+    return is_convected() ? corners(1 + Dim) + nodes() * (1 + Dim * 2.0 * Dim)
+                          : gradients() + nodes() * (Dim - 1.0);
   }
 
   BasisKind basis_;

@@ -94,24 +94,38 @@ inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const Partic
 /// Room for the weights of one chunk on any support of a basis.
 template <int Dim, class Basis>
 struct WeightRoom {
-  alignas(64) ChunkWeights<Dim, Basis::kMinSupport> narrow;
-  alignas(64) ChunkWeights<Dim, Basis::kMaxSupport> wide;
+  alignas(64) typename Basis::template Weights<Basis::kMinSupport> narrow;
+  alignas(64) typename Basis::template Weights<Basis::kMaxSupport> wide;
 };
+
+/// Stages the wanted weights of a chunk. @return false if a support leaves the window
+template <class Basis, int Dim, class Weights>
+inline bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
+  switch (wanted) {
+    case Wanted::values:
+      return Basis::template stage<Wanted::values>(g, out);
+    case Wanted::gradients:
+      return Basis::template stage<Wanted::gradients>(g, out);
+    case Wanted::both:
+      break;
+  }
+  return Basis::template stage<Wanted::both>(g, out);
+}
 
 /// Stages each chunk of the tile, with the weights that are wanted, and calls f(weights, run, begin, count).
 /// @return false if a particle's support left the window (the rest of the tile is then skipped).
-template <int Dim, class Basis, Wanted W, class F>
-inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, F f) {
+template <int Dim, class Basis, class F>
+inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
     const ParticleRun<Dim>& run = c.runs[r];
     for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
       const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
       const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
       if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
-        if (!Basis::template stage<W>(g, room.narrow)) return false;
+        if (!stage<Basis>(wanted, g, room.narrow)) return false;
         f(room.narrow, run, begin, count);
       } else {
-        if (!Basis::template stage<W>(g, room.wide)) return false;
+        if (!stage<Basis>(wanted, g, room.wide)) return false;
         f(room.wide, run, begin, count);
       }
     }

@@ -21,6 +21,8 @@ void plan_method(const MethodSpec& method, Plan& plan) {
                   : method.position == PositionKind::trapezoid ? PositionUpdate::trapezoid
                                                                : PositionUpdate::particle;
   plan.strain_first = method.strain == StrainKind::first ? 1 : method.strain == StrainKind::last ? 0 : 0.5;
+  plan.force_with_mass =
+      plan.strain_first == 0 && plan.update != ParticleUpdate::apic && plan.depth != Depth::hoop;
   static_assert(kAllTerms == MethodSpec::kAllTerms);
   plan.deformation_terms = method.deformation_terms;
 }
@@ -96,14 +98,16 @@ void plan_columns(const Scene& scene, Plan& plan) {
 
 void list_passes(Plan& plan) {
   auto& p = plan.passes;
-  p.push_back("project mass and momentum");
+  p.push_back(plan.force_with_mass ? "project mass, momentum and internal force"
+                                   : "project mass and momentum");
   if (plan.geometry) p.push_back("project volumes, their gradients and positions");
   if (plan.contact) {
     p.push_back("find contact nodes");
     if (plan.contact_geometry) p.push_back("contact normals and separations");
     if (plan.first_correction) p.push_back("first contact correction");
   }
-  p.push_back(plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
+  if (!plan.force_with_mass)
+    p.push_back(plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
   if (plan.gravity) p.push_back("body force");
   p.push_back("momentum update with reactions");
   if (plan.contact) p.push_back("second contact correction");

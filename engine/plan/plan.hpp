@@ -9,7 +9,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
-#include "kernels/transfer/update.hpp"
+#include "kernels/transfer/update_rule.hpp"
 
 namespace mpmfast {
 
@@ -32,6 +32,8 @@ struct Plan {
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected
   bool gravity = false;
+  bool force_with_mass =
+      false;  ///< no strain comes first: forces follow from stresses known as a step begins
   std::vector<std::string> fields;  ///< names of the velocity fields
   std::vector<int> body_field;      ///< as Scene::bodies
   std::vector<bool> field_rigid;

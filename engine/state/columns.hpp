@@ -2,6 +2,8 @@
 
 /// @file Aligned, growable columns of numbers: the building block of every structure of arrays here.
 
+#include <sys/mman.h>
+
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -26,9 +28,12 @@ class Column {
   /// Grows if needed (contents are then lost and zeroed); never shrinks the memory.
   void resize_discard(std::size_t n) {
     if (n + kPadding > capacity_) {
-      const std::size_t bytes = ((n + kPadding) * sizeof(T) + 63) / 64 * 64;
-      T* raw = static_cast<T*>(std::aligned_alloc(64, bytes));
+      const std::size_t needed = (n + kPadding) * sizeof(T);
+      const std::size_t grain = needed < kHuge ? 64 : kHugePage;
+      const std::size_t bytes = (needed + grain - 1) / grain * grain;
+      T* raw = static_cast<T*>(std::aligned_alloc(grain, bytes));
       if (!raw) throw std::bad_alloc();
+      if (grain == kHugePage) madvise(raw, bytes, MADV_HUGEPAGE);  // a wish: refused, it is only slower
       std::memset(static_cast<void*>(raw), 0, bytes);
       data_.reset(raw);
       capacity_ = bytes / sizeof(T);
@@ -37,6 +42,9 @@ class Column {
   }
 
  private:
+  /// Large columns ask for large pages: a pass goes along a dozen columns at once, each in pages of its own.
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = 4 * kHugePage;
+
   struct Free {
     void operator()(T* p) const { std::free(p); }
   };

@@ -1,46 +1,68 @@
 #include "engine/state/tiling.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <utility>
 
 namespace mpmfast {
 
 namespace {
 
 constexpr int kMargin = 2;  ///< tiles beyond the domain on each side: supports and lost particles stay within
-constexpr int kDigit = 11;  ///< bits a radix pass
 
-/// Stable radix sort of keys with their order. Passes over digits that no key uses are not made.
-void radix_sort(std::vector<std::uint64_t>& key, std::vector<std::uint32_t>& order,
-                std::vector<std::uint64_t>& key_spare, std::vector<std::uint32_t>& order_spare,
-                std::uint64_t largest) {
-  const std::size_t n = key.size();
-  key_spare.resize(n);
-  order_spare.resize(n);
+constexpr std::size_t kFewest = 4096;  ///< particles below which threads would wait more than work
+
+/// Stable radix sort of keys with their order: each thread counts the digits of its stretch, then places them
+/// behind those of the stretches before it, so that the result is the same for any number of threads. Digits
+/// that no key uses are left out.
+void radix_sort(SortBuffers& b, std::uint64_t largest) {
+  constexpr int kDigit = SortBuffers::kDigit;
+  constexpr std::size_t kValues = std::size_t{1} << kDigit;
+  const std::size_t n = b.key.size();
+  b.key_spare.resize(n);
+  b.order_spare.resize(n);
   for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
-    std::array<std::uint32_t, (1u << kDigit) + 1> begin{};
-    constexpr std::uint64_t mask = (1u << kDigit) - 1;
-    for (std::size_t i = 0; i < n; ++i) ++begin[(key[i] >> shift & mask) + 1];
-    for (std::size_t b = 1; b < begin.size(); ++b) begin[b] += begin[b - 1];
-    for (std::size_t i = 0; i < n; ++i) {
-      const std::uint32_t at = begin[key[i] >> shift & mask]++;
-      key_spare[at] = key[i];
-      order_spare[at] = order[i];
+    const auto digit = [&](std::size_t i) { return b.key[i] >> shift & (kValues - 1); };
+#pragma omp parallel if (n > kFewest)
+    {
+      const auto threads = static_cast<std::size_t>(omp_get_num_threads()),
+                 thread = static_cast<std::size_t>(omp_get_thread_num());
+#pragma omp single
+      b.next.resize(threads);
+      auto& mine = b.next[thread];
+      mine.fill(0);
+      const std::size_t begin = n * thread / threads, end = n * (thread + 1) / threads;
+      for (std::size_t i = begin; i < end; ++i) ++mine[digit(i)];
+#pragma omp barrier
+#pragma omp single
+      {
+        std::uint32_t place = 0;
+        for (std::size_t v = 0; v < kValues; ++v)
+          for (auto& counts : b.next) place += std::exchange(counts[v], place);
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint32_t at = mine[digit(i)]++;
+        b.key_spare[at] = b.key[i];
+        b.order_spare[at] = b.order[i];
+      }
     }
-    key.swap(key_spare);
-    order.swap(order_spare);
+    b.key.swap(b.key_spare);
+    b.order.swap(b.order_spare);
   }
 }
 
+/// Puts the column in order; the memory that it had is the next one's spare.
 template <class T>
-void permute(T* column, const std::vector<std::uint32_t>& order, std::vector<double>& spare) {
-  static_assert(sizeof(T) <= sizeof(double));
-  T* copy = reinterpret_cast<T*>(spare.data());
+void permute(Column<T>& column, const std::vector<std::uint32_t>& order, Column<T>& spare) {
   const auto n = static_cast<std::int64_t>(order.size());
-  std::memcpy(copy, column, order.size() * sizeof(T));
-#pragma omp parallel for schedule(static) if (n > 4096)
-  for (std::int64_t i = 0; i < n; ++i) column[i] = copy[order[static_cast<std::size_t>(i)]];
+  spare.resize_discard(order.size());
+  const T* from = column.data();
+  T* to = spare.data();
+#pragma omp parallel for schedule(static) if (order.size() > kFewest)
+  for (std::int64_t i = 0; i < n; ++i) to[i] = from[order[static_cast<std::size_t>(i)]];
+  std::swap(column, spare);
 }
 
 }  // namespace
@@ -88,10 +110,11 @@ template <int Dim>
 void Tiling<Dim>::sort(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
                        const std::vector<int>& body_field) {
   const std::size_t n = particles.size();
-  key_.resize(n);
-  order_.resize(n);
+  buffers_.key.resize(n);
+  buffers_.order.resize(n);
   std::uint64_t places = 1, largest = 0;
   for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+#pragma omp parallel for schedule(static) reduction(max : largest) if (n > kFewest)
   for (std::size_t p = 0; p < n; ++p) {
     NodeIndex<Dim> tile;
     int cell = 0;
@@ -104,16 +127,17 @@ void Tiling<Dim>::sort(Particles<Dim>& particles, const std::array<std::vector<i
     std::uint64_t key = static_cast<std::uint64_t>(body_field[static_cast<std::size_t>(body)]);
     key = key * places + static_cast<std::uint64_t>(place(tile));
     key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(body);
-    key_[p] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
-    order_[p] = static_cast<std::uint32_t>(p);
-    largest = std::max(largest, key_[p]);
+    buffers_.key[p] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
+    buffers_.order[p] = static_cast<std::uint32_t>(p);
+    largest = std::max(largest, buffers_.key[p]);
   }
-  radix_sort(key_, order_, key_spare_, order_spare_, largest);
-  spare_.resize(n);
+  if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;
+  radix_sort(buffers_, largest);
   for (Quantity q : particles.quantities())
-    for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.column(q, k), order_, spare_);
-  permute(particles.id().data(), order_, spare_);
-  permute(particles.body().data(), order_, spare_);
+    for (int k = 0; k < Particles<Dim>::components(q); ++k)
+      permute(particles.raw(q, k), buffers_.order, buffers_.column);
+  permute(particles.id(), buffers_.order, buffers_.id);
+  permute(particles.body(), buffers_.order, buffers_.body);
 }
 
 template <int Dim>
@@ -124,13 +148,14 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
   const auto cells = static_cast<std::uint64_t>(kTileNodes<Dim>);
   std::uint64_t last_tile = ~std::uint64_t{0};
   for (std::uint32_t p = 0; p < n;) {
-    const std::uint64_t run_key = key_[p] / cells, tile_key = run_key / static_cast<std::uint64_t>(bodies_);
+    const std::uint64_t run_key = buffers_.key[p] / cells,
+                        tile_key = run_key / static_cast<std::uint64_t>(bodies_);
     ParticleRun<Dim> run;
     run.begin = p;
     run.body = particles.body()[p];
     for (std::uint64_t cell = 0; cell < cells; ++cell) {
       run.cell_begin[cell] = p;
-      while (p < n && key_[p] == run_key * cells + cell) ++p;
+      while (p < n && buffers_.key[p] == run_key * cells + cell) ++p;
     }
     run.cell_begin[cells] = run.end = p;
     if (tile_key != last_tile) {
@@ -209,32 +234,32 @@ void Tiling<Dim>::stack_up() {
   const auto place_of = [&](const Stack<Dim>& s) {
     return node_tiles[static_cast<std::size_t>(s.begin)].place;
   };
-  for (auto& stack : stacks)
-    for (int k = 0; k < power(3, Dim); ++k) {
-      NodeIndex<Dim> at = coordinates(place_of(stack));
-      int digits = k;
+  // Stacks lie in order of their places, and so do their neighbours on one side: one walk for each side.
+  for (int k = 0; k < power(3, Dim); ++k) {
+    NodeIndex<Dim> side;
+    int digits = k;
+    for (int d = 0; d < Dim; ++d, digits /= 3) side[d] = digits % 3 - 1;
+    std::size_t next = 0;
+    for (auto& stack : stacks) {
+      const NodeIndex<Dim> at = stack.first_node / kTileSide + side;
       bool within = true;
-      for (int d = 0; d < Dim; ++d) {
-        at[d] += digits % 3 - 1;
-        digits /= 3;
+      for (int d = 0; d < Dim; ++d)
         within &= at[d] >= -kMargin && at[d] < span_[static_cast<std::size_t>(d)] - kMargin;
-      }
       stack.neighbour[k] = -1;
       if (!within) continue;
       const std::int64_t wanted = place(at);
-      const auto it = std::lower_bound(stacks.begin(), stacks.end(), wanted,
-                                       [&](const Stack<Dim>& s, std::int64_t p) { return place_of(s) < p; });
-      if (it != stacks.end() && place_of(*it) == wanted)
-        stack.neighbour[k] = static_cast<int>(it - stacks.begin());
+      while (next < stacks.size() && place_of(stacks[next]) < wanted) ++next;
+      if (next < stacks.size() && place_of(stacks[next]) == wanted)
+        stack.neighbour[k] = static_cast<int>(next);
     }
+  }
 }
 
 template <int Dim>
 std::size_t Tiling<Dim>::bytes() const {
   return tiles.capacity() * sizeof(ParticleTile<Dim>) + runs.capacity() * sizeof(ParticleRun<Dim>) +
          node_tiles.capacity() * sizeof(NodeTile<Dim>) + stacks.capacity() * sizeof(Stack<Dim>) +
-         (key_.capacity() + key_spare_.capacity() + spare_.capacity()) * sizeof(double) +
-         (order_.capacity() + order_spare_.capacity()) * sizeof(std::uint32_t);
+         buffers_.bytes();
 }
 
 template class Tiling<2>;

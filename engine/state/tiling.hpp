@@ -34,6 +34,24 @@ struct Stack {
   int neighbour[power(3, Dim)];  ///< stacks around it (x fastest, itself in the middle); −1: none
 };
 
+/// What the sort works with; kept from one to the next.
+struct SortBuffers {
+  static constexpr int kDigit = 11;  ///< bits a radix pass
+  using Places = std::array<std::uint32_t, 1u << kDigit>;
+  std::vector<Places> next;  ///< where the next key of each digit goes, by thread
+  std::vector<std::uint64_t> key, key_spare;
+  std::vector<std::uint32_t> order, order_spare;
+  Column<double> column;  ///< to swap for one that is put in order
+  Column<std::uint32_t> id;
+  Column<std::uint16_t> body;
+
+  std::size_t bytes() const {
+    return (key.capacity() + key_spare.capacity()) * sizeof(std::uint64_t) +
+           (order.capacity() + order_spare.capacity()) * sizeof(std::uint32_t) + column.bytes() + id.bytes() +
+           body.bytes() + next.capacity() * sizeof(Places);
+  }
+};
+
 template <int Dim>
 class Tiling {
  public:
@@ -78,9 +96,7 @@ class Tiling {
   void stack_up();
 
   std::array<int, 3> span_{1, 1, 1};  ///< tiles along each axis, with a margin
-  std::vector<std::uint64_t> key_, key_spare_;
-  std::vector<std::uint32_t> order_, order_spare_;
-  std::vector<double> spare_;
+  SortBuffers buffers_;
   int bodies_ = 1;
 };
 

@@ -40,17 +40,16 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   void sort(State<Dim>& state) override {
-    ParticleView<Dim> view = state.view();
+    const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     for (auto& column : first_node_) column.resize(static_cast<std::size_t>(n));
+    const ParticleTile<Dim> nowhere{};
+    const ParticleRun<Dim> any{};  // first_node() asks for nothing that differs between bodies
+    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
+    const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(n));
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
     for (std::int64_t p = 0; p < n; ++p) {
-      ParticleTile<Dim> nowhere{};
-      ParticleRun<Dim> one{};
-      one.body = state.particles.body()[static_cast<std::size_t>(p)];
-      const TileContext<Dim> c{&view, &nowhere, &one, state.bodies.data(), &state.grid};
-      const NodeIndex<Dim> first =
-          Basis::first_node(chunk_geometry(c, one, static_cast<std::uint32_t>(p), 1), 0);
+      const NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
       for (int d = 0; d < Dim; ++d)  // the tiling puts what it takes for the first node at offset 1 … 4
         first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] =
             first[d] + 1 - kSortedOffset<Basis>;
@@ -59,21 +58,21 @@ class BasisPasses final : public Passes<Dim> {
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
   }
 
-  bool project(State<Dim>& state) override {
-    NodeColumns<1 + Dim> out;
-    out.column[0] = state.nodes.column(Nodal::mass);
-    for (int d = 0; d < Dim; ++d) out.column[1 + d] = state.nodes.column(Nodal::momentum, d);
+  bool project(State<Dim>& state, bool with_force) override {
+    auto& nodes = state.nodes;
+    NodeColumns<1 + Dim> inertia;
+    NodeColumns<kLoadEntries<Dim>> load{};
+    inertia.column[0] = load.column[0] = nodes.column(Nodal::mass);
+    for (int d = 0; d < Dim; ++d)
+      inertia.column[1 + d] = load.column[1 + d] = nodes.column(Nodal::momentum, d);
+    for (int e = 4; e < kLoadEntries<Dim>; ++e) load.column[e] = nodes.column(Nodal::force, (e - 4) % Dim);
     outside_.assign(rooms_.size(), 0);
-    [[maybe_unused]] const bool affine = state.particles.has(Quantity::velocity_slopes);
-    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+    const bool affine = state.particles.has(Quantity::velocity_slopes);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       int& outside = outside_[static_cast<std::size_t>(omp_get_thread_num())];
       if (outside) return;  // all of it will be done again
-      bool inside;
-      if constexpr (Basis::kSpread > 0)
-        inside = affine ? project_affine_tile<Dim, Basis>(c, room.project, out)
-                        : project_tile<Dim, Basis>(c, room.project, out);
-      else
-        inside = project_tile<Dim, Basis>(c, room.project, out);
+      const bool inside = with_force && !rigid ? project_force_tile<Dim, Basis>(c, room.project, load)
+                                               : project_inertia(c, room.project, affine, inertia);
       if (!inside) outside = 1;
     });
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
@@ -84,7 +83,7 @@ class BasisPasses final : public Passes<Dim> {
     const GeometryColumns<Dim> out{nodes.columns(Nodal::volume_gradient), nodes.columns(Nodal::mass_position),
                                    nodes.columns(Nodal::mass_displacement),
                                    nodes.template columns<1>(Nodal::volume)};
-    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
       project_geometry_tile<Dim, Basis>(c, room.project, out);
     });
   }
@@ -92,7 +91,7 @@ class BasisPasses final : public Passes<Dim> {
   double strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
     const auto velocity = state.nodes.columns(Nodal::velocity), force = state.nodes.columns(Nodal::force);
     smallest_.assign(rooms_.size(), std::numeric_limits<double>::infinity());
-    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
       const double j = strain_force(c, room, velocity, dt_strain, terms, state, force);
       double& smallest = smallest_[static_cast<std::size_t>(omp_get_thread_num())];
@@ -139,7 +138,7 @@ class BasisPasses final : public Passes<Dim> {
   /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap,
   /// and each slot adds up its tiles in the order of the colours, whatever the threads.
   template <class F>
-  void scatter(State<Dim>& state, F f) {
+  void scatter_tiles(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
 #pragma omp parallel num_threads(state.threads)
     {
@@ -167,11 +166,18 @@ class BasisPasses final : public Passes<Dim> {
     return strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
   }
 
+  static bool project_inertia(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+                              [[maybe_unused]] bool affine, const NodeColumns<1 + Dim>& out) {
+    if constexpr (Basis::kSpread > 0)
+      if (affine) return project_affine_tile<Dim, Basis>(c, room, out);
+    return project_tile<Dim, Basis>(c, room, out);
+  }
+
   template <int NC>
   void xpic_columns(State<Dim>& state) {
     const auto in = state.nodes.template columns<NC>(Nodal::star),
                out = state.nodes.template columns<NC>(Nodal::next);
-    scatter(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
       auto& xpic_room = reinterpret_cast<XpicRoom<Dim, Basis, NC>&>(room.xpic);
       xpic_tile<Dim, Basis, NC>(c, xpic_room, in, out);

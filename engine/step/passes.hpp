@@ -8,7 +8,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
-#include "kernels/transfer/update.hpp"
+#include "kernels/transfer/update_rule.hpp"
 
 namespace mpmfast {
 
@@ -21,9 +21,10 @@ class Passes {
   virtual void shape_domains(State<Dim>& state) = 0;
   /// First support node of every particle, and the sort that follows from it.
   virtual void sort(State<Dim>& state) = 0;
-  /// Mass and momentum of every slot (N20 Eq. 5); the columns must be zero.
+  /// Mass and momentum of every slot (N20 Eq. 5), and the internal force from stresses as they are if it is
+  /// wanted (not of particles with slopes, nor about an axis); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again
-  virtual bool project(State<Dim>& state) = 0;
+  virtual bool project(State<Dim>& state, bool with_force) = 0;
   /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
   virtual void project_geometry(State<Dim>& state) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.

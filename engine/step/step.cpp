@@ -15,6 +15,19 @@
 
 namespace mpmfast {
 
+namespace {
+
+/// out = factor x/m, zero where there is no mass, of slots [begin, end): tiles, so a multiple of kLanes.
+void divide_by_mass(const double* mass, const double* x, double factor, std::int64_t begin, std::int64_t end,
+                    double* out) {
+  for (std::int64_t i = begin; i < end; i += kLanes) {
+    const Lanes m = load_lanes(mass + i);
+    store_lanes(out + i, m > 0.0 ? factor * load_lanes(x + i) / m : 0.0);
+  }
+}
+
+}  // namespace
+
 template <int Dim>
 Step<Dim>::Step(const Scene& scene)
     : scene_(&scene),
@@ -71,18 +84,13 @@ void Step<Dim>::advance(double dt) {
   if (plan_.own_filter && plan_.order > 1)
     for_each_slot([&](std::int64_t begin, std::int64_t end) {
       const double* mass = state_.nodes.column(Nodal::mass);
-      for (int d = 0; d < Dim; ++d) {
-        const double* p = state_.nodes.column(Nodal::momentum, d);
-        double* v = state_.nodes.column(Nodal::star, d);
-        for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
-      }
+      for (int d = 0; d < Dim; ++d)
+        divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
+                       state_.nodes.column(Nodal::star, d));
     });
   correct_contact(Correction::initial, dt);  // Eq. 26
   start_velocities();
-  const double smallest_j = clock_.time(Pass::strain_force, [&] {  // Eq. 28, 29
-    return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
-  });
-  if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
+  if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
   add_body_force(dt);
   clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt); });
   update_momenta(dt);                      // Eq. 30
@@ -138,7 +146,7 @@ void Step<Dim>::project() {
         if (plan_.paired)
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
       });
-      const bool all_inside = passes_->project(state_);
+      const bool all_inside = passes_->project(state_, plan_.force_with_mass);
       if (all_inside && plan_.geometry) passes_->project_geometry(state_);
       return all_inside;
     });
@@ -166,24 +174,32 @@ void Step<Dim>::correct_contact(Correction correction, double dt) {
   clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, correction, dt); });
 }
 
-/// v = p/m after the first contact correction: for XPIC as it is, for the strain with conditions imposed on
-/// the copy.
+/// v = p/m after the first contact correction: for XPIC as it is, for a strain that comes first with
+/// conditions imposed on the copy. Without either, nobody reads it.
 template <int Dim>
 void Step<Dim>::start_velocities() {
+  const bool filtered = plan_.order > 1 && !plan_.full_mass && !plan_.own_filter;
+  if (plan_.strain_first == 0 && !filtered) return;
   clock_.time(Pass::nodes, [&] {
     auto& nodes = state_.nodes;
     const double* mass = nodes.column(Nodal::mass);
-    const bool xpic = plan_.order > 1 && !plan_.full_mass;
     for_each_slot([&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
-        const double* p = nodes.column(Nodal::momentum, d);
         double* v = nodes.column(Nodal::velocity, d);
-        for (std::int64_t i = begin; i < end; ++i) v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
-        if (xpic && !plan_.own_filter) std::copy(v + begin, v + end, nodes.column(Nodal::star, d) + begin);
+        divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end, v);
+        if (filtered) std::copy(v + begin, v + end, nodes.column(Nodal::star, d) + begin);
       }
     });
   });
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
+}
+
+template <int Dim>
+void Step<Dim>::strain_and_force(double dt) {
+  const double smallest_j = clock_.time(Pass::strain_force, [&] {
+    return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
+  });
+  if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
 }
 
 template <int Dim>
@@ -235,10 +251,8 @@ void Step<Dim>::end_velocities(double dt) {
         const double* p = state_.nodes.column(Nodal::momentum, d);
         double* v = state_.nodes.column(Nodal::velocity, d);
         double* f = state_.nodes.column(Nodal::force, d);
-        for (std::int64_t i = begin; i < end; ++i) {
-          v[i] = mass[i] > 0 ? p[i] / mass[i] : 0;
-          f[i] = mass[i] > 0 ? f[i] * dt / mass[i] : 0;
-        }
+        divide_by_mass(mass, p, 1, begin, end, v);
+        divide_by_mass(mass, f, dt, begin, end, f);
       }
     });
   });
@@ -284,17 +298,13 @@ void Step<Dim>::filter_velocities() {
         for (int d = 0; d < Dim; ++d) {
           double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
           const double* next = nodes.column(Nodal::next, d);
-          for (std::int64_t i = begin; i < end; ++i) {
-            star[i] = mass[i] > 0 ? star_factor * next[i] / mass[i] : 0;
-            series[i] -= sign * star[i];
-          }
+          divide_by_mass(mass, next, star_factor, begin, end, star);
+          for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * star[i];
           if (!paired) continue;
           double* change = nodes.column(Nodal::star, Dim + d);
           const double* change_next = nodes.column(Nodal::next, Dim + d);
-          for (std::int64_t i = begin; i < end; ++i) {
-            series[i] -= sign * share * change[i];
-            change[i] = mass[i] > 0 ? change_factor * change_next[i] / mass[i] : 0;
-          }
+          for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * share * change[i];
+          divide_by_mass(mass, change_next, change_factor, begin, end, change);
         }
       });
     });

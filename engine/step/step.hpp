@@ -60,6 +60,7 @@ class Step {
   void find_contact();
   void correct_contact(Correction correction, double dt);
   void start_velocities();
+  void strain_and_force(double dt);
   bool is_rigid_slot(std::int64_t slot) const;
   void add_body_force(double dt);
   void update_momenta(double dt);

@@ -67,6 +67,9 @@ struct CpdiBasis {
     for (auto& e : edge) e *= scale;
   }
 
+  template <int K>
+  using Weights = ChunkWeights<Dim, K>;
+
   template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
     alignas(64) double first[Dim][kChunk<Dim>];
@@ -129,13 +132,11 @@ struct CpdiBasis {
   /// neighbouring nodes at most, else kMaxSupport. The lanes beyond the chunk must not count: another thread
   /// may be moving those particles, and sums over more and over fewer nodes round differently.
   static int chunk_support(const ChunkGeometry<Dim>& g) {
-    IntLanes lane;
-    for (int i = 0; i < kLanes; ++i) lane[i] = i;
     IntLanes wide{};
     for (int k = 0; k < g.count; k += kLanes) {
       Lanes r[Dim], edge[Dim][Dim];
       centre_and_edges(g, k, r, edge);
-      const IntLanes counts = lane < static_cast<std::int64_t>(g.count - k);
+      const IntLanes counts = lanes_before(g.count - k);
       for (int d = 0; d < Dim; ++d) {
         Lanes extent = broadcast<Lanes>(0.0);
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);

@@ -114,41 +114,26 @@ struct SeparableBasis {
   static constexpr bool kConvected = false;  ///< needs no half-edge vectors
   static constexpr double kSpread = Function::kSpread;
 
+  template <int K>
+  using Weights = ProductWeights<Dim, K>;
+
   /// Stages the weights of a chunk. @return false if a support leaves the window.
   template <Wanted W = Wanted::both, int K>
-  static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
+  static bool stage(const ChunkGeometry<Dim>& g, ProductWeights<Dim, K>& out) {
     static_assert(K == Function::kSupport);
     alignas(64) double first[Dim][kChunk<Dim>];
-    for (int k = 0; k < g.count; k += kLanes) {
-      Lanes w[Dim][K], slope[Dim][K];
+    for (int k = 0; k < g.count; k += kLanes)
       for (int d = 0; d < Dim; ++d) {
+        Lanes value[K], slope[K];
         const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
         const Lanes node = Function::first_node(r);
         store_lanes(&first[d][k], node);
-        Function::weights(r - node, g.half_size[d] * g.inverse_cell, w[d], slope[d]);
-        for (int i = 0; i < K; ++i) slope[d][i] *= g.inverse_cell;
-      }
-      for (int n = 0; n < out.kNodes; ++n) {
-        const int i = n % K, j = n / K % K;
-        constexpr bool values = W != Wanted::gradients, gradients = W != Wanted::values;
-        if constexpr (Dim == 2) {
-          if constexpr (values) store_lanes(&out.value[n][k], w[0][i] * w[1][j]);
-          if constexpr (gradients) {
-            store_lanes(&out.gradient[0][n][k], slope[0][i] * w[1][j]);
-            store_lanes(&out.gradient[1][n][k], w[0][i] * slope[1][j]);
-          }
-        } else {
-          const int l = n / (K * K);
-          const Lanes yz = w[1][j] * w[2][l];
-          if constexpr (values) store_lanes(&out.value[n][k], w[0][i] * yz);
-          if constexpr (gradients) {
-            store_lanes(&out.gradient[0][n][k], slope[0][i] * yz);
-            store_lanes(&out.gradient[1][n][k], w[0][i] * (slope[1][j] * w[2][l]));
-            store_lanes(&out.gradient[2][n][k], w[0][i] * (w[1][j] * slope[2][l]));
-          }
+        Function::weights(r - node, g.half_size[d] * g.inverse_cell, value, slope);
+        for (int i = 0; i < K; ++i) {
+          store_lanes(&out.value[d][i][k], value[i]);
+          if constexpr (W != Wanted::values) store_lanes(&out.slope[d][i][k], slope[i] * g.inverse_cell);
         }
       }
-    }
     return place_in_window<Dim, K>(first, g, out.first);
   }
 

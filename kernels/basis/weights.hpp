@@ -8,9 +8,10 @@
 
 namespace mpmfast {
 
-/// Particles whose weights are staged at once: few enough that they stay in the first-level cache.
+/// Particles whose weights are staged at once: few enough that they stay in the first-level cache. In 2-D a
+/// little more than the 64 of a tile at 4 a cell, so that a tile that gained a few is still one chunk.
 template <int Dim>
-inline constexpr int kChunk = Dim == 2 ? 64 : 16;
+inline constexpr int kChunk = Dim == 2 ? 80 : 16;
 
 /// Cells: nearer than this to the edge of a support, round-off decides.
 inline constexpr double kEdge = 1e-9;
@@ -37,7 +38,7 @@ enum class Wanted { values, gradients, both };
 template <class Basis>
 inline constexpr int kSortedOffset = Basis::kMaxSupport <= kWindowSide - kTileSide ? 1 : 0;
 
-/// Weights of a chunk on K nodes a side. Node n of a particle lies at window index first[k] +
+/// Weights of a chunk on K nodes a side, of any kind. Node n of a particle lies at window index first[k] +
 /// window_offset(n).
 template <int Dim, int K>
 struct ChunkWeights {
@@ -45,6 +46,30 @@ struct ChunkWeights {
   int first[kChunk<Dim>];
   alignas(64) double value[kNodes][kChunk<Dim>];          ///< S_pi
   alignas(64) double gradient[Dim][kNodes][kChunk<Dim>];  ///< G_pi, 1/m
+
+  double value_at(int n, int k) const { return value[n][k]; }
+  double gradient_at(int d, int n, int k) const { return gradient[d][n][k]; }
+};
+
+/// The same of weights that are products of one-dimensional functions, S_pi = Π_d N_d: the factors alone.
+/// Sums over the nodes are then taken direction after direction (transfer/sums.hpp).
+template <int Dim, int K>
+struct ProductWeights {
+  static constexpr int kNodes = power(K, Dim);
+  int first[kChunk<Dim>];
+  alignas(64) double value[Dim][K][kChunk<Dim>];  ///< N_d on the K nodes along d
+  alignas(64) double slope[Dim][K][kChunk<Dim>];  ///< its derivative, 1/m
+
+  double value_at(int n, int k) const {
+    double product = 1;
+    for (int d = 0; d < Dim; ++d, n /= K) product *= value[d][n % K][k];
+    return product;
+  }
+  double gradient_at(int along, int n, int k) const {
+    double product = 1;
+    for (int d = 0; d < Dim; ++d, n /= K) product *= d == along ? slope[d][n % K][k] : value[d][n % K][k];
+    return product;
+  }
 };
 
 /// Index of the n-th node (x fastest) of a K-cube within the window, relative to its first node.
@@ -64,8 +89,7 @@ constexpr int window_offset(int n) {
 template <int Dim, int K>
 inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g,
                             int* index) {
-  IntLanes outside{}, lane;
-  for (int i = 0; i < kLanes; ++i) lane[i] = i;
+  IntLanes outside{};
   for (int k = 0; k < g.count; k += kLanes) {
     Lanes at = broadcast<Lanes>(0.0);
     double stride = 1;
@@ -73,7 +97,7 @@ inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const Chunk
       const Lanes offset = load_lanes(&first[d][k]) - static_cast<double>(g.window[d]);
       const IntLanes fits =
           (offset >= 0.0) & (offset <= static_cast<double>(kWindowSide - K));  // not for NaN
-      outside |= ~fits & (lane < static_cast<std::int64_t>(g.count - k));
+      outside |= ~fits & lanes_before(g.count - k);
       at += (fits ? offset : 0.0) * stride;
       stride *= kWindowSide;
     }

@@ -1,10 +1,16 @@
 #pragma once
 
 /// @file Short vectors of doubles: Lanes holds one quantity of several particles, Record four quantities of
-/// one node. Both are GCC vector types, so that arithmetic, comparison and ?: read as for a double.
+/// one node, WideRecord eight. All are GCC vector types, so that arithmetic, comparison and ?: read as for a
+/// double.
 
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+
+#if defined(__AVX__)
+#include <immintrin.h>
+#endif
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wignored-attributes"
@@ -21,8 +27,12 @@ inline constexpr int kLanes = 2;
 
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using IntLanes = std::int64_t __attribute__((vector_size(8 * kLanes)));
-/// Four doubles on every machine: a 512-bit record would be spilled where only 256-bit registers exist.
 using Record = double __attribute__((vector_size(32)));
+using WideRecord = double __attribute__((vector_size(64)));
+/// What holds N quantities of a node: wide records are for machines with 512-bit registers, others would
+/// spill.
+template <int N>
+using RecordFor = std::conditional_t<(N > 4 && kLanes == 8), WideRecord, Record>;
 
 template <class V>
 struct LaneTraits;
@@ -56,12 +66,14 @@ inline bool any_of(IntLanes v) {
   for (int i = 0; i < kLanes; ++i) all |= v[i];
   return all != 0;
 }
-/// The first n ≤ kLanes lanes.
+/// The first n lanes, or all of them.
 inline void store_first(double* p, Lanes v, int n) {
-  if (n >= kLanes)
-    store_lanes(p, v);
-  else
-    for (int i = 0; i < n; ++i) p[i] = v[i];
+  if (n >= kLanes) return store_lanes(p, v);
+#if defined(__AVX512F__)
+  _mm512_mask_storeu_pd(p, static_cast<__mmask8>((1u << n) - 1), v);
+#else
+  for (int i = 0; i < n; ++i) p[i] = v[i];
+#endif
 }
 
 /// The same value in every lane (or the value itself).
@@ -83,6 +95,18 @@ inline V magnitude(V a) {
   return a < 0.0 ? -a : a;
 }
 
+// One instruction each, and the same results; the compiler does not see it for fear of NaN. (maskz: g++ 12
+// warns falsely of the plain ones, GCC bug 105593.)
+#if defined(__AVX512F__)
+inline Lanes larger(Lanes a, Lanes b) { return _mm512_maskz_max_pd(0xff, a, b); }
+inline Lanes smaller(Lanes a, Lanes b) { return _mm512_maskz_min_pd(0xff, a, b); }
+inline Lanes magnitude(Lanes a) { return _mm512_abs_pd(a); }
+#elif defined(__AVX__)
+inline Lanes larger(Lanes a, Lanes b) { return _mm256_max_pd(a, b); }
+inline Lanes smaller(Lanes a, Lanes b) { return _mm256_min_pd(a, b); }
+inline Lanes magnitude(Lanes a) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a); }
+#endif
+
 inline double square_root(double x) { return __builtin_sqrt(x); }
 inline Lanes square_root(Lanes x) {
   Lanes r{};
@@ -96,6 +120,18 @@ inline V floor_of(V x) {
   constexpr double magic = 6755399441055744.0;  // 1.5 · 2^52: adding it rounds to the nearest integer
   V nearest = (x + magic) - magic;
   return nearest > x ? nearest - 1.0 : nearest;
+}
+
+/// Mask of the first n lanes, or of all.
+inline IntLanes lanes_before(int n) {
+  IntLanes lane;
+  for (int i = 0; i < kLanes; ++i) lane[i] = i;
+  return lane < static_cast<std::int64_t>(n);
+}
+inline double smallest_of(Lanes x) {
+  double s = x[0];
+  for (int i = 1; i < kLanes; ++i) s = x[i] < s ? x[i] : s;
+  return s;
 }
 
 inline double sum_of(double x) { return x; }

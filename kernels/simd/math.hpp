@@ -81,10 +81,22 @@ logarithm(V x) {
   return exponent * 0.693147180559945309417 + (s + s) * (t * z + 1.0);
 }
 
-/// J^(−2/3), the isochoric factor of the neo-Hookean law.
+/// J^(−2/3), the isochoric factor of the neo-Hookean law, for normal positive J: the square of y = J^(−1/3).
+/// The upper half of y's bits is first guessed as a line in that of J's (Moroz et al. 2021: within 3.5 %);
+/// then y ← y (1 − e)^(−1/3) with e = 1 − J y³, a series to e⁴ (leaving |e| < 4e-6) and again to e² (below
+/// 1e-17).
 template <class V>
 inline V isochoric_factor(V j) {
-  return exponential(logarithm(j) * (-2.0 / 3.0));
+  constexpr double guess = detail::kRoundMagic + 1430188287.0;  // 0x553EF0FF
+  const V upper =
+      detail::from_bits((detail::bits_of(j) >> 32) + detail::bits_of(broadcast<V>(detail::kRoundMagic))) -
+      detail::kRoundMagic;
+  V y = detail::from_bits(detail::bits_of(guess - upper * (1.0 / 3.0)) << 32);
+  V e = 1.0 - (j * y) * (y * y);
+  y += y * (e * (1.0 / 3.0 + e * (2.0 / 9.0 + e * (14.0 / 81.0 + e * (35.0 / 243.0)))));
+  e = 1.0 - (j * y) * (y * y);
+  y += y * (e * (1.0 / 3.0 + e * (2.0 / 9.0)));
+  return y * y;
 }
 
 }  // namespace mpmfast

@@ -8,6 +8,7 @@
 /// Σ_p M_p (x_p × V_p + kSpread Δx² Σ_d e_d × C_p e_d) is conserved to round-off where particles move with
 /// V_p.
 
+#include "kernels/transfer/sums.hpp"
 #include "kernels/transfer/window.hpp"
 #include "kernels/views.hpp"
 
@@ -15,7 +16,7 @@ namespace mpmfast {
 
 /// x_p − x_first in cells, for particle k of a chunk.
 template <int Dim, int K>
-inline void place_in_support(const ChunkWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
+inline void place_in_support(const ProductWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
                              double (&r)[Dim]) {
   int index = w.first[k];
   for (int d = 0; d < Dim; ++d) {
@@ -27,46 +28,46 @@ inline void place_in_support(const ChunkWeights<Dim, K>& w, const ChunkGeometry<
 /// Scatters a record that varies linearly over the nodes: window_i += S_pi (a + Σ_d s_d b_d) with s the steps
 /// from the first node to i, summed up row by row.
 template <int Dim, int K>
-inline void scatter_linear(const ChunkWeights<Dim, K>& w, int k, Record a, const Record (&b)[Dim],
+inline void scatter_linear(const ProductWeights<Dim, K>& w, int k, Record a, const Record (&b)[Dim],
                            Record* window) {
-  Record* target = window + w.first[k];
-  Record plane = a;
-  for (int z = 0; z < (Dim == 3 ? K : 1); ++z) {
-    Record row = plane;
-    for (int y = 0; y < K; ++y) {
-      Record node = row;
+  Record plane = a, along_y = a;
+  detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, Record* row) {
+    if (y == 0) along_y = plane;
+    const double weight = (Dim == 3 ? w.value[Dim - 1][z][k] : 1.0) * w.value[1][y][k];
+    Record node = weight * along_y;
+    const Record step = weight * b[0];
 #pragma GCC unroll 4
-      for (int x = 0; x < K; ++x) {
-        target[(z * kWindowSide + y) * kWindowSide + x] += w.value[(z * K + y) * K + x][k] * node;
-        node += b[0];
-      }
-      row += b[1];
+    for (int x = 0; x < K; ++x) {
+      row[x] += w.value[0][x][k] * node;
+      node += step;
     }
-    plane += b[Dim - 1];
-  }
+    along_y += b[1];
+    if (y == K - 1) plane += b[Dim - 1];
+  });
 }
 
 /// Gathers Σ_i S_pi s_d window_i for every direction d.
-template <int Dim, int K>
-inline void gather_moments(const ChunkWeights<Dim, K>& w, int k, const Record* window, Record (&out)[Dim]) {
-  const Record* source = window + w.first[k];
-  for (auto& o : out) o = Record{};
-  for (int z = 0; z < (Dim == 3 ? K : 1); ++z) {
-    Record plane{};
-    for (int y = 0; y < K; ++y) {
-      Record row{};
+template <int Dim, int K, class R>
+inline void gather_moments(const ProductWeights<Dim, K>& w, int k, const R* window, R (&out)[Dim]) {
+  for (auto& o : out) o = R{};
+  R plane{};
+  detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, const R* row) {
+    const double weight = (Dim == 3 ? w.value[Dim - 1][z][k] : 1.0) * w.value[1][y][k];
+    R sum = w.value[0][0][k] * row[0], moment{};
 #pragma GCC unroll 4
-      for (int x = 0; x < K; ++x) {
-        const Record share =
-            w.value[(z * K + y) * K + x][k] * source[(z * kWindowSide + y) * kWindowSide + x];
-        row += share;
-        out[0] += static_cast<double>(x) * share;
-      }
-      plane += row;
-      out[1] += static_cast<double>(y) * row;
+    for (int x = 1; x < K; ++x) {
+      const R share = w.value[0][x][k] * row[x];
+      sum += share;
+      moment += static_cast<double>(x) * share;
     }
-    if constexpr (Dim == 3) out[2] += static_cast<double>(z) * plane;
-  }
+    out[0] += weight * moment;
+    plane += weight * sum;
+    out[1] += static_cast<double>(y) * (weight * sum);
+    if (Dim == 3 && y == K - 1) {
+      out[Dim - 1] += static_cast<double>(z) * plane;
+      plane = R{};
+    }
+  });
 }
 
 /// As project_tile, of particles that carry slopes. @param room a ProjectRoom
@@ -74,8 +75,8 @@ template <int Dim, class Basis, class Room>
 bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumns<1 + Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.mass_momentum);
-  const bool inside = for_each_chunk<Dim, Basis, Wanted::values>(
-      c, room.weights, [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
+  const bool inside = for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values, [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
         const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
@@ -92,30 +93,31 @@ bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumn
           scatter_linear(w, k, at_first, slope, room.mass_momentum.at[0]);
         }
       });
-  if (inside) flush_window<Dim, 1 + Dim>(room.mass_momentum, c.tile->slot, out);
+  if (inside) flush_window(room.mass_momentum, c.tile->slot, out);
   return inside;
 }
 
-/// New slopes of a chunk from the window's nodal velocities, of which `mean` holds Σ_i S_pi v_i.
-/// @param room has gathered[Dim][kChunk] and gradient[4 Dim][kChunk] to write to
+/// New slopes of a chunk from the window's nodal velocities, of which from.value[0] holds Σ_i S_pi v_i.
+/// @param from a GatherRoom; its slopes and `staging` are written over
 template <int Dim, class Basis, int K, class Room>
 inline void gather_slopes(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
-                          const ChunkWeights<Dim, K>& w, std::uint32_t begin, int count,
-                          const Record* velocity, const Record (&mean)[kChunk<Dim>], Room& room) {
+                          const ProductWeights<Dim, K>& w, std::uint32_t begin, int count, Room& from,
+                          double (&staging)[4 * Dim][kChunk<Dim>]) {
   const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
   const double scale = g.inverse_cell / Basis::kSpread;
   for (int k = 0; k < count; ++k) {
     double r[Dim];
     place_in_support(w, g, k, r);
-    Record moment[Dim];
-    gather_moments(w, k, velocity, moment);
-    for (int d = 0; d < Dim; ++d) room.gathered[d][k] = scale * (moment[d] - r[d] * mean[k]);
+    typename Room::Node moment[Dim];
+    gather_moments(w, k, from.window.at[0], moment);
+    for (int d = 0; d < Dim; ++d) from.slope[d][k] = scale * (moment[d] - r[d] * from.value[0][k]);
   }
-  unstack<Dim, Dim>(room.gathered, count, room.gradient);
   const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
-  for (int i = 0; i < Dim; ++i)
-    for (int d = 0; d < Dim; ++d)
-      std::memcpy(c.particles->slopes[Dim * i + d] + begin, room.gradient[4 * d + i], bytes);
+  for (int d = 0; d < Dim; ++d) {
+    unstack<Dim, Dim>(from.slope[d], count, &staging[4 * d]);
+    for (int i = 0; i < Dim; ++i)
+      std::memcpy(c.particles->slopes[Dim * i + d] + begin, staging[4 * d + i], bytes);
+  }
 }
 
 }  // namespace mpmfast

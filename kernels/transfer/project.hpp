@@ -1,42 +1,89 @@
 #pragma once
 
-/// @file Particles to nodes: mass and momentum, and what grid-based contact asks for beside them.
+/// @file Particles to nodes: mass, momentum and internal force, and what grid-based contact asks for beside
+/// them.
 
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/stress.hpp"
+#include "kernels/transfer/sums.hpp"
 #include "kernels/transfer/window.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
 
+/// Of a node's record: mass and momentum, nothing in 2-D, and the force; in 2-D this is in two parts, those
+/// that come with ∂/∂x and with ∂/∂y.
+template <int Dim>
+inline constexpr int kLoadEntries = Dim == 2 ? 8 : 7;
+
 template <int Dim, class Basis>
 struct ProjectRoom {
+  using LoadWindow = Window<Dim, kLoadEntries<Dim>>;
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, 1> mass_momentum, gradient_volume, mass_position, mass_displacement, volume;
-  alignas(64) double row[1 + Dim][kChunk<Dim>];  ///< mass and momentum of the particles
+  Window<Dim, 1 + Dim> mass_momentum;
+  LoadWindow load;
+  Window<Dim, Dim> gradient_volume, mass_position, mass_displacement;
+  Window<Dim, 1> volume;
   Record record[kChunk<Dim>];
+  // Entries that are never set stay zero: those of the other half of a wide record.
+  typename LoadWindow::Node inertia[kChunk<Dim>], stress[kGradientRecords<Dim>][kChunk<Dim>];
 };
+
+namespace detail {
+
+/// Mass and momentum of a chunk of particles as records.
+template <int Dim, class R>
+inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int count, R* out) {
+  stack<1 + Dim>(count, out, 0, [&](int c, int k) {
+    const Record mass = load_row(p.mass + begin + k);
+    return c == 0 ? mass : mass * load_row(p.velocity[c > 0 ? c - 1 : 0] + begin + k);
+  });
+}
+
+}  // namespace detail
 
 /// Nodal mass and momentum of one tile (N20 Eq. 5): m_i = Σ S_pi M_p, p_i = Σ S_pi M_p V_p.
 /// @param out  mass, momentum; accumulated
 /// @return     false if the tile must be sorted anew (out is then untouched)
 template <int Dim, class Basis>
 bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
-  const ParticleView<Dim>& p = *c.particles;
   clear(room.mass_momentum);
-  const bool inside = for_each_chunk<Dim, Basis, Wanted::values>(
-      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-        for (int k = 0; k < count; k += kLanes) {
-          const Lanes m = load_lanes(p.mass + begin + k);
-          store_lanes(&room.row[0][k], m);
-          for (int d = 0; d < Dim; ++d)
-            store_lanes(&room.row[1 + d][k], m * load_lanes(p.velocity[d] + begin + k));
-        }
-        const double* row[1 + Dim];
-        for (int e = 0; e <= Dim; ++e) row[e] = room.row[e];
-        stack(row, count, room.record);
+  const bool inside = for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        detail::stack_inertia(*c.particles, begin, count, room.record);
         for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
       });
-  if (inside) flush_window<Dim, 1 + Dim>(room.mass_momentum, c.tile->slot, out);
+  if (inside) flush_window(room.mass_momentum, c.tile->slot, out);
+  return inside;
+}
+
+/// As project_tile, with the internal force f_i −= Σ_p V_p0 τ_p·G_pi beside: for stresses that the step does
+/// not change before its forces.
+/// @param out  see kLoadEntries; accumulated
+template <int Dim, class Basis>
+bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+                        const NodeColumns<kLoadEntries<Dim>>& out) {
+  const ParticleView<Dim>& p = *c.particles;
+  auto& at = room.load.at;
+  constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;
+  constexpr bool single = wide && Dim == 2;  // one record has all of a particle
+  clear(room.load);
+  const bool inside = for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        detail::stack_inertia(p, begin, count, room.inertia);
+        stack_stress(p, begin, count, wide ? 1 : 0, single ? &room.inertia : room.stress);
+        for (int k = 0; k < count; ++k) {
+          if constexpr (single) {
+            scatter_pairs(w, k, room.inertia[k], at[0]);
+          } else if constexpr (wide) {
+            scatter(w, k, room.inertia[k], {room.stress[0][k], room.stress[1][k], room.stress[2][k]}, at[0]);
+          } else {
+            scatter_values(w, k, room.inertia[k], at[0]);
+            scatter_stress<Dim>(w, k, room.stress, at[1]);
+          }
+        }
+      });
+  if (inside) flush_window(room.load, c.tile->slot, out);
   return inside;
 }
 
@@ -71,28 +118,30 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   clear(room.mass_position);
   clear(room.mass_displacement);
   clear(room.volume);
-  for_each_chunk<Dim, Basis, Wanted::both>(
-      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-        for (int k = 0; k < count; ++k) {
-          const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-          const double volume = section_volume<Dim>(p, q),
-                       m = p.mass[q];  // m³ (of rings the section, m²) and kg
-          Record x{}, u{};
-          Record unit[Dim] = {};
-          for (int d = 0; d < Dim; ++d) {
-            x[d] = m * (p.position[d][q] - c.grid->origin[d]);
-            if (displaced) u[d] = m * (p.position[d][q] - p.reference_position[d][q]);
-            unit[d][d] = volume;
-          }
-          if (out.mass_position.column[0]) scatter_values(w, k, x, room.mass_position.at[0]);
-          if (out.volume.column[0]) scatter_values(w, k, Record{volume}, room.volume.at[0]);
-          if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
-          if (out.volume_gradient.column[0]) scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
-        }
-      });
+  for_each_chunk<Dim, Basis>(c, room.weights, Wanted::both,
+                             [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+                               for (int k = 0; k < count; ++k) {
+                                 const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+                                 const double volume = section_volume<Dim>(p, q),
+                                              m = p.mass[q];  // m³ (of rings the section, m²) and kg
+                                 Record x{}, u{};
+                                 Record unit[Dim] = {};
+                                 for (int d = 0; d < Dim; ++d) {
+                                   x[d] = m * (p.position[d][q] - c.grid->origin[d]);
+                                   if (displaced) u[d] = m * (p.position[d][q] - p.reference_position[d][q]);
+                                   unit[d][d] = volume;
+                                 }
+                                 if (out.mass_position.column[0])
+                                   scatter_values(w, k, x, room.mass_position.at[0]);
+                                 if (out.volume.column[0])
+                                   scatter_values(w, k, Record{volume}, room.volume.at[0]);
+                                 if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
+                                 if (out.volume_gradient.column[0])
+                                   scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+                               }
+                             });
   const auto flush = [&](auto& window, const auto& columns) {
-    constexpr int N = sizeof(columns.column) / sizeof(double*);
-    if (columns.column[0]) flush_window<Dim, N>(window, c.tile->slot, columns);
+    if (columns.column[0]) flush_window(window, c.tile->slot, columns);
   };
   flush(room.gradient_volume, out.volume_gradient);
   flush(room.mass_position, out.mass_position);

@@ -3,6 +3,8 @@
 /// @file Velocity gradient, strain and stress of the particles, and the internal force on the nodes.
 
 #include "kernels/transfer/strain_chunk.hpp"
+#include "kernels/transfer/stress.hpp"
+#include "kernels/transfer/sums.hpp"
 #include "kernels/transfer/window.hpp"
 
 namespace mpmfast {
@@ -10,47 +12,61 @@ namespace mpmfast {
 template <int Dim, class Basis>
 struct StrainForceRoom : StrainRoom<Dim> {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, 1> velocity, force;
-  Record gathered[Dim][kChunk<Dim>];  ///< ∂v/∂x_d of a particle, components of v
+  static constexpr int kEntries = Dim == 2 ? 4 : Dim;  ///< in 2-D a vector twice, for a record of pairs
+  Window<Dim, kEntries> velocity, force;
+  Record row[kGradientRecords<Dim>][kChunk<Dim>];  ///< ∇v of a particle; then its stress
 };
 
-/// Velocity gradients of a chunk, ∇v_p = Σ_i v_i ⊗ G_pi (N20 Eq. 28), staged in room.gradient.
-template <int Dim, int K, class Room>
-inline void gather_velocity_gradient(const ChunkWeights<Dim, K>& w, int count, const Record* velocity,
-                                     Room& room) {
-  for (int k = 0; k < count; ++k) {
-    Record out[Dim];
-    gather_gradients(w, k, velocity, out);
-    for (int d = 0; d < Dim; ++d) room.gathered[d][k] = out[d];
+/// A nodal vector as the windows above have it.
+template <int Dim>
+inline auto for_gradients(const NodeColumns<Dim>& vector) {
+  NodeColumns<Dim == 2 ? 4 : Dim> entries;
+  int at = 0;
+  for (double*& column : entries.column) column = vector.column[at++ % Dim];
+  return entries;
+}
+
+/// Gradients in pairs, at quad `quad` of the records, to room.gradient.
+template <class R, class Room>
+inline void unstack_pairs(const R* in, int count, int quad, Room& room) {
+  for (int k = 0; k < count; k += 4) {
+    Record row[4];
+    for (int i = 0; i < 4; ++i)
+      row[i] = detail::load_row(reinterpret_cast<const double*>(in + k + i) + 4 * quad);
+    transpose(row[0], row[1], row[2], row[3]);
+    for (int i = 0; i < 4; ++i) detail::store_row(&room.gradient[4 * (i / 2) + i % 2][k], row[i]);
   }
-  unstack<Dim, Dim>(room.gathered, count, room.gradient);
+}
+
+/// Velocity gradients of a chunk, ∇v_p = Σ_i v_i ⊗ G_pi (N20 Eq. 28), staged in room.gradient.
+template <int Dim, class Weights, class Room>
+inline void gather_velocity_gradient(const Weights& w, int count, const Record* velocity, Room& room) {
+  if constexpr (Dim == 2) {
+    for (int k = 0; k < count; ++k) room.row[0][k] = gather_pairs(w, k, velocity);
+    unstack_pairs(room.row[0], count, 0, room);
+  } else {
+    for (int k = 0; k < count; ++k) {
+      Record out[Dim];
+      gather_gradients(w, k, velocity, out);
+      for (int d = 0; d < Dim; ++d) room.row[d][k] = out[d];
+    }
+    for (int d = 0; d < Dim; ++d) unstack<Dim, Dim>(room.row[d], count, &room.gradient[4 * d]);
+  }
 }
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
-template <int Dim, int K, class Room>
-inline void scatter_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
-                          int count, Room& room) {
-  for (int s = 0; s < kSymmetric<Dim>; ++s)
-    for (int k = 0; k < count; k += kLanes)
-      store_lanes(&room.stress[s][k],
-                  -load_lanes(p.volume + begin + k) * load_lanes(p.stress[s] + begin + k));
-  for (int d = 0; d < Dim; ++d) {
-    const double* row[Dim];
-    for (int i = 0; i < Dim; ++i) row[i] = room.stress[symmetric_index<Dim>(i, d)];
-    stack(row, count, room.gathered[d]);
-  }
-  for (int k = 0; k < count; ++k) {
-    Record row[Dim];
-    for (int d = 0; d < Dim; ++d) row[d] = room.gathered[d][k];
-    scatter_gradients(w, k, row, room.force.at[0]);
-  }
+template <int Dim, class Weights, class Room>
+inline void scatter_force(const ParticleView<Dim>& p, const Weights& w, std::uint32_t begin, int count,
+                          Room& room) {
+  stack_stress(p, begin, count, 0, room.row);
+  for (int k = 0; k < count; ++k) scatter_stress<Dim>(w, k, room.row, room.force.at[0]);
 }
 
 /// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The
 /// hoop function of Nairn and Guilkey (2015), the mean of N_i/r over the domain weighted by r, is S_pi/r_p.
-template <int Dim, int K, class Room>
-inline void gather_hoop_rate(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
-                             int count, const Record* velocity, Room& room) {
+template <int Dim, class Weights, class Room>
+inline void gather_hoop_rate(const ParticleView<Dim>& p, const Weights& w, std::uint32_t begin, int count,
+                             const Record* velocity, Room& room) {
   for (int k = 0; k < count; ++k)
     room.hoop_rate[k] =
         gather_values(w, k, velocity)[0] / p.position[0][begin + static_cast<std::uint32_t>(k)];
@@ -58,9 +74,9 @@ inline void gather_hoop_rate(const ParticleView<Dim>& p, const ChunkWeights<Dim,
 
 /// The hoop part of the internal force, f_ir −= Σ_p V_p0 τ_θθ S_pi/r_p: with S_pi/r_p in the rate too, the
 /// power of the nodal forces is that of the stresses, and V_p0 being that of a full turn, forces are too.
-template <int Dim, int K, class Room>
-inline void scatter_hoop_force(const ParticleView<Dim>& p, const ChunkWeights<Dim, K>& w, std::uint32_t begin,
-                               int count, Room& room) {
+template <int Dim, class Weights, class Room>
+inline void scatter_hoop_force(const ParticleView<Dim>& p, const Weights& w, std::uint32_t begin, int count,
+                               Room& room) {
   for (int k = 0; k < count; ++k) {
     const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
     scatter_values(w, k, Record{-p.volume[q] * p.stress[2][q] / p.position[0][q]}, room.force.at[0]);
@@ -78,22 +94,24 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
   constexpr bool hoop = D == Depth::hoop;
   const ParticleView<Dim>& p = *c.particles;
   double smallest = 1e300;
-  if (dt_strain > 0) load_window<Dim, Dim>(velocity, c.tile->slot, room.velocity);
+  if (dt_strain > 0) load_window(for_gradients(velocity), c.tile->slot, room.velocity);
   clear(room.force);
-  for_each_chunk<Dim, Basis, hoop ? Wanted::both : Wanted::gradients>(
-      c, room.weights, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        if (dt_strain > 0) {
-          gather_velocity_gradient(w, count, room.velocity.at[0], room);
-          if constexpr (hoop) gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
-          visit_material(c.bodies[run.body].material, [&](const auto& law) {
-            const double j = strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
-            smallest = j < smallest ? j : smallest;
-          });
-        }
-        scatter_force(p, w, begin, count, room);
-        if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
-      });
-  flush_window<Dim, Dim>(room.force, c.tile->slot, force);
+  for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
+                             [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+                               if (dt_strain > 0) {
+                                 gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
+                                 if constexpr (hoop)
+                                   gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
+                                 visit_material(c.bodies[run.body].material, [&](const auto& law) {
+                                   const double j =
+                                       strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
+                                   smallest = j < smallest ? j : smallest;
+                                 });
+                               }
+                               scatter_force(p, w, begin, count, room);
+                               if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
+                             });
+  flush_window(room.force, c.tile->slot, for_gradients(force));
   return smallest;
 }
 

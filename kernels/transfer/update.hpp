@@ -5,6 +5,7 @@
 
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/strain_force.hpp"
+#include "kernels/transfer/update_rule.hpp"
 
 namespace mpmfast {
 
@@ -12,37 +13,126 @@ enum class ParticleUpdate { flip, pic, xpic, apic };
 /// The end velocity makes X and V a symplectic pair. With the midpoint, X ← X + ½Δt (v + v⁺) under forces at
 /// the old X, oscillations held by the geometric stiffness (the pressure) grow by ½(ωΔt)² a step.
 enum class PositionUpdate { grid_end, grid, trapezoid, particle };
+/// Of a node's record: v⁺ and a Δt, in 2-D v⁺ twice more for its gradient, and for XPIC m(v − v*).
+template <int Dim>
+constexpr int update_entries(int vectors) {
+  return Dim * (vectors + (Dim == 2 ? 2 : 0));
+}
 
-struct UpdateRule {
-  ParticleUpdate velocity;
-  PositionUpdate position;
-  double dt;
-  double dt_strain;  ///< > 0: advance the strain with v⁺ by this time
-  int terms;         ///< of the exponential in the strain
+/// The columns of these entries. @param vectors v⁺, a Δt and the third, if there is one
+template <int Dim, int NV>
+inline auto entry_columns(const NodeColumns<NV * Dim>& vectors) {
+  NodeColumns<update_entries<Dim>(NV)> entries;
+  int at = 0;
+  const auto add = [&](int vector) {
+    for (int d = 0; d < Dim; ++d) entries.column[at++] = vectors.column[Dim * vector + d];
+  };
+  for (int vector : {0, 1}) add(vector);
+  if (Dim == 2)
+    for (int copy = 0; copy < 2; ++copy) add(0);
+  if (NV == 3) add(NV - 1);
+  return entries;
+}
+
+/// What a chunk gathers of NC nodal entries.
+template <int Dim, int NC>
+struct GatherRoom {
+  Window<Dim, NC> window;
+  using Node = typename Window<Dim, NC>::Node;
+  Node value[Window<Dim, NC>::kRecords][kChunk<Dim>];
+  Node slope[Dim][kChunk<Dim>];  ///< ∂/∂x_d of the first record (3-D); moments about the particle
 };
-
-/// Columns gathered by the update: v⁺, a Δt, and for XPIC m(v − v*).
-inline constexpr int update_vectors(ParticleUpdate u) { return u == ParticleUpdate::xpic ? 3 : 2; }
 
 template <int Dim, class Basis>
 struct UpdateRoom : StrainForceRoom<Dim, Basis> {
-  static constexpr int kRecords = records_for(3 * Dim);
-  Window<Dim, records_for(2 * Dim)> two;
-  Window<Dim, kRecords> three;
-  Record values[kRecords][kChunk<Dim>];
-  alignas(64) double value[4 * kRecords][kChunk<Dim>];  ///< by component
-  alignas(64) double moved[2 * Dim][kChunk<Dim>];       ///< new positions, new velocities
-  alignas(64) double edge[Dim * Dim][kChunk<Dim>];
-  alignas(64) double drift[kChunk<Dim>];
+  GatherRoom<Dim, update_entries<Dim>(2)> two;
+  GatherRoom<Dim, update_entries<Dim>(3)> three;
+  alignas(64) double value[Dim == 2 ? 8 : 16][kChunk<Dim>];  ///< the vectors by component
 };
 
-/// What an update reports of a tile.
-struct TileReport {
-  double fastest = 0;  ///< max_p (c_p + |v_p|), m/s
-  double speed = 0;    ///< max_p |V_p| and |mean velocity of its motion|, m/s
-  double smallest_j = 1e300;
-  bool lost = false;  ///< a particle is not finite or outside the allowed box
+/// What an update reports of a tile, by lane.
+struct LaneReport {
+  Lanes fastest{}, speed_squared{};
+  IntLanes lost{};
+
+  void add_to(TileReport& sum) const {
+    for (int i = 0; i < kLanes; ++i) {
+      sum.fastest = larger(fastest[i], sum.fastest);
+      sum.speed = larger(square_root(speed_squared[i]), sum.speed);
+    }
+    sum.lost |= any_of(lost);
+  }
 };
+
+/// The nodal vectors of a chunk by component in room.value, and the gradient of v⁺ in room.gradient if it is
+/// wanted: in 2-D from the pairs beside the values.
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room) {
+  constexpr int last = from.window.kRecords - 1, pairs = 4 / from.window.kPerNode;
+  for (int r = 0; r <= last; ++r)
+    if (gradient && r == pairs)
+      for (int k = 0; k < count; ++k) from.value[r][k] = gather_pairs(w, k, from.window.at[r]);
+    else
+      for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
+  unstack<2, 4>(from.value[0], count, room.value);
+  if (NC > 8) unstack<2, 4>(from.value[last], count, room.value + 4);
+  if (gradient) unstack_pairs(from.value[pairs], count, 1 - pairs, room);
+}
+
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room) {
+  if (gradient) {
+    for (int k = 0; k < count; ++k) {
+      typename GatherRoom<3, NC>::Node slope[3];
+      from.value[0][k] = gather(w, k, from.window.at[0], slope);
+      for (int d = 0; d < 3; ++d) from.slope[d][k] = slope[d];
+    }
+    for (int d = 0; d < 3; ++d) unstack<3, 3>(from.slope[d], count, &room.gradient[4 * d]);
+  }
+  for (int r = gradient ? 1 : 0; r < from.window.kRecords; ++r)
+    for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
+  for (int r = 0; r < from.window.kRecords; ++r)
+    unstack<3, from.window.kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
+}
+
+/// New velocities and positions (and domains) of a chunk from the nodal quantities in `value`.
+template <int Dim, class Basis>
+inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin, int count,
+                       const double (*value)[kChunk<Dim>], const UpdateRule& rule, const double (&lower)[Dim],
+                       const double (&upper)[Dim], LaneReport& report) {
+  const ParticleView<Dim>& p = *c.particles;
+  for (int k = 0; k < count; k += kLanes) {
+    const IntLanes counts = lanes_before(count - k);
+    Lanes speed2 = broadcast<Lanes>(0.0), drift2 = broadcast<Lanes>(0.0);
+    for (int d = 0; d < Dim; ++d) {
+      const Lanes grid = load_lanes(&value[d][k]), jump = load_lanes(&value[Dim + d][k]);
+      const Lanes v = load_lanes(p.velocity[d] + begin + k), x = load_lanes(p.position[d] + begin + k);
+      Lanes v_new = grid;
+      if (rule.velocity == ParticleUpdate::flip) v_new = v + jump;
+      if (rule.velocity == ParticleUpdate::xpic) v_new = load_lanes(&value[2 * Dim + d][k]) + jump;
+      Lanes mean = grid;
+      if (rule.position == PositionUpdate::grid) mean = grid - 0.5 * jump;
+      if (rule.position == PositionUpdate::trapezoid) mean = 0.5 * (v + v_new);
+      if (rule.position == PositionUpdate::particle) mean = v_new;
+      const Lanes x_new = x + rule.dt * mean;
+      store_first(p.position[d] + begin + k, x_new, count - k);
+      store_first(p.velocity[d] + begin + k, v_new, count - k);
+      report.lost |= counts & ~((x_new > lower[d]) & (x_new < upper[d]));  // also of NaN
+      speed2 += v_new * v_new;
+      drift2 += mean * mean;
+    }
+    const Lanes fastest = square_root(speed2) + load_lanes(p.wave_speed + begin + k);
+    report.lost |= counts & ~(fastest < 1e300);
+    report.fastest = larger(counts ? fastest : 0.0, report.fastest);
+    report.speed_squared = larger(counts ? larger(speed2, drift2) : 0.0, report.speed_squared);
+    if constexpr (Basis::kConvected) {
+      Lanes f[Dim * Dim], edge[Dim * Dim];
+      for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
+      Basis::convect(f, c.bodies[body].half_size, c.grid->inverse_cell, edge);
+      for (int e = 0; e < Dim * Dim; ++e) store_first(p.edges[e] + begin + k, edge[e], count - k);
+    }
+  }
+}
 
 /// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41; FMPM
 /// alike); APIC: as PIC, and the slopes about the particle. Positions: grid_end X ← X + Δt S v⁺; grid X ← X +
@@ -53,85 +143,39 @@ template <int Dim, class Basis, int NV, class VisitMaterial>
 TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
                        const NodeColumns<NV * Dim>& nodes, const UpdateRule& rule, const double (&lower)[Dim],
                        const double (&upper)[Dim], const VisitMaterial& visit_material) {
-  constexpr int NR = records_for(NV * Dim);
   const ParticleView<Dim>& p = *c.particles;
+  const bool strains = rule.dt_strain > 0;
   TileReport report;
-  auto& window = [&]() -> auto& {
+  LaneReport lanes;
+  auto& from = [&]() -> auto& {
     if constexpr (NV == 2)
       return room.two;
     else
       return room.three;
   }
   ();
-  load_window<Dim, NV * Dim>(nodes, c.tile->slot, window);
-  for_each_chunk<Dim, Basis, Wanted::values>(
-      c, room.weights, [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        Record(&values)[NR][kChunk<Dim>] = reinterpret_cast<Record(&)[NR][kChunk<Dim>]>(room.values);
-        for (int r = 0; r < NR; ++r)
-          for (int k = 0; k < count; ++k) values[r][k] = gather_values(w, k, window.at[r]);
-        unstack<Dim, NR>(values, count, reinterpret_cast<double(&)[4 * NR][kChunk<Dim>]>(room.value));
-        if constexpr (Basis::kSpread > 0 && NV == 2) {
-          if (rule.velocity == ParticleUpdate::apic)
-            gather_slopes<Dim, Basis>(c, run, w, begin, count, window.at[0], values[0], room);
-        }
-        if (rule.dt_strain > 0) {
+  load_window(entry_columns<Dim, NV>(nodes), c.tile->slot, from.window);
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, strains ? Wanted::both : Wanted::values,
+      [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+        gather_chunk(w, count, strains, from, room);
+        if (strains) {
           if (Dim == 2 && p.depth == Depth::hoop)
             for (int k = 0; k < count; k += kLanes)  // S v⁺_r / r
               store_lanes(&room.hoop_rate[k],
                           load_lanes(&room.value[0][k]) / load_lanes(p.position[0] + begin + k));
-          Basis::template stage<Wanted::gradients>(chunk_geometry(c, run, begin, count), w);
-          // v⁺ comes first in the window, so its gradient is that of the first record.
-          gather_velocity_gradient(w, count, window.at[0], room);
           visit_material(c.bodies[run.body].material, [&](const auto& law) {
             const double j = strain_chunk<Dim>(p, law, begin, count, rule.dt_strain, rule.terms, room);
             report.smallest_j = j < report.smallest_j ? j : report.smallest_j;
           });
         }
-        for (int k = 0; k < count; k += kLanes) {
-          Lanes speed2 = broadcast<Lanes>(0.0), drift2 = broadcast<Lanes>(0.0);
-          for (int d = 0; d < Dim; ++d) {
-            const Lanes grid = load_lanes(&room.value[d][k]), jump = load_lanes(&room.value[Dim + d][k]);
-            const Lanes v = load_lanes(p.velocity[d] + begin + k), x = load_lanes(p.position[d] + begin + k);
-            Lanes v_new = grid;
-            if (rule.velocity == ParticleUpdate::flip) v_new = v + jump;
-            if (rule.velocity == ParticleUpdate::xpic) v_new = load_lanes(&room.value[2 * Dim + d][k]) + jump;
-            Lanes mean = grid;
-            if (rule.position == PositionUpdate::grid) mean = grid - 0.5 * jump;
-            if (rule.position == PositionUpdate::trapezoid) mean = 0.5 * (v + v_new);
-            if (rule.position == PositionUpdate::particle) mean = v_new;
-            store_lanes(&room.moved[d][k], x + rule.dt * mean);
-            store_lanes(&room.moved[Dim + d][k], v_new);
-            speed2 += v_new * v_new;
-            drift2 += mean * mean;
-          }
-          const Lanes speed = square_root(speed2);
-          store_lanes(&room.jacobian[k], speed + load_lanes(p.wave_speed + begin + k));
-          store_lanes(&room.drift[k], square_root(larger(speed2, drift2)));
-          if constexpr (Basis::kConvected) {
-            Lanes f[Dim * Dim], edge[Dim * Dim];
-            for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
-            Basis::convect(f, c.bodies[run.body].half_size, c.grid->inverse_cell, edge);
-            for (int e = 0; e < Dim * Dim; ++e) store_lanes(&room.edge[e][k], edge[e]);
-          }
+        if constexpr (Basis::kSpread > 0 && NV == 2) {
+          if (rule.velocity == ParticleUpdate::apic)
+            gather_slopes<Dim, Basis>(c, run, w, begin, count, from, room.gradient);
         }
-        const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
-        for (int d = 0; d < Dim; ++d) {
-          std::memcpy(p.position[d] + begin, room.moved[d], bytes);
-          std::memcpy(p.velocity[d] + begin, room.moved[Dim + d], bytes);
-        }
-        if constexpr (Basis::kConvected)
-          for (int e = 0; e < Dim * Dim; ++e) std::memcpy(p.edges[e] + begin, room.edge[e], bytes);
-        bool inside = true;
-        for (int k = 0; k < count; ++k) {
-          report.fastest = larger(room.jacobian[k], report.fastest);
-          report.speed = larger(room.drift[k], report.speed);
-          inside &= room.jacobian[k] < 1e300;  // false for NaN
-        }
-        for (int d = 0; d < Dim; ++d)
-          for (int k = 0; k < count; ++k)
-            inside &= room.moved[d][k] > lower[d] && room.moved[d][k] < upper[d];
-        report.lost |= !inside;
+        move_chunk<Dim, Basis>(c, run.body, begin, count, room.value, rule, lower, upper, lanes);
       });
+  lanes.add_to(report);
   return report;
 }
 

@@ -9,16 +9,22 @@
 
 namespace mpmfast {
 
-/// Records that hold NC quantities of a node.
-constexpr int records_for(int components) { return (components + 3) / 4; }
-
-/// A window of NR records per node.
-template <int Dim, int NR>
+/// A window of NC quantities per node.
+template <int Dim, int NC>
 struct Window {
-  Record at[NR][kWindowNodes<Dim>];
+  using Node = RecordFor<NC>;
+  static constexpr int kPerNode = sizeof(Node) / sizeof(double);
+  static constexpr int kRecords = (NC + kPerNode - 1) / kPerNode;
+  static constexpr int kQuads = kRecords * kPerNode / 4;
+  alignas(64) Node at[kRecords][kWindowNodes<Dim>];
+
+  /// Quantities 4 q … 4 q + 3 of a node.
+  double* quad(int q, int node) {
+    return reinterpret_cast<double*>(&at[4 * q / kPerNode][node]) + 4 * q % kPerNode;
+  }
 };
 
-/// NC nodal columns, each indexed by slot.
+/// NC nodal columns, each indexed by slot; null where a place in the window has none.
 template <int NC>
 struct NodeColumns {
   double* column[NC];
@@ -47,116 +53,73 @@ inline Record load_row(const double* p) {
   std::memcpy(&r, p, sizeof r);
   return r;
 }
+inline void store_row(double* p, Record r) { std::memcpy(p, &r, sizeof r); }
 
 }  // namespace detail
 
-template <int Dim, int NR>
-inline void clear(Window<Dim, NR>& window) {
+template <int Dim, int NC>
+inline void clear(Window<Dim, NC>& window) {
   std::memset(static_cast<void*>(&window), 0, sizeof window);
 }
 
 /// Fills the window from the columns. @param tile_slot first slot of each tile under the window
 template <int Dim, int NC>
 inline void load_window(const NodeColumns<NC>& columns, const int (&tile_slot)[kCorners<Dim>],
-                        Window<Dim, records_for(NC)>& window) {
+                        Window<Dim, NC>& window) {
   detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
-    for (int r = 0; r < records_for(NC); ++r) {
+#pragma GCC unroll 4
+    for (int q = 0; q < window.kQuads; ++q) {
       Record row[4];
       for (int c = 0; c < 4; ++c)
-        row[c] = 4 * r + c < NC ? detail::load_row(columns.column[4 * r + c] + slot) : Record{};
+        row[c] = 4 * q + c < NC ? detail::load_row(columns.column[4 * q + c] + slot) : Record{};
       transpose(row[0], row[1], row[2], row[3]);
-      for (int c = 0; c < 4; ++c) window.at[r][at + c] = row[c];
+      for (int c = 0; c < 4; ++c) detail::store_row(window.quad(q, at + c), row[c]);
     }
   });
 }
 
 /// Adds the window to the columns. Tiles whose windows overlap must not run at the same time.
 template <int Dim, int NC>
-inline void flush_window(Window<Dim, records_for(NC)>& window, const int (&tile_slot)[kCorners<Dim>],
+inline void flush_window(Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
                          const NodeColumns<NC>& columns) {
   detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
-    for (int r = 0; r < records_for(NC); ++r) {
+#pragma GCC unroll 4
+    for (int q = 0; 4 * q < NC; ++q) {
       Record row[4];
-      for (int c = 0; c < 4; ++c) row[c] = window.at[r][at + c];
+      for (int c = 0; c < 4; ++c) row[c] = detail::load_row(window.quad(q, at + c));
       transpose(row[0], row[1], row[2], row[3]);
-      for (int c = 0; c < 4 && 4 * r + c < NC; ++c) {
-        double* target = columns.column[4 * r + c] + slot;
-        const Record sum = detail::load_row(target) + row[c];
-        std::memcpy(target, &sum, sizeof sum);
+      for (int c = 0; c < 4 && 4 * q + c < NC; ++c) {
+        double* column = columns.column[4 * q + c];
+        if (column) detail::store_row(column + slot, detail::load_row(column + slot) + row[c]);
       }
     }
   });
 }
 
-/// Scatters one record per particle with the basis' values: window_i += S_pi a_p.
-template <int Dim, int K>
-inline void scatter_values(const ChunkWeights<Dim, K>& w, int k, Record a, Record* window) {
-  Record* target = window + w.first[k];
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) target[window_offset<Dim, K>(n)] += w.value[n][k] * a;
-}
-
-/// Scatters with the basis' gradients: window_i += Σ_d G_pi,d b_d.
-template <int Dim, int K>
-inline void scatter_gradients(const ChunkWeights<Dim, K>& w, int k, const Record (&b)[Dim], Record* window) {
-  Record* target = window + w.first[k];
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) {
-    Record sum = target[window_offset<Dim, K>(n)];
-    for (int d = 0; d < Dim; ++d) sum += w.gradient[d][n][k] * b[d];
-    target[window_offset<Dim, K>(n)] = sum;
-  }
-}
-
-/// Gathers Σ_i S_pi window_i.
-template <int Dim, int K>
-inline Record gather_values(const ChunkWeights<Dim, K>& w, int k, const Record* window) {
-  const Record* source = window + w.first[k];
-  Record sum[K] =
-      {};  // a chain of additions for each node of a row, so that they need not wait for each other
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) sum[n % K] += w.value[n][k] * source[window_offset<Dim, K>(n)];
-  for (int i = 1; i < K; ++i) sum[0] += sum[i];
-  return sum[0];
-}
-
-/// Gathers Σ_i G_pi,d window_i for every direction d.
-template <int Dim, int K>
-inline void gather_gradients(const ChunkWeights<Dim, K>& w, int k, const Record* window, Record (&out)[Dim]) {
-  const Record* source = window + w.first[k];
-  for (int d = 0; d < Dim; ++d) out[d] = Record{};
-#pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) {
-    const Record node = source[window_offset<Dim, K>(n)];
-    for (int d = 0; d < Dim; ++d) out[d] += w.gradient[d][n][k] * node;
-  }
-}
-
-/// The reverse: record k holds entry k of each of N arrays, then zeros. The arrays must be readable a record
-/// further. (Built component by component, a record would be read back before its parts have left the store
-/// buffer.)
-template <int N>
-inline void stack(const double* const (&in)[N], int count, Record* out) {
+/// Records of a chunk from what is known by component: entry c < N of record k is lane 0 of value(c, k), that
+/// of record k + 1 lane 1, and so on; the rest of four entries is zero. (Built component by component, a
+/// record would be read back before its parts have left the store buffer.)
+/// @param value called for k = 0, 4, 8, …; @param quad which four entries of the records to set
+template <int N, class R, class F>
+inline void stack(int count, R* out, int quad, const F& value) {
   static_assert(N <= 4);
   for (int k = 0; k < count; k += 4) {
     Record row[4];
-    for (int c = 0; c < 4; ++c) row[c] = c < N ? detail::load_row(in[c < N ? c : 0] + k) : Record{};
+    for (int c = 0; c < 4; ++c) row[c] = c < N ? value(c, k) : Record{};
     transpose(row[0], row[1], row[2], row[3]);
-    for (int c = 0; c < 4; ++c) out[k + c] = row[c];
+    for (int c = 0; c < 4; ++c) detail::store_row(reinterpret_cast<double*>(out + k + c) + 4 * quad, row[c]);
   }
 }
 
-/// Per-particle records turned into one array per component: out[4 r + c][k].
-template <int Dim, int NR>
-inline void unstack(Record (&in)[NR][kChunk<Dim>], int count, double (&out)[4 * NR][kChunk<Dim>]) {
-  for (int r = 0; r < NR; ++r)
+/// The reverse: the first N entries of the records, one array each, out[c][k]; N is rounded up to fours.
+template <int Dim, int N, class R>
+inline void unstack(const R* in, int count, double (*out)[kChunk<Dim>]) {
+  for (int c = 0; c < N; c += 4)
     for (int k = 0; k < count; k += 4) {
-      Record a = in[r][k], b = in[r][k + 1], c = in[r][k + 2], d = in[r][k + 3];
-      transpose(a, b, c, d);
-      std::memcpy(&out[4 * r][k], &a, sizeof a);
-      std::memcpy(&out[4 * r + 1][k], &b, sizeof b);
-      std::memcpy(&out[4 * r + 2][k], &c, sizeof c);
-      std::memcpy(&out[4 * r + 3][k], &d, sizeof d);
+      Record row[4];
+      for (int i = 0; i < 4; ++i) row[i] = detail::load_row(reinterpret_cast<const double*>(in + k + i) + c);
+      transpose(row[0], row[1], row[2], row[3]);
+      for (int i = 0; i < 4; ++i) detail::store_row(&out[c + i][k], row[i]);
     }
 }
 

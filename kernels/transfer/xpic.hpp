@@ -2,6 +2,7 @@
 
 /// @file One order of the XPIC(m) recursion (N20 Eq. 43, 44): nodes → particles → nodes.
 
+#include "kernels/transfer/sums.hpp"
 #include "kernels/transfer/window.hpp"
 #include "kernels/views.hpp"
 
@@ -10,7 +11,7 @@ namespace mpmfast {
 template <int Dim, class Basis, int NC>
 struct XpicRoom {
   WeightRoom<Dim, Basis> weights;
-  Window<Dim, records_for(NC)> in, out;
+  Window<Dim, NC> in, out;
 };
 
 /// out_i += Σ_p S_pi M_p (Σ_j S_pj in_j) for NC nodal columns: v* alone (NC = Dim), or v* and Δv* fused (NC =
@@ -19,17 +20,17 @@ template <int Dim, class Basis, int NC>
 void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const NodeColumns<NC>& in,
                const NodeColumns<NC>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  load_window<Dim, NC>(in, c.tile->slot, room.in);
+  load_window(in, c.tile->slot, room.in);
   clear(room.out);
-  for_each_chunk<Dim, Basis, Wanted::values>(
-      c, room.weights, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k)
-          for (int r = 0; r < records_for(NC); ++r) {
-            const Record a = gather_values(w, k, room.in.at[r]);
+          for (int r = 0; r < room.in.kRecords; ++r) {
+            const auto a = gather_values(w, k, room.in.at[r]);
             scatter_values(w, k, p.mass[begin + static_cast<std::uint32_t>(k)] * a, room.out.at[r]);
           }
       });
-  flush_window<Dim, NC>(room.out, c.tile->slot, out);
+  flush_window(room.out, c.tile->slot, out);
 }
 
 }  // namespace mpmfast

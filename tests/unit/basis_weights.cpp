@@ -143,15 +143,15 @@ struct Field {
   std::vector<Vec<Dim>> gradient;
 };
 
-template <int Dim, int K>
-Field<Dim> on_window(const ChunkWeights<Dim, K>& w, int k, double cell) {
+template <int Dim, int K, template <int, int> class Weights>
+Field<Dim> on_window(const Weights<Dim, K>& w, int k, double cell) {
   Field<Dim> field{std::vector<double>(kWindowNodes<Dim>, 0.0),
                    std::vector<Vec<Dim>>(kWindowNodes<Dim>, Vec<Dim>::Zero())};
   for (int n = 0; n < w.kNodes; ++n) {
     const auto at = static_cast<std::size_t>(w.first[k] + window_offset<Dim, K>(n));
     REQUIRE(at < field.value.size());
-    field.value[at] = w.value[n][k];
-    for (int d = 0; d < Dim; ++d) field.gradient[at][d] = w.gradient[d][n][k] * cell;
+    field.value[at] = w.value_at(n, k);
+    for (int d = 0; d < Dim; ++d) field.gradient[at][d] = w.gradient_at(d, n, k) * cell;
   }
   return field;
 }

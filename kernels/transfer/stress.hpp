@@ -1,0 +1,34 @@
+#pragma once
+
+/// @file The stresses of particles, staged for the internal force.
+
+#include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/sums.hpp"
+#include "kernels/transfer/window.hpp"
+#include "kernels/views.hpp"
+
+namespace mpmfast {
+
+/// −V_p0 τ_p of a chunk as records: row by row, in 2-D both rows as one record of pairs.
+/// @param quad see stack()
+template <int Dim, class R>
+inline void stack_stress(const ParticleView<Dim>& p, std::uint32_t begin, int count, int quad,
+                         R (*out)[kChunk<Dim>]) {
+  constexpr int entries = Dim == 2 ? 4 : Dim;
+  for (int r = 0; r < kGradientRecords<Dim>; ++r)
+    stack<entries>(count, out[r], quad, [&](int c, int k) {
+      const double* stress = p.stress[symmetric_index<Dim>(c % Dim, r + c / Dim % Dim)];
+      return -detail::load_row(p.volume + begin + k) * detail::load_row(stress + begin + k);
+    });
+}
+
+/// window_i += Σ_d G_pi,d (row d of the staged stress of particle k).
+template <int Dim, class Weights>
+inline void scatter_stress(const Weights& w, int k, const Record (*stress)[kChunk<Dim>], Record* window) {
+  if constexpr (Dim == 2)
+    scatter_pairs(w, k, stress[0][k], window);
+  else
+    scatter_gradients(w, k, {stress[0][k], stress[1][k], stress[2][k]}, window);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,29 @@
+#pragma once
+
+/// @file What the particle update is told, and what it reports: for those who call it without its kernel.
+
+namespace mpmfast {
+
+enum class ParticleUpdate { flip, pic, xpic, apic };
+enum class PositionUpdate { grid, trapezoid, particle };
+
+struct UpdateRule {
+  ParticleUpdate velocity;
+  PositionUpdate position;
+  double dt;
+  double dt_strain;  ///< > 0: advance the strain with v⁺ by this time
+  int terms;         ///< of the exponential in the strain
+};
+
+/// Columns gathered by the update: v⁺, a Δt, and for XPIC m(v − v*).
+inline constexpr int update_vectors(ParticleUpdate u) { return u == ParticleUpdate::xpic ? 3 : 2; }
+
+/// What an update reports of a tile.
+struct TileReport {
+  double fastest = 0;  ///< max_p (c_p + |v_p|), m/s
+  double speed = 0;    ///< max_p |V_p| and |mean velocity of its motion|, m/s
+  double smallest_j = 1e300;
+  bool lost = false;  ///< a particle is not finite or outside the allowed box
+};
+
+}  // namespace mpmfast
