@@ -12,22 +12,6 @@
 
 namespace mpmfast {
 
-/// Columns of one cloud in its room, valid until the room grows.
-template <int Dim>
-struct CloudColumns {
-  const double* xi[Dim];
-  const double* edge[Dim * Dim];
-  int count;
-
-  CloudColumns part(int first, int particles) const {
-    CloudColumns c = *this;
-    for (auto& column : c.xi) column += first;
-    for (auto& column : c.edge) column += first;
-    c.count = particles;
-    return c;
-  }
-};
-
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudRoom {

@@ -44,11 +44,23 @@ struct Foremost {
       at_b = in_b ? at : at_b;
       at += static_cast<double>(kLanes);
     }
-    double value_a = none[0], value_b = none[0];
-    for (int i = 0; i < kLanes; ++i) {
-      if (best_a[i] > value_a) value_a = best_a[i], a = static_cast<int>(at_a[i]);
-      if (best_b[i] > value_b) value_b = best_b[i], b = static_cast<int>(at_b[i]);
-    }
+    a = best_index(best_a, at_a);
+    b = best_index(best_b, at_b);
+  }
+
+ private:
+  /// Which of the lanes' entries has the largest value.
+  static int best_index(Lanes value, Lanes at) {
+    if constexpr (kLanes > 4) choose<4>(value, at);
+    if constexpr (kLanes > 2) choose<2>(value, at);
+    choose<1>(value, at);
+    return static_cast<int>(at[0]);
+  }
+  template <int Distance>
+  static void choose(Lanes& value, Lanes& at) {
+    const Lanes other = swap_lanes<Distance>(value), other_at = swap_lanes<Distance>(at);
+    at = other > value ? other_at : at;
+    value = larger(value, other);
   }
 };
 
