@@ -57,14 +57,16 @@ struct FitChoice {
 template <int Dim, class Basis>
 class ContactFit {
  public:
-  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())), tally_(rooms_.size()) {}
+  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())) {}
 
   void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
     const FitChoice choice(spec);
     if (!choice.regress && !choice.separate) return;
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
-    std::fill(tally_.begin(), tally_.end(), FitTally{});
-    for (auto& room : rooms_) room.clouds.begin = 0;
+    for (auto& room : rooms_) {
+      room.clouds.begin = 0;
+      room.tally = {};
+    }
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     find_groups(contact);
@@ -77,7 +79,7 @@ class ContactFit {
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
         if (choice.regress && !entry.settled)
-          fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry);
+          fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry, room.tally);
         if (choice.separate)
           entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
         if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
@@ -107,6 +109,7 @@ class ContactFit {
     CloudRoom<Dim> clouds, pair;
     std::vector<double> side;    ///< classes of the particles in hand
     std::vector<Vec<Dim>> sums;  ///< of normals, of the entries of the node in hand
+    FitTally tally;
 
     /// The particles of an entry with their sides: of a pair on a node of several fields those of the two,
     /// else all of them.
@@ -124,8 +127,8 @@ class ContactFit {
         return cloud.part(low, count);
       }
       pair.count = 0;
-      pair.append(cloud, a_begin, a_end);
-      pair.append(cloud, b_begin, b_end);
+      pair.append_places(cloud, a_begin, a_end);
+      pair.append_places(cloud, b_begin, b_end);
       fill_sides(count, 0, a_end - a_begin);
       return pair.columns(0, count);
     }
@@ -247,33 +250,30 @@ class ContactFit {
   }
 
   /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
-  bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry) {
+  static bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry, FitTally& tally) {
     Vec<Dim> guess = Eigen::Map<const Vec<Dim>>(entry.plane);
     if (!warm || guess.isZero(0)) guess = cloud_gradient(cloud);
     if (guess.isZero(0)) return false;
     const Margin<Dim> margin = widest_margin<Dim>(cloud, guess);
-    tally_[static_cast<std::size_t>(omp_get_thread_num())].iterations +=
-        static_cast<std::uint64_t>(margin.iterations);
+    tally.iterations += static_cast<std::uint64_t>(margin.iterations);
     if (margin.normal.isZero(0)) return false;
     entry.normal = margin.normal;
     for (int d = 0; d < Dim; ++d) entry.plane[d] = margin.normal[d];
     return true;
   }
 
-  void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
+  static void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry,
+                  FitTally& tally) {
+    ++tally.regressions;
     if (choice.margin) {
-      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
-      if (part(cloud, warm, entry)) return;
+      if (part(cloud, warm, entry, tally)) return;
       warm = false;  // what is kept of the last step is a normal, not a plane
-      --tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
-      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].fallbacks;
+      ++tally.fallbacks;
     }
     const Regression<Dim> result = fit_normal<Dim>(cloud, choice.rule, warm ? entry.plane : nullptr);
     using Outcome = typename Regression<Dim>::Outcome;
     entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
     std::memcpy(entry.plane, result.plane, sizeof entry.plane);
-    FitTally& tally = tally_[static_cast<std::size_t>(omp_get_thread_num())];
-    ++tally.regressions;
     tally.iterations += static_cast<std::uint64_t>(result.iterations);
     tally.fallbacks += result.outcome == Outcome::centroid_fallback || result.outcome == Outcome::failed;
     tally.unconverged += result.outcome == Outcome::unconverged;
@@ -309,7 +309,8 @@ class ContactFit {
   }
 
   void count(ContactCounters& counters) const {
-    for (const auto& t : tally_) {
+    for (const Room& room : rooms_) {
+      const FitTally& t = room.tally;
       counters.regressions += t.regressions;
       counters.iterations += t.iterations;
       counters.fallbacks += t.fallbacks;
@@ -318,7 +319,6 @@ class ContactFit {
   }
 
   std::vector<Room> rooms_;
-  std::vector<FitTally> tally_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
   std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end

@@ -39,7 +39,8 @@ template <int Dim>
 struct RawNormal {
   Vec<Dim> weighted;  ///< normal times the smaller of the two masses, kg
   bool touches;       ///< its surfaces overlap
-  int a, b;           ///< velocity fields; b −1: a lump
+  int a;              ///< velocity field
+  int pair;           ///< of velocity fields, or of a and a lump: rises with a, then with b
 };
 
 template <int Dim>
@@ -66,8 +67,8 @@ class NormalMean {
 
   RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
     const double w = pairs_ ? weight(node, entry.a, entry.b) : weight(node, entry.a);
-    return {w * entry.normal, entry.separation < 0, field(node, entry.a),
-            entry.b < 0 ? -1 : field(node, entry.b)};
+    const int a = field(node, entry.a), b = entry.b < 0 ? 0 : field(node, entry.b) + 1;
+    return {w * entry.normal, entry.separation < 0, a, a * (state_.fields() + 1) + b};
   }
 
   /// Sums of the entries of a node over the touching ones of the nodes around and this one, weighted by the
@@ -122,15 +123,11 @@ class NormalMean {
     for (int e = other.entry_begin; e < other.entry_end; ++e) {
       const RawNormal<Dim>& theirs = raw_[static_cast<std::size_t>(e)];
       if (!theirs.touches && &other != &node) continue;
-      while (own < node.entry_end && precedes(raw_[static_cast<std::size_t>(own)], theirs)) ++own;
+      while (own < node.entry_end && raw_[static_cast<std::size_t>(own)].pair < theirs.pair) ++own;
       if (own == node.entry_end) return;
-      if (!precedes(theirs, raw_[static_cast<std::size_t>(own)]))
+      if (raw_[static_cast<std::size_t>(own)].pair == theirs.pair)
         sums[static_cast<std::size_t>(own - node.entry_begin)] += theirs.weighted;
     }
-  }
-
-  static bool precedes(const RawNormal<Dim>& one, const RawNormal<Dim>& two) {
-    return one.a != two.a ? one.a < two.a : one.b < two.b;
   }
 
   /// The smaller mass of field a and the others, or b alone.

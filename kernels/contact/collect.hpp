@@ -41,8 +41,8 @@ struct CloudRoom {
     }
   }
 
-  /// Appends the particles [first, end) of another cloud.
-  void append(const CloudColumns<Dim>& cloud, int first, int end) {
+  /// Appends the particles [first, end) of another cloud, without their domains.
+  void append_places(const CloudColumns<Dim>& cloud, int first, int end) {
     reserve(count + end - first + kLanes);
     const std::size_t at = begin + static_cast<std::size_t>(count);
     const auto copy = [&](const double* from, std::vector<double>& to) {
@@ -50,7 +50,6 @@ struct CloudRoom {
         store_lanes(&to[at + static_cast<std::size_t>(k - first)], load_lanes(from + k));
     };
     for (int d = 0; d < Dim; ++d) copy(cloud.xi[d], xi[d]);
-    for (int e = 0; e < Dim * Dim; ++e) copy(cloud.edge[e], edge[e]);
     count += end - first;
   }
 

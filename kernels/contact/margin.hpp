@@ -101,6 +101,11 @@ class Simplex {
     for (int i = 0; i < count_; ++i)
       if (chosen >> i & 1) index[n++] = i;
     const Vec<Dim>& origin = point_[index[0]];
+    if (n == 1) {
+      out = origin;
+      return true;
+    }
+    if (n == 2) return nearest_on_line(origin, point_[index[1]], out);
     Vec<Dim> edge[Dim], right = Vec<Dim>::Zero(), share = Vec<Dim>::Zero();
     Mat<Dim> gram = Mat<Dim>::Identity();
     for (int i = 1; i < n; ++i) {
@@ -108,7 +113,7 @@ class Simplex {
       right[i - 1] = -edge[i - 1].dot(origin);
       for (int j = 1; j <= i; ++j) gram(i - 1, j - 1) = gram(j - 1, i - 1) = edge[i - 1].dot(edge[j - 1]);
     }
-    if (n > 1 && !solve(gram, right, n - 1, share)) return false;
+    if (!solve(gram, right, n - 1, share)) return false;
     double rest = 1;
     out = origin;
     for (int i = 1; i < n; ++i) {
@@ -117,6 +122,14 @@ class Simplex {
       out += share[i - 1] * edge[i - 1];
     }
     return rest >= 0;
+  }
+
+  static bool nearest_on_line(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& out) {
+    const Vec<Dim> edge = to - from;
+    const double share = -edge.dot(from) / edge.squaredNorm();
+    if (!(share >= 0 && share <= 1)) return false;  // also for points that coincide
+    out = from + share * edge;
+    return true;
   }
 
   /// Elimination without pivoting: the matrix is a Gram matrix. @return false if it is singular
