@@ -10,6 +10,7 @@
 #include "engine/step/contact_list.hpp"
 #include "engine/step/passes.hpp"
 #include "kernels/contact/laws.hpp"
+#include "kernels/contact/together.hpp"
 
 namespace mpmfast {
 
@@ -95,27 +96,28 @@ class Contact {
     Vec<Dim> stick;
     double reduced;
   };
-  /// A field of a node while its pairs are solved: rigid ones have no inverse mass.
-  struct Moving {
-    Vec<Dim> velocity;
-    double inverse_mass;
-  };
-  /// A pair of such a node that may have an impulse.
+  /// A pair of a node that may have an impulse while all of them are solved together.
   struct Acting {
     ContactEntry<Dim>* entry;
-    Meeting meeting;
+    double area_time;  ///< A_c Δt, m² s, for laws that use the area
   };
+  /// What one thread solves the pairs of a node in.
+  struct Together {
+    ContactsTogether<Dim> solver;
+    std::vector<Acting> acting;  ///< as the solver's contacts
+  };
+  void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
+                   std::vector<MovingField<Dim>>& fields) const;
   template <class Laws>
-  void find_acting(const Laws& laws, Correction correction, double dt, const ContactNode<Dim>& node,
-                   const std::vector<Moving>& fields, std::vector<Acting>& acting);
+  void find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                   const ContactNode<Dim>& node, Together& together);
   template <class Laws>
-  void finish(const Laws& laws, const ContactNode<Dim>& node, std::vector<Acting>& acting) const;
+  void finish(const Laws& laws, const ContactNode<Dim>& node, const Together& together) const;
   template <class Laws, class F>
   void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
   template <class Laws>
   bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                         const ContactNode<Dim>& node);
-  static Meeting meeting_of(const std::vector<Moving>& fields, const ContactEntry<Dim>& entry);
   template <class Law>
   Vec<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                       Correction correction, const Law& law, double area_time) const;
@@ -137,10 +139,9 @@ class Contact {
   bool geometry_;                ///< some law asks for normals and separations
   bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;          ///< of the entries
-  std::vector<std::vector<Moving>> moving_;  ///< room of each thread
-  std::vector<std::vector<Acting>> acting_;  ///< likewise
-  std::vector<Memory> memory_;               ///< of the last step, in order of the keys
+  std::vector<std::uint64_t> keys_;  ///< of the entries
+  std::vector<Together> together_;   ///< of each thread
+  std::vector<Memory> memory_;       ///< of the last step, in order of the keys
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

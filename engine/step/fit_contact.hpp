@@ -57,14 +57,16 @@ struct FitChoice {
 template <int Dim, class Basis>
 class ContactFit {
  public:
-  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())), tally_(rooms_.size()) {}
+  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())) {}
 
   void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
     const FitChoice choice(spec);
     if (!choice.regress && !choice.separate) return;
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
-    std::fill(tally_.begin(), tally_.end(), FitTally{});
-    for (auto& room : rooms_) room.clouds.begin = 0;
+    for (auto& room : rooms_) {
+      room.clouds.begin = 0;
+      room.tally = {};
+    }
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     find_groups(contact);
@@ -73,12 +75,13 @@ class ContactFit {
       if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
       collect(state.grid, contact, node, room);
       const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
+      const FieldRanges fields = ranges(node, cloud.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
-        if (choice.regress && !entry.settled) fit(choice, spec.warm_start, room.view(particles), entry);
+        if (choice.regress && !entry.settled)
+          fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry, room.tally);
         if (choice.separate)
-          entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
+          entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
         if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
       }
       if (!choice.smooth) return;
@@ -104,7 +107,9 @@ class ContactFit {
   struct Room {
     Candidates<Dim> candidates;  ///< of the stack in hand
     CloudRoom<Dim> clouds, pair;
-    std::vector<double> side, radius;  ///< class and half extent of the cloud in hand
+    std::vector<double> side;    ///< classes of the particles in hand
+    std::vector<Vec<Dim>> sums;  ///< of normals, of the entries of the node in hand
+    FitTally tally;
 
     /// The particles of an entry with their sides: of a pair on a node of several fields those of the two,
     /// else all of them.
@@ -122,8 +127,8 @@ class ContactFit {
         return cloud.part(low, count);
       }
       pair.count = 0;
-      pair.append(cloud, a_begin, a_end);
-      pair.append(cloud, b_begin, b_end);
+      pair.append_places(cloud, a_begin, a_end);
+      pair.append_places(cloud, b_begin, b_end);
       fill_sides(count, 0, a_end - a_begin);
       return pair.columns(0, count);
     }
@@ -131,10 +136,16 @@ class ContactFit {
     /// −1 for [begin, end), 1 for the rest of the particles, 0 beyond them.
     void fill_sides(int count, int begin, int end) {
       const auto needed = static_cast<std::size_t>(padded_count(count));
-      if (side.size() < needed) side.resize(2 * needed), radius.resize(2 * needed);
-      std::fill_n(side.begin(), needed, 0.0);
-      std::fill_n(side.begin(), count, 1.0);
-      std::fill(side.begin() + begin, side.begin() + end, -1.0);
+      if (side.size() < needed) side.resize(2 * needed);
+      const Lanes zero{}, one = broadcast<Lanes>(1.0);
+      Lanes index;
+      for (int i = 0; i < kLanes; ++i) index[i] = i;
+      for (int k = 0; k < count; k += kLanes) {
+        const IntLanes own = (index >= static_cast<double>(begin)) & (index < static_cast<double>(end));
+        const Lanes counted = index < static_cast<double>(count) ? one : zero;
+        store_lanes(&side[static_cast<std::size_t>(k)], own ? -one : counted);
+        index += static_cast<double>(kLanes);
+      }
     }
 
     CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
@@ -144,30 +155,35 @@ class ContactFit {
       v.count = cloud.count;
       return v;
     }
-
-    /// N20 Eq. 24, cells.
-    double separation(Extent extent, const CloudColumns<Dim>& cloud, const Vec<Dim>& normal) {
-      switch (extent) {
-        case Extent::radial:
-          return separation<Extent::radial>(cloud, normal);
-        case Extent::ellipsoid:
-          return separation<Extent::ellipsoid>(cloud, normal);
-        case Extent::parallelepiped:
-          return separation<Extent::parallelepiped>(cloud, normal);
-      }
-      return 0;
-    }
-
-    template <Extent E>
-    double separation(const CloudColumns<Dim>& cloud, const Vec<Dim>& normal) {
-      for (int k = 0; k < cloud.count; k += kLanes) {
-        Lanes edge[Dim * Dim];
-        for (int e = 0; e < Dim * Dim; ++e) edge[e] = load_lanes(cloud.edge[e] + k);
-        store_lanes(&radius[static_cast<std::size_t>(k)], extent_along<E, Dim>(edge, normal));
-      }
-      return cloud_separation<Dim>(view(cloud), radius.data(), normal);
-    }
   };
+
+  /// N20 Eq. 24, cells; infinite if a class is empty.
+  static double separation(Extent extent, const CloudColumns<Dim>& cloud, const FieldRanges& fields,
+                           const ContactEntry<Dim>& entry) {
+    switch (extent) {
+      case Extent::radial:
+        return separation<Extent::radial>(cloud, fields, entry);
+      case Extent::ellipsoid:
+        return separation<Extent::ellipsoid>(cloud, fields, entry);
+      case Extent::parallelepiped:
+        return separation<Extent::parallelepiped>(cloud, fields, entry);
+    }
+    return 0;
+  }
+
+  template <Extent E>
+  static double separation(const CloudColumns<Dim>& cloud, const FieldRanges& fields,
+                           const ContactEntry<Dim>& entry) {
+    const Vec<Dim> ahead = entry.normal, back = -entry.normal;
+    const auto part = [&](std::pair<int, int> range) {
+      return cloud.part(range.first, range.second - range.first);
+    };
+    const auto own = fields(entry.a);
+    const double front = reach_along<E>(part(own), ahead);
+    if (entry.b >= 0) return -front - reach_along<E>(part(fields(entry.b)), back);
+    return -front - std::max(reach_along<E>(part({0, own.first}), back),
+                             reach_along<E>(part({own.second, cloud.count}), back));
+  }
 
   /// Where the cloud of a node was left.
   struct Kept {
@@ -234,33 +250,30 @@ class ContactFit {
   }
 
   /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
-  bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry) {
+  static bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry, FitTally& tally) {
     Vec<Dim> guess = Eigen::Map<const Vec<Dim>>(entry.plane);
     if (!warm || guess.isZero(0)) guess = cloud_gradient(cloud);
     if (guess.isZero(0)) return false;
     const Margin<Dim> margin = widest_margin<Dim>(cloud, guess);
-    tally_[static_cast<std::size_t>(omp_get_thread_num())].iterations +=
-        static_cast<std::uint64_t>(margin.iterations);
+    tally.iterations += static_cast<std::uint64_t>(margin.iterations);
     if (margin.normal.isZero(0)) return false;
     entry.normal = margin.normal;
     for (int d = 0; d < Dim; ++d) entry.plane[d] = margin.normal[d];
     return true;
   }
 
-  void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry) {
+  static void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry,
+                  FitTally& tally) {
+    ++tally.regressions;
     if (choice.margin) {
-      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
-      if (part(cloud, warm, entry)) return;
+      if (part(cloud, warm, entry, tally)) return;
       warm = false;  // what is kept of the last step is a normal, not a plane
-      --tally_[static_cast<std::size_t>(omp_get_thread_num())].regressions;
-      ++tally_[static_cast<std::size_t>(omp_get_thread_num())].fallbacks;
+      ++tally.fallbacks;
     }
     const Regression<Dim> result = fit_normal<Dim>(cloud, choice.rule, warm ? entry.plane : nullptr);
     using Outcome = typename Regression<Dim>::Outcome;
     entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
     std::memcpy(entry.plane, result.plane, sizeof entry.plane);
-    FitTally& tally = tally_[static_cast<std::size_t>(omp_get_thread_num())];
-    ++tally.regressions;
     tally.iterations += static_cast<std::uint64_t>(result.iterations);
     tally.fallbacks += result.outcome == Outcome::centroid_fallback || result.outcome == Outcome::failed;
     tally.unconverged += result.outcome == Outcome::unconverged;
@@ -282,21 +295,22 @@ class ContactFit {
     for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
       const Kept& kept = kept_[k];
       const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);
-      const auto around = mean.around(node);
+      mean(mean.around(node), node, room.sums);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        const Vec<Dim> sum = mean(around, node, entry);
+        const Vec<Dim>& sum = room.sums[static_cast<std::size_t>(e - node.entry_begin)];
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
-        if (!choice.separate) continue;
-        const auto particles = room.particles_of(cloud, ranges(node, cloud.count), entry);
-        entry.separation = state.grid.cell * room.separation(choice.extent, particles, entry.normal);
+        if (choice.separate)
+          entry.separation =
+              state.grid.cell * separation(choice.extent, cloud, ranges(node, cloud.count), entry);
       }
     });
   }
 
   void count(ContactCounters& counters) const {
-    for (const auto& t : tally_) {
+    for (const Room& room : rooms_) {
+      const FitTally& t = room.tally;
       counters.regressions += t.regressions;
       counters.iterations += t.iterations;
       counters.fallbacks += t.fallbacks;
@@ -305,7 +319,6 @@ class ContactFit {
   }
 
   std::vector<Room> rooms_;
-  std::vector<FitTally> tally_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
   std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end

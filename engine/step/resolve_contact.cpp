@@ -43,8 +43,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       first_correction_stays_(plan.first_correction_stays),
       geometry_(plan.contact_geometry),
       exact_fields_(plan.exact_fields) {
-  moving_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  acting_.resize(moving_.size());
+  together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   laws_.push_back(make_law(spec_, cell_));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
 }
@@ -222,87 +221,80 @@ Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting&
 }
 
 /// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
-/// its law with the velocities that all of them leave. Gauss–Seidel over the pairs: each in turn is given the
-/// impulse that its law demands while the others stay, until none changes. Every impulse has its
-/// counter-impulse, so momentum is conserved at any stage.
-/// @return whether it settled to 1e-9 of the largest impulse
+/// its law with the velocities that all of them leave.
+/// @return whether they settled
 template <int Dim>
 template <class Laws>
 bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, Correction correction,
                                     double dt, const ContactNode<Dim>& node) {
-  constexpr int kSweeps = 100;
-  const int count = node.field_end - node.field_begin;
-  auto& fields = moving_[static_cast<std::size_t>(omp_get_thread_num())];
-  fields.resize(static_cast<std::size_t>(count));
-  for (int k = 0; k < count; ++k) {
-    const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + k)];
-    const double mass = state.nodes.column(Nodal::mass)[slot];
+  Together& together = together_[static_cast<std::size_t>(omp_get_thread_num())];
+  find_moving(state, node, together.solver.fields);
+  find_acting(state, laws, correction, dt, node, together);
+  const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
+    const Acting& acting = together.acting[k];
+    Vec<Dim> impulse;
+    with_law(laws, node, *acting.entry, [&](const auto& law) {
+      impulse = impulse_of(*acting.entry, {stick, together.solver.contacts[k].reduced},
+                           acting.entry->advanced, correction, law, acting.area_time);
+    });
+    return impulse;
+  });
+  finish(laws, node, together);
+  return settled;
+}
+
+/// The fields of a node as they move before the correction.
+template <int Dim>
+void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
+                               std::vector<MovingField<Dim>>& fields) const {
+  fields.clear();
+  for (int k = node.field_begin; k < node.field_end; ++k) {
+    const auto [field, slot] = list_.fields[static_cast<std::size_t>(k)];
+    const double inverse_mass = 1 / state.nodes.column(Nodal::mass)[slot];
     const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
-    fields[static_cast<std::size_t>(k)] = {state.nodes.vector(Nodal::momentum, slot) / mass,
-                                           rigid ? 0.0 : 1 / mass};
+    fields.push_back({inverse_mass * state.nodes.vector(Nodal::momentum, slot), rigid ? 0.0 : inverse_mass});
   }
-  auto& acting = acting_[static_cast<std::size_t>(omp_get_thread_num())];
-  find_acting(laws, correction, dt, node, fields, acting);
-  for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    double largest = 0, change = 0;
-    for (Acting& pair : acting) {
-      auto& entry = *pair.entry;
-      auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
-      Meeting& meeting = pair.meeting;
-      meeting.stick = meeting.reduced * (b.velocity - a.velocity);
-      meeting.stick += entry.impulse;
-      Vec<Dim> impulse = Vec<Dim>::Zero();
-      with_law(laws, node, entry, [&](const auto& law) {
-        double area_time = 0;
-        if constexpr (std::decay_t<decltype(law)>::uses_area) area_time = area(state, node, entry) * dt;
-        impulse = impulse_of(entry, meeting, entry.advanced, correction, law, area_time);
-      });
-      const Vec<Dim> step = impulse - entry.impulse;
-      a.velocity += a.inverse_mass * step;
-      b.velocity -= b.inverse_mass * step;
-      entry.impulse = impulse;
-      largest = std::max(largest, impulse.squaredNorm());
-      change = std::max(change, step.squaredNorm());
-    }
-    if (change > 1e-18 * largest) continue;
-    finish(laws, node, acting);
-    return true;
-  }
-  finish(laws, node, acting);
-  return false;
 }
 
 /// The pairs of a node that may have an impulse, with their separations at the end of the step, before
 /// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
 template <int Dim>
 template <class Laws>
-void Contact<Dim>::find_acting(const Laws& laws, Correction correction, double dt,
-                               const ContactNode<Dim>& node, const std::vector<Moving>& fields,
-                               std::vector<Acting>& acting) {
-  acting.clear();
+void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                               const ContactNode<Dim>& node, Together& together) {
+  auto& solver = together.solver;
+  together.acting.clear();
+  solver.contacts.clear();
   rest(node.entry_begin, node.entry_end);
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const Meeting meeting = meeting_of(fields, entry);
+    const auto &a = solver.fields[static_cast<std::size_t>(entry.a)],
+               &b = solver.fields[static_cast<std::size_t>(entry.b)];
+    const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
+    const Meeting meeting{reduced * (b.velocity - a.velocity), reduced};
     entry.advanced = separation_of(entry, meeting, correction, dt);
     with_law(laws, node, entry, [&](const auto& law) {
-      constexpr LawScope scope = std::decay_t<decltype(law)>::scope;
-      if (scope == LawScope::contact ? entry.advanced < 0 : scope != LawScope::nowhere)
-        acting.push_back({&entry, meeting});
+      using Law = std::decay_t<decltype(law)>;
+      if (Law::scope == LawScope::contact ? !(entry.advanced < 0) : Law::scope == LawScope::nowhere) return;
+      double area_time = 0;
+      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
+      together.acting.push_back({&entry, area_time});
+      solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
     });
   }
 }
 
-/// Friction work and state of contact of pairs that are solved.
+/// The impulses of pairs that are solved, with their friction work.
 template <int Dim>
 template <class Laws>
-void Contact<Dim>::finish(const Laws& laws, const ContactNode<Dim>& node, std::vector<Acting>& acting) const {
-  for (Acting& pair : acting) {
-    auto& entry = *pair.entry;
+void Contact<Dim>::finish(const Laws& laws, const ContactNode<Dim>& node, const Together& together) const {
+  for (std::size_t k = 0; k < together.acting.size(); ++k) {
+    const FieldContact<Dim>& contact = together.solver.contacts[k];
+    auto& entry = *together.acting[k].entry;
+    entry.impulse = contact.impulse;
     entry.touching = !entry.impulse.isZero(0);
     with_law(laws, node, entry, [&](const auto& law) {
-      entry.friction_work =
-          friction_work_of(entry, pair.meeting.stick, entry.impulse, pair.meeting.reduced, law);
+      entry.friction_work = friction_work_of(entry, contact.stick, entry.impulse, contact.reduced, law);
     });
   }
 }
@@ -317,15 +309,6 @@ void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, cons
               list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, f);
   else
     laws.with(0, 0, f);
-}
-
-/// What a needs to move with b, as the two move now.
-template <int Dim>
-typename Contact<Dim>::Meeting Contact<Dim>::meeting_of(const std::vector<Moving>& fields,
-                                                        const ContactEntry<Dim>& entry) {
-  const auto &a = fields[static_cast<std::size_t>(entry.a)], &b = fields[static_cast<std::size_t>(entry.b)];
-  const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
-  return {reduced * (b.velocity - a.velocity), reduced};
 }
 
 /// Work that an impulse's tangential part takes from the sliding that remains, J.

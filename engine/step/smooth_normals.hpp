@@ -37,10 +37,10 @@ int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& contact
 /// What the mean takes of an entry: kept apart from the list, since each is read for all nodes around it.
 template <int Dim>
 struct RawNormal {
-  Vec<Dim> normal;
-  double weight;  ///< the smaller of the two masses, kg
-  bool touches;   ///< its surfaces overlap
-  int a, b;       ///< velocity fields; b −1: a lump
+  Vec<Dim> weighted;  ///< normal times the smaller of the two masses, kg
+  bool touches;       ///< its surfaces overlap
+  int a;              ///< velocity field
+  int pair;           ///< of velocity fields, or of a and a lump: rises with a, then with b
 };
 
 template <int Dim>
@@ -67,25 +67,24 @@ class NormalMean {
 
   RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
     const double w = pairs_ ? weight(node, entry.a, entry.b) : weight(node, entry.a);
-    return {entry.normal, w, entry.separation < 0, field(node, entry.a),
-            entry.b < 0 ? -1 : field(node, entry.b)};
+    const int a = field(node, entry.a), b = entry.b < 0 ? 0 : field(node, entry.b) + 1;
+    return {w * entry.normal, entry.separation < 0, a, a * (state_.fields() + 1) + b};
   }
 
-  /// Over the touching ones of the nodes around and this one, weighted by the smaller of the two masses; not
-  /// normalised.
-  Vec<Dim> operator()(const Around& around, const ContactNode<Dim>& node,
-                      const ContactEntry<Dim>& entry) const {
-    Vec<Dim> sum = Vec<Dim>::Zero();
-    const bool pair = entry.b >= 0 && pairs_;
-    const int a = field(node, entry.a), b = pair ? field(node, entry.b) : -1;
+  /// Sums of the entries of a node over the touching ones of the nodes around and this one, weighted by the
+  /// smaller of the two masses; not normalised.
+  void operator()(const Around& around, const ContactNode<Dim>& node, std::vector<Vec<Dim>>& sums) const {
+    sums.assign(static_cast<std::size_t>(node.entry_end - node.entry_begin), Vec<Dim>::Zero());
     for (int k = 0; k < around.count; ++k) {
       const ContactNode<Dim>& other = contact_.nodes[static_cast<std::size_t>(around.nodes[k])];
-      if (pair)
-        add_pair(a, b, node, other, sum);
-      else
-        add(a, node, other, sum);
+      if (pairs_) {
+        add_pairs(node, other, sums);
+        continue;
+      }
+      for (int e = node.entry_begin; e < node.entry_end; ++e)
+        add(raw_[static_cast<std::size_t>(e)].a, node, other,
+            sums[static_cast<std::size_t>(e - node.entry_begin)]);
     }
-    return sum;
   }
 
  private:
@@ -112,17 +111,22 @@ class NormalMean {
       const bool same = theirs.a == a && has(meets_a, theirs.a);
       const bool turned = meets_a(theirs.a) && has([&](int g) { return g == a; }, theirs.a);
       if ((same || turned) && (theirs.touches || &other == &node))
-        sum += (same ? 1.0 : -1.0) * theirs.weight * theirs.normal;
+        sum += (same ? 1.0 : -1.0) * theirs.weighted;
     }
   }
 
-  void add_pair(int a, int b, const ContactNode<Dim>& node, const ContactNode<Dim>& other,
-                Vec<Dim>& sum) const {
+  /// Adds the other node's normals of the same pairs. The entries of every node are in the order of their
+  /// fields, and a pair is everywhere seen from the same side.
+  void add_pairs(const ContactNode<Dim>& node, const ContactNode<Dim>& other,
+                 std::vector<Vec<Dim>>& sums) const {
+    int own = node.entry_begin;
     for (int e = other.entry_begin; e < other.entry_end; ++e) {
       const RawNormal<Dim>& theirs = raw_[static_cast<std::size_t>(e)];
-      const bool same = theirs.a == a && theirs.b == b, turned = theirs.a == b && theirs.b == a;
-      if ((same || turned) && (theirs.touches || &other == &node))
-        sum += (same ? 1.0 : -1.0) * theirs.weight * theirs.normal;
+      if (!theirs.touches && &other != &node) continue;
+      while (own < node.entry_end && raw_[static_cast<std::size_t>(own)].pair < theirs.pair) ++own;
+      if (own == node.entry_end) return;
+      if (raw_[static_cast<std::size_t>(own)].pair == theirs.pair)
+        sums[static_cast<std::size_t>(own - node.entry_begin)] += theirs.weighted;
     }
   }
 

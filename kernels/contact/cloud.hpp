@@ -19,4 +19,21 @@ struct CloudView {
 /// Entries that the arrays of a cloud of this many particles must have.
 constexpr int padded_count(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
+/// Particles of a cloud with their domains, valid until the room that they are in grows. What follows them is
+/// readable for a vector more.
+template <int Dim>
+struct CloudColumns {
+  const double* xi[Dim];          ///< relative to the node, cells
+  const double* edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
+  int count;
+
+  CloudColumns part(int first, int particles) const {
+    CloudColumns c = *this;
+    for (auto& column : c.xi) column += first;
+    for (auto& column : c.edge) column += first;
+    c.count = particles;
+    return c;
+  }
+};
+
 }  // namespace mpmfast

@@ -12,22 +12,6 @@
 
 namespace mpmfast {
 
-/// Columns of one cloud in its room, valid until the room grows.
-template <int Dim>
-struct CloudColumns {
-  const double* xi[Dim];
-  const double* edge[Dim * Dim];
-  int count;
-
-  CloudColumns part(int first, int particles) const {
-    CloudColumns c = *this;
-    for (auto& column : c.xi) column += first;
-    for (auto& column : c.edge) column += first;
-    c.count = particles;
-    return c;
-  }
-};
-
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudRoom {
@@ -57,8 +41,8 @@ struct CloudRoom {
     }
   }
 
-  /// Appends the particles [first, end) of another cloud.
-  void append(const CloudColumns<Dim>& cloud, int first, int end) {
+  /// Appends the particles [first, end) of another cloud, without their domains.
+  void append_places(const CloudColumns<Dim>& cloud, int first, int end) {
     reserve(count + end - first + kLanes);
     const std::size_t at = begin + static_cast<std::size_t>(count);
     const auto copy = [&](const double* from, std::vector<double>& to) {
@@ -66,7 +50,6 @@ struct CloudRoom {
         store_lanes(&to[at + static_cast<std::size_t>(k - first)], load_lanes(from + k));
     };
     for (int d = 0; d < Dim; ++d) copy(cloud.xi[d], xi[d]);
-    for (int e = 0; e < Dim * Dim; ++e) copy(cloud.edge[e], edge[e]);
     count += end - first;
   }
 

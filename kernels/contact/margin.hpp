@@ -44,11 +44,23 @@ struct Foremost {
       at_b = in_b ? at : at_b;
       at += static_cast<double>(kLanes);
     }
-    double value_a = none[0], value_b = none[0];
-    for (int i = 0; i < kLanes; ++i) {
-      if (best_a[i] > value_a) value_a = best_a[i], a = static_cast<int>(at_a[i]);
-      if (best_b[i] > value_b) value_b = best_b[i], b = static_cast<int>(at_b[i]);
-    }
+    a = best_index(best_a, at_a);
+    b = best_index(best_b, at_b);
+  }
+
+ private:
+  /// Which of the lanes' entries has the largest value.
+  static int best_index(Lanes value, Lanes at) {
+    if constexpr (kLanes > 4) choose<4>(value, at);
+    if constexpr (kLanes > 2) choose<2>(value, at);
+    choose<1>(value, at);
+    return static_cast<int>(at[0]);
+  }
+  template <int Distance>
+  static void choose(Lanes& value, Lanes& at) {
+    const Lanes other = swap_lanes<Distance>(value), other_at = swap_lanes<Distance>(at);
+    at = other > value ? other_at : at;
+    value = larger(value, other);
   }
 };
 
@@ -89,6 +101,11 @@ class Simplex {
     for (int i = 0; i < count_; ++i)
       if (chosen >> i & 1) index[n++] = i;
     const Vec<Dim>& origin = point_[index[0]];
+    if (n == 1) {
+      out = origin;
+      return true;
+    }
+    if (n == 2) return nearest_on_line(origin, point_[index[1]], out);
     Vec<Dim> edge[Dim], right = Vec<Dim>::Zero(), share = Vec<Dim>::Zero();
     Mat<Dim> gram = Mat<Dim>::Identity();
     for (int i = 1; i < n; ++i) {
@@ -96,7 +113,7 @@ class Simplex {
       right[i - 1] = -edge[i - 1].dot(origin);
       for (int j = 1; j <= i; ++j) gram(i - 1, j - 1) = gram(j - 1, i - 1) = edge[i - 1].dot(edge[j - 1]);
     }
-    if (n > 1 && !solve(gram, right, n - 1, share)) return false;
+    if (!solve(gram, right, n - 1, share)) return false;
     double rest = 1;
     out = origin;
     for (int i = 1; i < n; ++i) {
@@ -105,6 +122,14 @@ class Simplex {
       out += share[i - 1] * edge[i - 1];
     }
     return rest >= 0;
+  }
+
+  static bool nearest_on_line(const Vec<Dim>& from, const Vec<Dim>& to, Vec<Dim>& out) {
+    const Vec<Dim> edge = to - from;
+    const double share = -edge.dot(from) / edge.squaredNorm();
+    if (!(share >= 0 && share <= 1)) return false;  // also for points that coincide
+    out = from + share * edge;
+    return true;
   }
 
   /// Elimination without pivoting: the matrix is a Gram matrix. @return false if it is singular

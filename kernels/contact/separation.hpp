@@ -64,27 +64,22 @@ inline V extent_along(const V (&edges)[Dim * Dim], const Vec<Dim>& n) {
   return E == Extent::parallelepiped ? sum : square_root(sum);
 }
 
-/// d = min_{p∈b}(ξ_p·n − R_p) − max_{p∈a}(ξ_p·n + R_p) in cells (N20 Eq. 24); infinite if a class is empty.
-/// @param radius R_p in cells, as long as the cloud's arrays; the padding does not count
-template <int Dim>
-inline double cloud_separation(const CloudView<Dim>& cloud, const double* radius, const Vec<Dim>& n) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Lanes none = broadcast<Lanes>(infinity);
-  Lanes nearest_b = none, nearest_a = none;  // of a: min of −(ξ·n + R)
-  for (int k = 0; k < cloud.count; k += kLanes) {
-    const Lanes side = load_lanes(cloud.side + k);
-    Lanes ahead = load_lanes(cloud.xi[0] + k) * n[0];
-    for (int d = 1; d < Dim; ++d) ahead += load_lanes(cloud.xi[d] + k) * n[d];
-    const Lanes edge = side * ahead - load_lanes(radius + k);
-    nearest_b = smaller(nearest_b, side > 0.0 ? edge : none);
-    nearest_a = smaller(nearest_a, side < 0.0 ? edge : none);
+/// How far the surface of some particles reaches along the unit vector n, max_p (ξ_p·n + R_p), cells; −∞ if
+/// there are none. Two surfaces a and b with n from a to b are d = −reach_b(−n) − reach_a(n) apart (N20
+/// Eq. 24).
+template <Extent E, int Dim>
+inline double reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n) {
+  const Lanes none = broadcast<Lanes>(-std::numeric_limits<double>::infinity());
+  Lanes furthest = none, index;
+  for (int i = 0; i < kLanes; ++i) index[i] = i;
+  for (int k = 0; k < particles.count; k += kLanes) {
+    Lanes edge[Dim * Dim];
+    for (int e = 0; e < Dim * Dim; ++e) edge[e] = load_lanes(particles.edge[e] + k);
+    Lanes ahead = extent_along<E, Dim>(edge, n);
+    for (int d = 0; d < Dim; ++d) ahead += load_lanes(particles.xi[d] + k) * n[d];
+    furthest = larger(furthest, index < static_cast<double>(particles.count - k) ? ahead : none);
   }
-  double b = infinity, a = infinity;
-  for (int i = 0; i < kLanes; ++i) {
-    b = smaller<double>(b, nearest_b[i]);
-    a = smaller<double>(a, nearest_a[i]);
-  }
-  return a + b;
+  return largest_of(furthest);
 }
 
 /// From the nodal mean positions e = (x − x_i)·n of each side, in cells: the surfaces are taken to touch

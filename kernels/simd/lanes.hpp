@@ -141,6 +141,21 @@ inline double sum_of(Lanes x) {
   return s;
 }
 
+/// The lanes a distance that is a power of two away change places.
+template <int Distance>
+inline Lanes swap_lanes(Lanes x) {
+  IntLanes from;
+#pragma GCC unroll 16
+  for (int i = 0; i < kLanes; ++i) from[i] = i ^ Distance;
+  return __builtin_shuffle(x, from);
+}
+
+inline double largest_of(Lanes x) {
+  if constexpr (kLanes > 4) x = larger(x, swap_lanes<4>(x));
+  if constexpr (kLanes > 2) x = larger(x, swap_lanes<2>(x));
+  return larger(x, swap_lanes<1>(x))[0];
+}
+
 /// Transposes four records in place: row i of the result holds component i of each.
 inline void transpose(Record& a, Record& b, Record& c, Record& d) {
   using Pick = std::int64_t __attribute__((vector_size(32)));

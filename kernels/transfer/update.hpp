@@ -9,10 +9,6 @@
 
 namespace mpmfast {
 
-enum class ParticleUpdate { flip, pic, xpic, apic };
-/// The end velocity makes X and V a symplectic pair. With the midpoint, X ← X + ½Δt (v + v⁺) under forces at
-/// the old X, oscillations held by the geometric stiffness (the pressure) grow by ½(ωΔt)² a step.
-enum class PositionUpdate { grid_end, grid, trapezoid, particle };
 /// Of a node's record: v⁺ and a Δt, in 2-D v⁺ twice more for its gradient, and for XPIC m(v − v*).
 template <int Dim>
 constexpr int update_entries(int vectors) {

@@ -5,7 +5,9 @@
 namespace mpmfast {
 
 enum class ParticleUpdate { flip, pic, xpic, apic };
-enum class PositionUpdate { grid, trapezoid, particle };
+/// The end velocity makes X and V a symplectic pair. With the midpoint, X ← X + ½Δt (v + v⁺) under forces at
+/// the old X, oscillations held by the geometric stiffness (the pressure) grow by ½(ωΔt)² a step.
+enum class PositionUpdate { grid_end, grid, trapezoid, particle };
 
 struct UpdateRule {
   ParticleUpdate velocity;

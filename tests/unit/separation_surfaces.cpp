@@ -43,6 +43,32 @@ double radius(const Mat<Dim>& f, const double (&half_size)[Dim], const Vec<Dim>&
   return extent_along<E, Dim>(edges, n);
 }
 
+/// How far spheres reach along n, of one class.
+template <int Dim>
+double reach_of(const Cloud<Dim>& cloud, const std::vector<double>& radii, double side, const Vec<Dim>& n) {
+  std::vector<double> xi[Dim], edge[Dim * Dim];
+  CloudColumns<Dim> columns;
+  columns.count = 0;
+  for (std::size_t p = 0; p < static_cast<std::size_t>(cloud.count); ++p) {
+    if (cloud.side[p] != side) continue;
+    ++columns.count;
+    for (std::size_t d = 0; d < Dim; ++d) xi[d].push_back(cloud.xi[d][p]);
+    for (int e = 0; e < Dim * Dim; ++e) edge[e].push_back(e % (Dim + 1) == 0 ? radii[p] : 0.0);
+  }
+  const auto finish = [&](std::vector<double>& column) {  // what follows does not count
+    column.resize(column.size() + kLanes, 99.0);
+    return column.data();
+  };
+  for (int d = 0; d < Dim; ++d) columns.xi[d] = finish(xi[d]);
+  for (int e = 0; e < Dim * Dim; ++e) columns.edge[e] = finish(edge[e]);
+  return reach_along<Extent::radial>(columns, n);
+}
+
+template <int Dim>
+double separation_of(const Cloud<Dim>& cloud, const std::vector<double>& radii, const Vec<Dim>& n) {
+  return -reach_of<Dim>(cloud, radii, -1.0, n) - reach_of<Dim>(cloud, radii, 1.0, -n);
+}
+
 }  // namespace
 
 TEST_CASE_TEMPLATE("the inverse of a deformation gradient is its inverse", D, TwoD, ThreeD) {
@@ -162,7 +188,7 @@ TEST_CASE_TEMPLATE("two spheres are as far apart as their centres less their rad
     std::vector<double> radii(static_cast<std::size_t>(padded_count(2)), 99.0);
     radii[0] = r_a;
     radii[1] = r_b;
-    CHECK(std::abs(cloud_separation<Dim>(cloud.view(), radii.data(), n) - (distance - r_a - r_b)) < 1e-10);
+    CHECK(std::abs(separation_of<Dim>(cloud, radii, n) - (distance - r_a - r_b)) < 1e-10);
   }
 }
 
@@ -183,9 +209,9 @@ TEST_CASE_TEMPLATE("a cloud's separation is that of its foremost surfaces", D, T
       else
         back = std::min(back, along - radii[p]);
     }
-    CHECK(std::abs(cloud_separation<Dim>(cloud.view(), radii.data(), r.col(0)) - (back - front)) < 1e-12);
+    CHECK(std::abs(separation_of<Dim>(cloud, radii, r.col(0)) - (back - front)) < 1e-12);
   }
-  CHECK(std::isinf(cloud_separation<Dim>(Cloud<Dim>{}.view(), nullptr, Vec<Dim>::Unit(0))));
+  CHECK(std::isinf(separation_of<Dim>({}, {}, Vec<Dim>::Unit(0))));
 }
 
 TEST_CASE("touching lattices of spheres have no separation, and lattices a gap apart have that gap") {
@@ -197,7 +223,7 @@ TEST_CASE("touching lattices of spheres have no separation, and lattices a gap a
       for (int j = -3; j < 3; ++j)
         cloud.add(r * Vec<2>(0.5 * i + 0.25 + (i < 0 ? 0.0 : gap), 0.5 * j), i < 0 ? -1.0 : 1.0);
     const std::vector<double> radii(cloud.side.size(), 0.25);
-    CHECK(std::abs(cloud_separation<2>(cloud.view(), radii.data(), r.col(0)) - gap) < 1e-10);
+    CHECK(std::abs(separation_of<2>(cloud, radii, r.col(0)) - gap) < 1e-10);
   }
 }
 

@@ -1,0 +1,77 @@
+/// Cost of the contacts of one node where several fields meet, solved together, by the number of fields.
+
+#include "kernels/contact/together.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "kernels/contact/laws.hpp"
+
+namespace {
+
+using namespace mpmfast;
+
+/// Fields around a node that are pressed together, with masses as the corners of grains have them: over four
+/// orders of magnitude.
+template <int Dim>
+struct PressedNode {
+  std::vector<MovingField<Dim>> fields;
+  std::vector<FieldContact<Dim>> contacts;
+
+  PressedNode(int count, std::mt19937_64& draw) {
+    std::normal_distribution<double> gauss;
+    std::uniform_real_distribution<double> exponent(-4, 0);
+    std::vector<Vec<Dim>> place;
+    const auto vector = [&] {
+      Vec<Dim> v;
+      for (int d = 0; d < Dim; ++d) v[d] = gauss(draw);
+      return v;
+    };
+    for (int k = 0; k < count; ++k) {
+      place.push_back(vector());
+      fields.push_back({vector() - place.back(), std::pow(10.0, -exponent(draw))});
+    }
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) {
+        const auto one = static_cast<std::size_t>(a), two = static_cast<std::size_t>(b);
+        contacts.push_back({a, b, (place[two] - place[one]).normalized(),
+                            1 / (fields[one].inverse_mass + fields[two].inverse_mass)});
+      }
+  }
+};
+
+template <int Dim>
+void solve(benchmark::State& state) {
+  constexpr std::size_t draws = 256;  // enough that the branches are not learnt by heart
+  std::mt19937_64 draw(20);
+  std::vector<PressedNode<Dim>> nodes;
+  for (std::size_t i = 0; i < draws; ++i) nodes.emplace_back(static_cast<int>(state.range(0)), draw);
+  const Coulomb friction{0.2, 0};
+  ContactsTogether<Dim> solver;
+  std::size_t next = 0;
+  std::int64_t laws = 0, unsettled = 0;
+  for (auto _ : state) {
+    solver.fields = nodes[next].fields;
+    solver.contacts = nodes[next].contacts;
+    unsettled += !solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
+      ++laws;
+      return resolve_pair<Dim>(stick, solver.contacts[k].normal, -1.0, friction);
+    });
+    benchmark::DoNotOptimize(solver.contacts.data());
+    next = (next + 1) % draws;
+  }
+  state.SetItemsProcessed(state.iterations());
+  const auto average = [&](std::int64_t n) {
+    return benchmark::Counter(static_cast<double>(n), benchmark::Counter::kAvgIterations);
+  };
+  state.counters["laws"] = average(laws);
+  state.counters["unsettled"] = average(unsettled);
+}
+
+BENCHMARK(solve<2>)->Name("together/2d")->ArgName("fields")->Arg(3)->Arg(4)->Arg(5);
+BENCHMARK(solve<3>)->Name("together/3d")->ArgName("fields")->Arg(3)->Arg(4)->Arg(5);
+
+}  // namespace

@@ -1,0 +1,126 @@
+#include "kernels/contact/together.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "kernels/contact/laws.hpp"
+
+namespace {
+
+using namespace mpmfast;
+
+template <int Dim>
+Vec<Dim> momentum_of(const ContactsTogether<Dim>& node) {
+  Vec<Dim> sum = Vec<Dim>::Zero();
+  for (const auto& field : node.fields)
+    if (field.inverse_mass > 0) sum += field.velocity / field.inverse_mass;
+  return sum;
+}
+
+template <int Dim>
+void add_contact(ContactsTogether<Dim>& node, int a, int b, const Vec<Dim>& normal) {
+  const double inverse = node.fields[static_cast<std::size_t>(a)].inverse_mass +
+                         node.fields[static_cast<std::size_t>(b)].inverse_mass;
+  node.contacts.push_back({a, b, normal.normalized(), 1 / inverse});
+}
+
+/// Solves surfaces that overlap under one law.
+template <int Dim, class Law>
+bool solve(ContactsTogether<Dim>& node, const Law& law) {
+  return node.solve([&](std::size_t k, const Vec<Dim>& stick) -> Vec<Dim> {
+    const auto& c = node.contacts[k];
+    return resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced);
+  });
+}
+
+TEST_CASE("a light field pressed between two heavy ones takes their common velocity") {
+  ContactsTogether<2> node;
+  const double heavy = 2.0, light = 1e-7;
+  node.fields = {{{1, 0}, 1 / heavy}, {{0.3, 0}, 1 / light}, {{-1, 0}, 1 / heavy}};
+  add_contact<2>(node, 0, 1, {1, 0});
+  add_contact<2>(node, 1, 2, {1, 0});
+  CHECK(solve(node, Frictionless{}));
+  for (const auto& field : node.fields) CHECK(std::abs(field.velocity[0] - 0.3 * light / 4) < 1e-8);
+  CHECK(node.contacts[0].impulse[0] == doctest::Approx(-heavy).epsilon(1e-6));
+}
+
+TEST_CASE("three fields that stick to each other move as one, though their impulses are not unique") {
+  ContactsTogether<3> node;
+  node.fields = {{{1, 0, 0.2}, 1 / 1.0}, {{-1, 0.1, 0}, 1 / 2.0}, {{0, -1, 0}, 1 / 4.0}};
+  const Vec<3> common = momentum_of(node) / 7.0;
+  add_contact<3>(node, 0, 1, {1, 0, 0});
+  add_contact<3>(node, 0, 2, {0, 1, 0});
+  add_contact<3>(node, 1, 2, {1, 1, 0});
+  CHECK(solve(node, Perfect{}));
+  for (const auto& field : node.fields) CHECK((field.velocity - common).norm() < 1e-8);
+}
+
+TEST_CASE("a block slides between two plates with the friction of both") {
+  ContactsTogether<2> node;  // the plates are rigid and close at speed 1; the block moves along them
+  const double mass = 0.5, friction = 0.2;
+  node.fields = {{{0, 0}, 0}, {{10, -1}, 1 / mass}, {{0, -1}, 1 / 3.0}};
+  add_contact<2>(node, 0, 1, {0, 1});
+  add_contact<2>(node, 1, 2, {0, 1});
+  CHECK(solve(node, Coulomb{friction, 0}));
+  // The floor stops both: N = 3.5 below the block, 3 above it, which drags the upper plate along.
+  CHECK(node.fields[1].velocity[1] == doctest::Approx(0));
+  CHECK(node.fields[2].velocity[1] == doctest::Approx(0));
+  CHECK(node.fields[1].velocity[0] == doctest::Approx(10 - friction * (3.5 + 3.0) / mass));
+  CHECK(node.fields[2].velocity[0] == doctest::Approx(friction * 3.0 / 3.0));
+}
+
+/// Momentum stays; no contact approaches, pulls or drags more than friction allows, and what slides less
+/// sticks.
+template <int Dim>
+void check_random_nodes() {
+  std::mt19937_64 draw(11);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> exponent(-6, 0);
+  const double friction = 0.3;
+  int unsettled = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    ContactsTogether<Dim> node;
+    std::vector<Vec<Dim>> place;
+    const auto vector = [&] {
+      Vec<Dim> v;
+      for (int d = 0; d < Dim; ++d) v[d] = gauss(draw);
+      return v;
+    };
+    const int fields = 3 + trial % 3;
+    for (int k = 0; k < fields; ++k) {
+      place.push_back(vector());
+      node.fields.push_back({vector() - place.back(), std::pow(10.0, -exponent(draw))});
+    }
+    for (int a = 0; a < fields; ++a)
+      for (int b = a + 1; b < fields; ++b)
+        add_contact<Dim>(node, a, b, place[static_cast<std::size_t>(b)] - place[static_cast<std::size_t>(a)]);
+    const Vec<Dim> before = momentum_of(node);
+    if (!solve(node, Coulomb{friction, 0})) {
+      ++unsettled;
+      continue;
+    }
+    CHECK((momentum_of(node) - before).norm() < 1e-12 * (1 + before.norm()));
+    double largest = 0;
+    for (const auto& c : node.contacts) largest = std::max(largest, c.impulse.norm());
+    for (const auto& c : node.contacts) {
+      const Vec<Dim> slip = node.fields[static_cast<std::size_t>(c.b)].velocity -
+                            node.fields[static_cast<std::size_t>(c.a)].velocity;
+      const double pressure = -c.impulse.dot(c.normal), tolerance = 1e-7 * largest;
+      const double shear = (c.impulse + pressure * c.normal).norm();
+      const Vec<Dim> sliding = slip - slip.dot(c.normal) * c.normal;
+      CHECK(pressure >= -tolerance);
+      CHECK(c.reduced * slip.dot(c.normal) >= -tolerance);
+      CHECK(std::min(pressure, c.reduced * slip.dot(c.normal)) <= tolerance);
+      CHECK(shear <= friction * pressure + tolerance);
+      CHECK(std::min(friction * pressure - shear, c.reduced * sliding.norm()) <= tolerance);
+    }
+  }
+  CHECK(unsettled <= 30);  // with masses up to a million times each other
+}
+
+TEST_CASE("contacts of random nodes obey Coulomb's law together (2-D)") { check_random_nodes<2>(); }
+TEST_CASE("contacts of random nodes obey Coulomb's law together (3-D)") { check_random_nodes<3>(); }
+
+}  // namespace
