@@ -136,7 +136,7 @@ Plan make_plan(const Scene& scene) {
   plan.first_correction = scene.contact.corrections == 2;
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&
                 !scene.method.own_filter && plan.first_correction;
-  plan.own_filter = scene.method.own_filter;
+  plan.own_filter = scene.method.own_filter && plan.order > 1 && !plan.full_mass;
   if (plan.contact)
     plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
   plan.first_correction_stays =

@@ -81,13 +81,7 @@ void Step<Dim>::advance(double dt) {
   rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
   find_contact();
-  if (plan_.own_filter && plan_.order > 1)
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
-      const double* mass = state_.nodes.column(Nodal::mass);
-      for (int d = 0; d < Dim; ++d)
-        divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
-                       state_.nodes.column(Nodal::star, d));
-    });
+  keep_own_velocities();
   correct_contact(Correction::initial, dt);  // Eq. 26
   start_velocities();
   if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
@@ -114,6 +108,20 @@ void Step<Dim>::for_each_slot(F f) {
   const std::int64_t blocks = (n + block - 1) / block;
 #pragma omp parallel for num_threads(state_.threads) schedule(static) if (blocks > 4)
   for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
+}
+
+/// What `own_filter` filters: the velocities of each field before contact changes them.
+template <int Dim>
+void Step<Dim>::keep_own_velocities() {
+  if (!plan_.own_filter) return;
+  clock_.time(Pass::nodes, [&] {
+    const double* mass = state_.nodes.column(Nodal::mass);
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d)
+        divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
+                       state_.nodes.column(Nodal::star, d));
+    });
+  });
 }
 
 /// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of

@@ -59,6 +59,7 @@ class Step {
   void project();
   void find_contact();
   void correct_contact(Correction correction, double dt);
+  void keep_own_velocities();
   void start_velocities();
   void strain_and_force(double dt);
   bool is_rigid_slot(std::int64_t slot) const;
