@@ -136,13 +136,6 @@ TEST_CASE("one step of xpic(m) and of fmpm(m) without forces equals a sum of pow
     }
 }
 
-/// Two blocks that meet, or pass within a cell of each other, after a few steps of xpic(3).
-Step<2> after_meeting(const Scene& scene) {
-  Step<2> step(scene);
-  advance(step, 40);
-  return step;
-}
-
 TEST_CASE(
     "own_filter changes nothing where bodies pass without touching, and keeps momentum where they meet") {
   const char* const blocks = R"(
@@ -162,7 +155,8 @@ method: {update: xpic(3)}
   const Scene pass = scene("0 m/s", "false"), pass_own = scene("0 m/s", "true"),
               meet = scene("30 m/s", "false"), meet_own = scene("30 m/s", "true");
   const auto velocities = [](const Scene& s) {
-    const Step<2> step = after_meeting(s);
+    Step<2> step(s);
+    advance(step, 40);
     return by_id(step.state().particles, Quantity::velocity);
   };
   CHECK(velocities(pass) == velocities(pass_own));
