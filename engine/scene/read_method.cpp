@@ -60,7 +60,7 @@ void read_method(MapReader& top, MethodSpec& method) {
   if (const auto chosen = position ? position->word(kPositions) : std::nullopt) {
     if (method.update == UpdateKind::flip && *chosen != PositionKind::grid &&
         *chosen != PositionKind::grid_end) {
-      position->complain("flip moves particles with the grid (position: grid_end or grid)");
+      position->complain("flip moves particles with the grid (position: grid or grid_end)");
     }
     if (method.update == UpdateKind::apic && *chosen != PositionKind::particle) {
       position->complain("apic moves particles with their velocity (position: particle)");

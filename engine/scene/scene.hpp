@@ -83,7 +83,7 @@ struct MethodSpec {
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
-  PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
+  PositionKind position = PositionKind::grid;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, or kAllTerms.
   int deformation_terms = 2;
   static constexpr int kAllTerms = 0;
