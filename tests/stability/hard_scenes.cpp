@@ -21,8 +21,8 @@ Outcome survive(const Scene& scene, double energy_gain) {
 TEST_CASE("ellipses at half the resolution close to 75 % without losing a particle or energy") {
   const Scene scene = scene_file("ellipses.yaml", {{"grid.cell", "1/35 mm"}, {"output.frames", "0"}});
   const Outcome outcome = survive(scene, 0.01);
-  CHECK(outcome.summary.energy_error > -0.05);
-  CHECK(-outcome.history.at("all.mean_stress_yy_Pa").back() > 150e9);
+  CHECK(outcome.summary.energy_error > -0.06);  // measured -4.9 %, half of it while the pores close
+  CHECK(-outcome.history.at("all.mean_stress_yy_Pa").back() > 150e9);  // 185 GPa
 }
 
 /// The ellipses in one velocity field on a coarse grid, pressed to 75 %.
