@@ -33,6 +33,7 @@ row() {
 
 echo "| contact | reaches | overlap | inside | mean axial stress | energy error | steps | wall s |"
 echo "|---|---|---|---|---|---|---|---|"
+row "smoothed_max_margin (default)" contact.normal=smoothed_max_margin
 row "smoothed_logistic_regression" contact.normal=smoothed_logistic_regression
 row "logistic_regression" contact.normal=logistic_regression
 row "average_gradient, position_power (DF)" contact.normal=average_gradient contact.separation=position_power

@@ -117,7 +117,7 @@ void check_random_nodes() {
       CHECK(std::min(friction * pressure - shear, c.reduced * sliding.norm()) <= tolerance);
     }
   }
-  CHECK(unsettled <= 30);  // with masses up to a million times each other
+  CHECK(unsettled <= 30);  // measured 8 and 27; sweeps without leaps leave 35 and 43
 }
 
 TEST_CASE("contacts of random nodes obey Coulomb's law together (2-D)") { check_random_nodes<2>(); }
