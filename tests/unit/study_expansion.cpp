@@ -114,7 +114,8 @@ TEST_CASE("the studies that come with the program can be read and expanded") {
   CHECK(count >= 6);
 }
 
-TEST_CASE("cell size, particles a cell and time step are axes, also where the scene leaves them to the defaults") {
+TEST_CASE(
+    "cell size, particles a cell and time step are axes, also where the scene leaves them to the defaults") {
   const StudyFolder folder;
   const StudyRuns runs = expand_study(folder.study(
       "scene: scene.yaml\n"
