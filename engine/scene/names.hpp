@@ -52,12 +52,11 @@ inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
 }};
 
 inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
+    {PositionKind::grid_end, "grid_end",
+     "particles move with the grid's velocity at the end of the step: stable under any pressure (default)"},
     {PositionKind::grid, "grid",
      "particles move with the grid's midpoint velocity: exact in free fall, unstable where the pressure "
-     "comes "
-     "near the moduli (default)"},
-    {PositionKind::grid_end, "grid_end",
-     "particles move with the grid's velocity at the end of the step: stable under any pressure"},
+     "comes near the moduli"},
     {PositionKind::trapezoid, "trapezoid", "particles move with the mean of old and new velocity"},
     {PositionKind::particle, "particle", "particles move with their new velocity"},
 }};

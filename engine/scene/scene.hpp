@@ -83,7 +83,7 @@ struct MethodSpec {
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
-  PositionKind position = PositionKind::grid;  ///< FLIP moves with the grid, APIC with its velocity
+  PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, or kAllTerms.
   int deformation_terms = 2;
   static constexpr int kAllTerms = 0;
@@ -253,7 +253,7 @@ struct ContactSpec : LawSpec {
   /// in place of a regression too (NN §3.5). 0: off.
   double rigid_bias = 0;
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
-  bool advance_separation = true;  ///< second correction uses δ + Δv·n Δt (NN Eq. 3.56)
+  bool advance_separation = true;  ///< corrections judge by δ + Δv·n Δt, Δv the free velocities (NN Eq. 3.56)
   /// The first correction also holds a pair that touched at the end of the last step and now would part.
   bool persistent = true;
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap

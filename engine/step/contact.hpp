@@ -80,11 +80,9 @@ class Contact {
     double plane[Dim + 1];
   };
 
-  PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
-                            const ContactNode<Dim>& node);
+  PairOutcome resolve_pairs(const State<Dim>& state, double dt, const ContactNode<Dim>& node);
   struct Touching;
-  bool find_touching(const State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node,
-                     Touching& out);
+  bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node, Touching& out);
   void rest(int begin, int end);
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
   struct Total {
@@ -109,8 +107,8 @@ class Contact {
   void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
                    std::vector<MovingField<Dim>>& fields) const;
   template <class Laws>
-  void find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
-                   const ContactNode<Dim>& node, Together& together);
+  void find_acting(const State<Dim>& state, const Laws& laws, double dt, const ContactNode<Dim>& node,
+                   Together& together);
   template <class Laws>
   void finish(const Laws& laws, const ContactNode<Dim>& node, const Together& together) const;
   template <class Laws, class F>
@@ -126,8 +124,7 @@ class Contact {
                                  const Vec<Dim>& impulse, double reduced, const Law& law);
   Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
   Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
-  double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, Correction correction,
-                       double dt) const;
+  double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const;
   double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
 
   ContactSpec spec_;

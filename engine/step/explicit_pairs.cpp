@@ -32,8 +32,8 @@ void Contact<Dim>::add_pairs(const ContactNode<Dim>& node) {
 /// Pairs that overlap count as touching: one that does not approach by itself may be pushed by the other.
 /// @return false when there are more than two, or one of them may be bonded
 template <int Dim>
-bool Contact<Dim>::find_touching(const State<Dim>& state, Correction correction, double dt,
-                                 const ContactNode<Dim>& node, Touching& out) {
+bool Contact<Dim>::find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node,
+                                 Touching& out) {
   const auto field_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
@@ -44,7 +44,7 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, Correction correction,
     const LawScope scope = std::visit([](const auto& l) { return l.scope; }, law);
     if (scope == LawScope::bonded) return false;
     const Meeting meeting = meet(state, node, entry.a, together(state, node, entry.a, entry.b));
-    const bool overlap = separation_of(entry, meeting, correction, dt) < 0;
+    const bool overlap = separation_of(entry, meeting, dt) < 0;
     if (!(scope == LawScope::everywhere || (scope == LawScope::contact && overlap))) continue;
     if (out.count == 2) return false;
     const int k = out.count++;
@@ -63,11 +63,10 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, Correction correction,
 /// One or two pairs that touch are solved by themselves; more than two, bonds, and pairs that do not settle
 /// are left to the lump.
 template <int Dim>
-PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction correction, double dt,
-                                        const ContactNode<Dim>& node) {
+PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, double dt, const ContactNode<Dim>& node) {
   Touching touching;
   rest(node.entry_begin, node.entry_end);
-  if (!find_touching(state, correction, dt, node, touching)) return PairOutcome::lump;
+  if (!find_touching(state, dt, node, touching)) return PairOutcome::lump;
   if (touching.count == 0) return PairOutcome::none;
   auto& pair = touching.pair;
   if (touching.count == 1) {

@@ -70,7 +70,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
-      outcome = resolve_pairs(state, correction, dt, node);
+      outcome = resolve_pairs(state, dt, node);
       solved += outcome == PairOutcome::solved;
       lumped += outcome == PairOutcome::lump;
     }
@@ -139,12 +139,14 @@ typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const
   return {(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
 }
 
+/// The separation that decides on contact. Both corrections judge by where the free velocities take the
+/// surfaces: positions that follow the end velocity close a gap up to a touch and no further, so that the
+/// first correction, asked for an overlap now, would hardly ever act.
 template <int Dim>
-double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
-                                   Correction correction, double dt) const {
+double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const {
   double separation = entry.separation;
   if (entry.touched) separation -= spec_.hysteresis * cell_;
-  if (correction == Correction::final && spec_.advance_separation)
+  if (spec_.advance_separation)
     separation += meeting.stick.dot(entry.normal) * dt / meeting.reduced;  // NN Eq. 3.56
   return separation;
 }
@@ -184,7 +186,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
   for (int e = node.entry_begin; e < node.pair_begin; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const Meeting meeting = meet(state, node, entry.a, all);
-    const double separation = separation_of(entry, meeting, correction, dt);
+    const double separation = separation_of(entry, meeting, dt);
     const auto act = [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
       double area_time = 0;
@@ -229,7 +231,7 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
                                     double dt, const ContactNode<Dim>& node) {
   Together& together = together_[static_cast<std::size_t>(omp_get_thread_num())];
   find_moving(state, node, together.solver.fields);
-  find_acting(state, laws, correction, dt, node, together);
+  find_acting(state, laws, dt, node, together);
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const Acting& acting = together.acting[k];
     Vec<Dim> impulse;
@@ -260,7 +262,7 @@ void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& 
 /// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
 template <int Dim>
 template <class Laws>
-void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double dt,
                                const ContactNode<Dim>& node, Together& together) {
   auto& solver = together.solver;
   together.acting.clear();
@@ -272,7 +274,7 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
                &b = solver.fields[static_cast<std::size_t>(entry.b)];
     const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
     const Meeting meeting{reduced * (b.velocity - a.velocity), reduced};
-    entry.advanced = separation_of(entry, meeting, correction, dt);
+    entry.advanced = separation_of(entry, meeting, dt);
     with_law(laws, node, entry, [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
       if (Law::scope == LawScope::contact ? !(entry.advanced < 0) : Law::scope == LawScope::nowhere) return;

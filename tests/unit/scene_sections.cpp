@@ -16,7 +16,7 @@ TEST_CASE("a scene that states its physics alone gets the defaults") {
   CHECK(std::isinf(scene.time.max_step));
   CHECK(scene.method.basis == BasisKind::ugimp);
   CHECK(scene.method.update == UpdateKind::flip);
-  CHECK(scene.method.position == PositionKind::grid);
+  CHECK(scene.method.position == PositionKind::grid_end);
   CHECK(scene.contact.active);
   CHECK(scene.contact.normal == NormalKind::smoothed_max_margin);
   CHECK(scene.contact.separation == SeparationKind::ellipsoid);
@@ -30,9 +30,9 @@ TEST_CASE("every update moves particles with the grid unless the scene says othe
   const auto method = [](const std::string& keys) {
     return parse(plain_scene() + "method: {" + keys + "}\n").method;
   };
-  CHECK(method("update: pic").position == PositionKind::grid);
+  CHECK(method("update: pic").position == PositionKind::grid_end);
   CHECK(method("update: xpic(5)").xpic_order == 5);
-  CHECK(method("update: xpic(5)").position == PositionKind::grid);
+  CHECK(method("update: xpic(5)").position == PositionKind::grid_end);
   CHECK(method("update: xpic(20), position: particle").position == PositionKind::particle);
   CHECK(method("update: fmpm(4)").update == UpdateKind::fmpm);
   CHECK(method("update: fmpm(4)").xpic_order == 4);

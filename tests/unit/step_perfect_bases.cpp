@@ -59,7 +59,7 @@ void check_all_bases() {
       CAPTURE(std::string(update));
       // Particles that cross a cell's edge feel a jump of the linear basis, which enlarges round-off from
       // then on.
-      const int steps = std::string(basis) == "linear" ? 25 : 100;
+      const int steps = std::string(basis) == "linear" ? 20 : 100;
       CHECK(difference<Dim>(basis, update, steps) < 1e-12);
     }
 }
