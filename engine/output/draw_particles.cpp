@@ -74,15 +74,15 @@ Corners parallelogram(const Vec<2>& centre, const Mat<2>& edges) {
 
 void draw(const std::filesystem::path& png, const Particles<2>& particles, const Scene& scene,
           const FieldValues& field, double time) {
-  std::vector<Corners> shapes(particles.size());
+  const auto shape = [&](std::size_t p) {
+    return parallelogram(particles.vector(Quantity::position, p), half_edges(particles, scene, p));
+  };
   Extent x, y;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    shapes[p] = parallelogram(particles.vector(Quantity::position, p), half_edges(particles, scene, p));
-    for (const auto& corner : shapes[p]) {
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    for (const auto& corner : shape(p)) {
       x.include(corner.x);
       y.include(corner.y);
     }
-  }
   if (x.empty() || y.empty()) {
     x = {scene.grid.origin[0], scene.grid.origin[0] + std::max(scene.grid.size[0], 1e-9)};
     y = {scene.grid.origin[1], scene.grid.origin[1] + std::max(scene.grid.size[1], 1e-9)};
@@ -91,8 +91,9 @@ void draw(const std::filesystem::path& png, const Particles<2>& particles, const
   const Colouring colour(field);
   Picture picture(x.with_margin(margin), y.with_margin(margin), !colour.by_body);
   for (const std::uint32_t p : order_by_id(particles)) {
-    for (auto& corner : shapes[p]) corner = picture.at(corner.x, corner.y);
-    picture.canvas().fill_convex(shapes[p], colour(p));
+    Corners corners = shape(p);
+    for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
+    picture.canvas().fill_convex(corners, colour(p));
   }
   picture.write_titles(picture_text(scene, field.label, time));
   picture.draw_axes();

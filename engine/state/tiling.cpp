@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <utility>
 
 namespace mpmfast {
@@ -21,7 +22,7 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
   constexpr int kDigit = SortBuffers::kDigit;
   constexpr std::size_t kValues = std::size_t{1} << kDigit;
   const std::size_t n = b.key.size();
-  b.key_spare.resize(n);
+  b.spare.resize(n);
   b.order_spare.resize(n);
   for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
     const auto digit = [&](std::size_t i) { return b.key[i] >> shift & (kValues - 1); };
@@ -44,25 +45,33 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
       }
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t at = mine[digit(i)]++;
-        b.key_spare[at] = b.key[i];
+        b.spare[at] = b.key[i];
         b.order_spare[at] = b.order[i];
       }
     }
-    b.key.swap(b.key_spare);
+    b.key.swap(b.spare);
     b.order.swap(b.order_spare);
   }
 }
 
-/// Puts the column in order; the memory that it had is the next one's spare.
+/// Puts the column in order, by way of the spare keys: a column of its own to swap with would cost as much
+/// memory again.
 template <class T>
-void permute(Column<T>& column, const std::vector<std::uint32_t>& order, Column<T>& spare) {
-  const auto n = static_cast<std::int64_t>(order.size());
-  spare.resize_discard(order.size());
-  const T* from = column.data();
-  T* to = spare.data();
-#pragma omp parallel for schedule(static) if (order.size() > kFewest)
-  for (std::int64_t i = 0; i < n; ++i) to[i] = from[order[static_cast<std::size_t>(i)]];
-  std::swap(column, spare);
+void permute(Column<T>& column, SortBuffers& buffers) {
+  static_assert(sizeof(T) <= sizeof(std::uint64_t));
+  const auto n = static_cast<std::int64_t>(buffers.order.size());
+  T* values = column.data();
+#pragma omp parallel if (buffers.order.size() > kFewest)
+  {
+#pragma omp for schedule(static)
+    for (std::int64_t i = 0; i < n; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      std::memcpy(&buffers.spare[at], values + buffers.order[at], sizeof(T));
+    }
+#pragma omp for schedule(static)
+    for (std::int64_t i = 0; i < n; ++i)
+      std::memcpy(values + i, &buffers.spare[static_cast<std::size_t>(i)], sizeof(T));
+  }
 }
 
 }  // namespace
@@ -96,48 +105,35 @@ NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
 }
 
 template <int Dim>
-void Tiling<Dim>::build(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
-                        const std::vector<int>& body_field) {
-  bodies_ = static_cast<int>(body_field.size());
-  sort(particles, first_node, body_field);
+void Tiling<Dim>::start_keys(std::size_t n, std::size_t bodies) {
+  bodies_ = static_cast<int>(bodies);
+  buffers_.key.resize(n);
+}
+
+template <int Dim>
+void Tiling<Dim>::build(Particles<Dim>& particles, const std::vector<int>& body_field) {
+  sort(particles);
   cut_runs(particles, body_field);
   number_slots();
   stack_up();
 }
 
-/// Key, from the highest digit: field, place of the particle tile, body, cell within the tile.
 template <int Dim>
-void Tiling<Dim>::sort(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
-                       const std::vector<int>& body_field) {
+void Tiling<Dim>::sort(Particles<Dim>& particles) {
+  if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;
   const std::size_t n = particles.size();
-  buffers_.key.resize(n);
   buffers_.order.resize(n);
-  std::uint64_t places = 1, largest = 0;
-  for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+  std::uint64_t largest = 0;
 #pragma omp parallel for schedule(static) reduction(max : largest) if (n > kFewest)
   for (std::size_t p = 0; p < n; ++p) {
-    NodeIndex<Dim> tile;
-    int cell = 0;
-    for (int d = Dim - 1; d >= 0; --d) {
-      const int b = first_node[static_cast<std::size_t>(d)][p] - 1;
-      tile[d] = floor_div(b, kTileSide);
-      cell = cell * kTileSide + (b - tile[d] * kTileSide);
-    }
-    const int body = particles.body()[p];
-    std::uint64_t key = static_cast<std::uint64_t>(body_field[static_cast<std::size_t>(body)]);
-    key = key * places + static_cast<std::uint64_t>(place(tile));
-    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(body);
-    buffers_.key[p] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
     buffers_.order[p] = static_cast<std::uint32_t>(p);
     largest = std::max(largest, buffers_.key[p]);
   }
-  if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;
   radix_sort(buffers_, largest);
   for (Quantity q : particles.quantities())
-    for (int k = 0; k < Particles<Dim>::components(q); ++k)
-      permute(particles.raw(q, k), buffers_.order, buffers_.column);
-  permute(particles.id(), buffers_.order, buffers_.id);
-  permute(particles.body(), buffers_.order, buffers_.body);
+    for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.raw(q, k), buffers_);
+  permute(particles.id(), buffers_);
+  permute(particles.body(), buffers_);
 }
 
 template <int Dim>
@@ -161,9 +157,7 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
     if (tile_key != last_tile) {
       ParticleTile<Dim> tile{};
       tile.field = body_field[static_cast<std::size_t>(run.body)];
-      std::uint64_t places = 1;
-      for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
-      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key % places));
+      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key % all_places()));
       for (int d = 0; d < Dim; ++d) tile.window[d] = at[d] * kTileSide;
       tile.run_begin = tile.run_end = static_cast<int>(runs.size());
       tiles.push_back(tile);

@@ -38,17 +38,14 @@ struct Stack {
 struct SortBuffers {
   static constexpr int kDigit = 11;  ///< bits a radix pass
   using Places = std::array<std::uint32_t, 1u << kDigit>;
-  std::vector<Places> next;  ///< where the next key of each digit goes, by thread
-  std::vector<std::uint64_t> key, key_spare;
+  std::vector<Places> next;               ///< where the next key of each digit goes, by thread
+  std::vector<std::uint64_t> key, spare;  ///< spare: of the keys, then of each column that is put in order
   std::vector<std::uint32_t> order, order_spare;
-  Column<double> column;  ///< to swap for one that is put in order
-  Column<std::uint32_t> id;
-  Column<std::uint16_t> body;
 
   std::size_t bytes() const {
-    return (key.capacity() + key_spare.capacity()) * sizeof(std::uint64_t) +
-           (order.capacity() + order_spare.capacity()) * sizeof(std::uint32_t) + column.bytes() + id.bytes() +
-           body.bytes() + next.capacity() * sizeof(Places);
+    return (key.capacity() + spare.capacity()) * sizeof(std::uint64_t) +
+           (order.capacity() + order_spare.capacity()) * sizeof(std::uint32_t) +
+           next.capacity() * sizeof(Places);
   }
 };
 
@@ -58,11 +55,25 @@ class Tiling {
   /// @param nodes  nodes of the domain along each axis; particles may be one cell beyond
   void set_domain(const std::array<int, 3>& nodes);
 
-  /// Sorts the particles and numbers the slots.
-  /// @param first_node  coordinates of each particle's first support node, [Dim][particles]
+  /// Makes room for the keys of n particles of some bodies.
+  void start_keys(std::size_t n, std::size_t bodies);
+  /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: field,
+  /// place of the particle tile, body, cell within the tile. Different particles may have theirs set at once.
+  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body) {
+    NodeIndex<Dim> tile;
+    int cell = 0;
+    for (int d = Dim - 1; d >= 0; --d) {
+      const int b = first_node[d] - 1;
+      tile[d] = floor_div(b, kTileSide);
+      cell = cell * kTileSide + (b - tile[d] * kTileSide);
+    }
+    auto key = static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile));
+    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(body);
+    buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
+  }
+  /// Sorts the particles by their keys and numbers the slots.
   /// @param body_field  velocity field of each body
-  void build(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
-             const std::vector<int>& body_field);
+  void build(Particles<Dim>& particles, const std::vector<int>& body_field);
 
   std::vector<ParticleTile<Dim>> tiles;
   std::vector<ParticleRun<Dim>> runs;
@@ -89,8 +100,12 @@ class Tiling {
   std::int64_t place(const NodeIndex<Dim>& tile) const;
   NodeIndex<Dim> coordinates(std::int64_t place) const;
   int find(std::int64_t place, int field) const;
-  void sort(Particles<Dim>& particles, const std::array<std::vector<int>, Dim>& first_node,
-            const std::vector<int>& body_field);
+  std::uint64_t all_places() const {
+    std::uint64_t places = 1;
+    for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+    return places;
+  }
+  void sort(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
   void number_slots();
   void stack_up();

@@ -42,19 +42,20 @@ class BasisPasses final : public Passes<Dim> {
   void sort(State<Dim>& state) override {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
-    for (auto& column : first_node_) column.resize(static_cast<std::size_t>(n));
+    state.tiling.start_keys(static_cast<std::size_t>(n), state.bodies.size());
     const ParticleTile<Dim> nowhere{};
     const ParticleRun<Dim> any{};  // first_node() asks for nothing that differs between bodies
     const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
     const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(n));
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
     for (std::int64_t p = 0; p < n; ++p) {
-      const NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
-      for (int d = 0; d < Dim; ++d)  // the tiling puts what it takes for the first node at offset 1 … 4
-        first_node_[static_cast<std::size_t>(d)][static_cast<std::size_t>(p)] =
-            first[d] + 1 - kSortedOffset<Basis>;
+      NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
+      for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
+      const auto at = static_cast<std::size_t>(p);
+      const int body = state.particles.body()[at];
+      state.tiling.set_key(at, first, state.body_field[static_cast<std::size_t>(body)], body);
     }
-    state.tiling.build(state.particles, first_node_, state.body_field);
+    state.tiling.build(state.particles, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
   }
 
@@ -227,7 +228,6 @@ class BasisPasses final : public Passes<Dim> {
   std::vector<ThreadReport> reports_;
   std::vector<double> smallest_;
   std::vector<int> outside_;
-  std::array<std::vector<int>, Dim> first_node_;
   ContactFit<Dim, Basis> fit_;
 };
 
