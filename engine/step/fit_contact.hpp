@@ -64,6 +64,8 @@ class ContactFit {
     if (!choice.regress && !choice.separate) return;
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     for (auto& room : rooms_) {
+      room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
+      room.clouds.shapes = room.candidates.shapes();
       room.clouds.begin = 0;
       room.tally = {};
     }

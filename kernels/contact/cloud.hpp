@@ -23,14 +23,15 @@ constexpr int padded_count(int count) { return (count + kLanes - 1) / kLanes * k
 /// readable for a vector more.
 template <int Dim>
 struct CloudColumns {
-  const double* xi[Dim];          ///< relative to the node, cells
-  const double* edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
+  const double* xi[Dim];           ///< relative to the node, cells
+  const double* shape[Dim * Dim];  ///< of the domains, as their extent asks (domain_shape), cells; else null
   int count;
 
   CloudColumns part(int first, int particles) const {
     CloudColumns c = *this;
     for (auto& column : c.xi) column += first;
-    for (auto& column : c.edge) column += first;
+    for (auto& column : c.shape)
+      if (column) column += first;
     c.count = particles;
     return c;
   }

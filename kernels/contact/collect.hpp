@@ -4,9 +4,11 @@
 /// particles near a whole tile of nodes, then out of these the cloud of each node.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "kernels/contact/cloud.hpp"
+#include "kernels/contact/separation.hpp"
 #include "kernels/simd/compress.hpp"
 #include "kernels/views.hpp"
 
@@ -15,18 +17,18 @@ namespace mpmfast {
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudRoom {
-  std::vector<double> xi[Dim];          ///< relative to the node, cells
-  std::vector<double> edge[Dim * Dim];  ///< half-edge vectors of the domain, F diag(R0), row-major, cells
-  std::size_t begin = 0;                ///< where the cloud in hand begins
-  int count = 0;                        ///< its particles
+  std::vector<double> xi[Dim];           ///< relative to the node, cells
+  std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
+  int shapes = 0;                        ///< how many are in use
+  std::size_t begin = 0;                 ///< where the cloud in hand begins
+  int count = 0;                         ///< its particles
 
   /// Room for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
     if (xi[0].size() >= needed) return;
-    const auto grow = [&](auto& column) { column.resize(2 * needed); };
-    for (auto& c : xi) grow(c);
-    for (auto& c : edge) grow(c);
+    for (auto& c : xi) c.resize(2 * needed);
+    for (int e = 0; e < shapes; ++e) shape[e].resize(2 * needed);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.
@@ -34,10 +36,7 @@ struct CloudRoom {
     reserve(count + kLanes);
     for (int k = count; k < padded_count(count); ++k) {
       const std::size_t at = begin + static_cast<std::size_t>(k);
-      for (int d = 0; d < Dim; ++d) {
-        xi[d][at] = 0;
-        for (int j = 0; j < Dim; ++j) edge[Dim * d + j][at] = d == j ? 1 : 0;
-      }
+      for (int d = 0; d < Dim; ++d) xi[d][at] = 0;
     }
   }
 
@@ -54,9 +53,9 @@ struct CloudRoom {
   }
 
   CloudColumns<Dim> columns(std::size_t first, int particles) const {
-    CloudColumns<Dim> c;
+    CloudColumns<Dim> c{};
     for (int d = 0; d < Dim; ++d) c.xi[d] = xi[d].data() + first;
-    for (int e = 0; e < Dim * Dim; ++e) c.edge[e] = edge[e].data() + first;
+    for (int e = 0; e < shapes; ++e) c.shape[e] = shape[e].data() + first;
     c.count = particles;
     return c;
   }
@@ -80,10 +79,12 @@ struct Candidates {
   std::vector<Piece> pieces;
   std::vector<double> position[Dim];      ///< m, from the grid's origin
   std::vector<double> domain[Dim * Dim];  ///< m; half-edge vectors of CPDI domains, else not written
-  std::vector<double> edge[Dim * Dim];    ///< half-edge vectors F diag(R0), row-major, cells
+  std::vector<double> shape[Dim * Dim];   ///< of the domains F diag(R0), as the extent asks, cells
   std::vector<double> reach[Dim];         ///< of the support, cells
+  std::optional<Extent> extent;           ///< that separations go by; none: no shapes
   int count = 0;
 
+  int shapes() const { return extent ? shape_size<Dim>(*extent) : 0; }
   void clear() {
     pieces.clear();
     count = 0;
@@ -97,8 +98,26 @@ struct Candidates {
     };
     grow(position);
     grow(domain);
-    grow(edge);
     grow(reach);
+    for (int e = 0; e < shapes(); ++e) shape[e].resize(2 * needed);
+  }
+
+  /// Writes the shapes of the chosen ones of some domains after the last candidate.
+  void store_shapes(const Lanes (&edges)[Dim * Dim], unsigned bits) {
+    const auto store = [&]<Extent E>() {
+      Lanes found[shape_size<Dim>(E)];
+      domain_shape<E, Dim>(edges, found);
+      for (int e = 0; e < shape_size<Dim>(E); ++e)
+        store_chosen(&shape[e][static_cast<std::size_t>(count)], found[e], bits);
+    };
+    switch (*extent) {
+      case Extent::radial:
+        return store.template operator()<Extent::radial>();
+      case Extent::ellipsoid:
+        return store.template operator()<Extent::ellipsoid>();
+      case Extent::parallelepiped:
+        return store.template operator()<Extent::parallelepiped>();
+    }
   }
 };
 
@@ -128,10 +147,15 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
       store_chosen(&out.position[d][at], shift[d], bits);
       store_chosen(&out.reach[d][at], reach[d], bits);
     }
-    for (int e = 0; e < Dim * Dim; ++e) {
-      const double scale = g.half_size[e % Dim] * g.inverse_cell;
-      store_chosen(&out.edge[e][at], load_lanes(c.particles->deformation[e] + begin + k) * scale, bits);
-      if constexpr (Basis::kConvected) store_chosen(&out.domain[e][at], load_lanes(g.edge[e] + k), bits);
+    if constexpr (Basis::kConvected)
+      for (int e = 0; e < Dim * Dim; ++e) store_chosen(&out.domain[e][at], load_lanes(g.edge[e] + k), bits);
+    if (out.extent) {
+      Lanes edges[Dim * Dim];
+      for (int e = 0; e < Dim * Dim; ++e) {
+        const double scale = g.half_size[e % Dim] * g.inverse_cell;
+        edges[e] = load_lanes(c.particles->deformation[e] + begin + k) * scale;
+      }
+      out.store_shapes(edges, bits);
     }
     out.count += std::popcount(bits);
   }
@@ -187,8 +211,8 @@ inline void append_covering(const Candidates<Dim>& from, const typename Candidat
     const unsigned bits = lane_bits(near & (Basis::coverage(g, k, node) > 0.0));
     const std::size_t at = room.begin + static_cast<std::size_t>(room.count);
     for (int d = 0; d < Dim; ++d) store_chosen(&room.xi[d][at], xi[d], bits);
-    for (int e = 0; e < Dim * Dim; ++e)
-      store_chosen(&room.edge[e][at], load_lanes(&from.edge[e][begin + static_cast<std::size_t>(k)]), bits);
+    for (int e = 0; e < room.shapes; ++e)
+      store_chosen(&room.shape[e][at], load_lanes(&from.shape[e][begin + static_cast<std::size_t>(k)]), bits);
     room.count += std::popcount(bits);
   }
 }

@@ -9,6 +9,7 @@
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/simd/math.hpp"
 
 namespace mpmfast {
 
@@ -37,31 +38,60 @@ enum class Extent {
   parallelepiped  ///< of the domain itself (2-D: parallelogram): Σ_k |E_k·n|
 };
 
-/// Half the extent of a particle along the unit vector n.
+/// Numbers that an extent asks of a domain: a packed symmetric matrix, or the half-edge vectors.
+template <int Dim>
+constexpr int shape_size(Extent extent) {
+  return extent == Extent::parallelepiped ? Dim * Dim : Dim * (Dim + 1) / 2;
+}
+
+/// What an extent asks of a domain, found once for any number of directions.
 ///
-/// Radial: x = R n is E ζ with |ζ| = 1, so R = 1/|E⁻¹ n|; with E = F diag(R0) this is N20 Eq. 25,
-/// 1/sqrt(Σ_k (n0_k/R0_k)²), n0 = F⁻¹ n. The furthest point along n is max_ζ n·Eζ = |Eᵀn|, which is larger
-/// unless n is one of the ellipsoid's axes; over the domain's corners it is Σ_k |(Eᵀn)_k|.
-/// @param edges row-major E in any unit of length, that of the result
+/// Radial: x = R n is E ζ with |ζ| = 1, so R = 1/|E⁻¹ n| = 1/sqrt(n·G n) with G = E⁻ᵀE⁻¹; with E = F diag(R0)
+/// this is N20 Eq. 25, 1/sqrt(Σ_k (n0_k/R0_k)²), n0 = F⁻¹ n. The furthest point along n is max_ζ n·Eζ = |Eᵀn|
+/// = sqrt(n·M n) with M = E Eᵀ, which is larger unless n is one of the ellipsoid's axes; over the domain's
+/// corners it is Σ_k |(Eᵀn)_k|.
+/// @param edges row-major E in any unit of length, that of the extents
+/// @param shape G or M, the lower triangle row by row, or E
 template <Extent E, int Dim, class V>
-inline V extent_along(const V (&edges)[Dim * Dim], const Vec<Dim>& n) {
-  V sum = broadcast<V>(0.0);
-  if constexpr (E == Extent::radial) {
-    V inverse[Dim * Dim];
-    inverse_deformation<Dim>(edges, inverse);
-    for (int k = 0; k < Dim; ++k) {
-      V ahead = inverse[Dim * k] * n[0];
-      for (int j = 1; j < Dim; ++j) ahead += inverse[Dim * k + j] * n[j];
-      sum += ahead * ahead;
+inline void domain_shape(const V (&edges)[Dim * Dim], V (&shape)[shape_size<Dim>(E)]) {
+  if constexpr (E == Extent::parallelepiped) {
+    for (int e = 0; e < Dim * Dim; ++e) shape[e] = edges[e];
+    return;
+  } else {
+    V rows[Dim * Dim];  // whose products among each other are the matrix
+    if constexpr (E == Extent::radial) {
+      V inverse[Dim * Dim];
+      inverse_deformation<Dim>(edges, inverse);
+      for (int i = 0; i < Dim; ++i)
+        for (int k = 0; k < Dim; ++k) rows[Dim * i + k] = inverse[Dim * k + i];
+    } else {
+      for (int e = 0; e < Dim * Dim; ++e) rows[e] = edges[e];
     }
-    return 1.0 / square_root(sum);
+    for (int i = 0, e = 0; i < Dim; ++i)
+      for (int j = 0; j <= i; ++j, ++e) {
+        shape[e] = rows[Dim * i] * rows[Dim * j];
+        for (int k = 1; k < Dim; ++k) shape[e] += rows[Dim * i + k] * rows[Dim * j + k];
+      }
   }
-  for (int k = 0; k < Dim; ++k) {
-    V along = edges[k] * n[0];
-    for (int j = 1; j < Dim; ++j) along += edges[Dim * j + k] * n[j];
-    sum += E == Extent::parallelepiped ? magnitude(along) : along * along;
+}
+
+/// Half the extent of a particle along the unit vector n, from its shape.
+template <Extent E, int Dim, class V>
+inline V extent_along(const V (&shape)[shape_size<Dim>(E)], const Vec<Dim>& n) {
+  V sum = broadcast<V>(0.0);
+  if constexpr (E == Extent::parallelepiped) {
+    for (int k = 0; k < Dim; ++k) {
+      V along = shape[k] * n[0];
+      for (int j = 1; j < Dim; ++j) along += shape[Dim * j + k] * n[j];
+      sum += magnitude(along);
+    }
+    return sum;
+  } else {
+    for (int i = 0, e = 0; i < Dim; ++i)
+      for (int j = 0; j <= i; ++j, ++e) sum += shape[e] * ((i == j ? 1 : 2) * n[i] * n[j]);
+    if constexpr (E == Extent::radial) return inverse_root(sum);
+    return square_root(sum);
   }
-  return E == Extent::parallelepiped ? sum : square_root(sum);
 }
 
 /// How far the surface of some particles reaches along the unit vector n, max_p (ξ_p·n + R_p), cells; −∞ if
@@ -73,9 +103,9 @@ inline double reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n)
   Lanes furthest = none, index;
   for (int i = 0; i < kLanes; ++i) index[i] = i;
   for (int k = 0; k < particles.count; k += kLanes) {
-    Lanes edge[Dim * Dim];
-    for (int e = 0; e < Dim * Dim; ++e) edge[e] = load_lanes(particles.edge[e] + k);
-    Lanes ahead = extent_along<E, Dim>(edge, n);
+    Lanes shape[shape_size<Dim>(E)];
+    for (int e = 0; e < shape_size<Dim>(E); ++e) shape[e] = load_lanes(particles.shape[e] + k);
+    Lanes ahead = extent_along<E, Dim>(shape, n);
     for (int d = 0; d < Dim; ++d) ahead += load_lanes(particles.xi[d] + k) * n[d];
     furthest = larger(furthest, index < static_cast<double>(particles.count - k) ? ahead : none);
   }

@@ -40,27 +40,32 @@ template <int Dim, Extent E = Extent::radial>
 double radius(const Mat<Dim>& f, const double (&half_size)[Dim], const Vec<Dim>& n) {
   double edges[Dim * Dim];
   half_edges<Dim>(f, half_size, edges);
-  return extent_along<E, Dim>(edges, n);
+  double shape[shape_size<Dim>(E)];
+  domain_shape<E, Dim>(edges, shape);
+  return extent_along<E, Dim>(shape, n);
 }
 
 /// How far spheres reach along n, of one class.
 template <int Dim>
 double reach_of(const Cloud<Dim>& cloud, const std::vector<double>& radii, double side, const Vec<Dim>& n) {
-  std::vector<double> xi[Dim], edge[Dim * Dim];
-  CloudColumns<Dim> columns;
-  columns.count = 0;
+  constexpr int kShape = shape_size<Dim>(Extent::radial);
+  std::vector<double> xi[Dim], shape[kShape];
+  CloudColumns<Dim> columns{};
   for (std::size_t p = 0; p < static_cast<std::size_t>(cloud.count); ++p) {
     if (cloud.side[p] != side) continue;
     ++columns.count;
     for (std::size_t d = 0; d < Dim; ++d) xi[d].push_back(cloud.xi[d][p]);
-    for (int e = 0; e < Dim * Dim; ++e) edge[e].push_back(e % (Dim + 1) == 0 ? radii[p] : 0.0);
+    double edges[Dim * Dim], numbers[kShape];
+    row_major<Dim>(radii[p] * Mat<Dim>::Identity(), edges);
+    domain_shape<Extent::radial, Dim>(edges, numbers);
+    for (int e = 0; e < kShape; ++e) shape[e].push_back(numbers[e]);
   }
   const auto finish = [&](std::vector<double>& column) {  // what follows does not count
     column.resize(column.size() + kLanes, 99.0);
     return column.data();
   };
   for (int d = 0; d < Dim; ++d) columns.xi[d] = finish(xi[d]);
-  for (int e = 0; e < Dim * Dim; ++e) columns.edge[e] = finish(edge[e]);
+  for (int e = 0; e < kShape; ++e) columns.shape[e] = finish(shape[e]);
   return reach_along<Extent::radial>(columns, n);
 }
 
@@ -143,7 +148,9 @@ TEST_CASE_TEMPLATE("lanes of radii equal the radii one by one", D, TwoD, ThreeD)
     for (int e = 0; e < Dim * Dim; ++e) edges[e][i] = rows[e];
     expected[i] = radius<Dim>(m, h, n);
   }
-  const Lanes found = extent_along<Extent::radial, Dim>(edges, n);
+  Lanes shape[shape_size<Dim>(Extent::radial)];
+  domain_shape<Extent::radial, Dim>(edges, shape);
+  const Lanes found = extent_along<Extent::radial, Dim>(shape, n);
   for (int i = 0; i < kLanes; ++i) CHECK(found[i] == doctest::Approx(expected[i]).epsilon(1e-13));
 }
 
