@@ -88,9 +88,10 @@ std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::st
 }
 
 std::string chart_colour(std::size_t index) {
-  // Distinguishable also by most people who do not see red and green apart.
-  constexpr std::array<const char*, 10> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                                 "#56b4e9", "#7a1fa2", "#8c564b", "#444444", "#b8b000"};
+  // Distinguishable, the first ten also by most people who do not see red and green apart.
+  constexpr std::array<const char*, 14> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                                 "#56b4e9", "#7a1fa2", "#8c564b", "#444444", "#b8b000",
+                                                 "#00c4b3", "#ff9aa2", "#8fd14f", "#b59ce6"};
   return kColours[index % kColours.size()];
 }
 
