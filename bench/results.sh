@@ -2,6 +2,7 @@
 # Runs the studies and makes bench/results/README.md of them: bench/results.sh PROGRAM [--out DIR] [STUDY]...
 # PROGRAM is build/ci/mpmfast; a STUDY is a name in configs/studies/ without its .yaml. With names, only those are run and
 # the page keeps what it says of the others. What the same program has finished in DIR (runs/studies) is not run again.
+# The study `precision` asks for build/single too (cmake --preset single; cmake --build --preset single).
 # A section is made of the study's title, its opening comment, its charts and its table.
 set -eu
 program=$(realpath "$1")

@@ -22,5 +22,8 @@ set(MPMFAST_FLAGS "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${MPMFAST_BUILD_UPPER}}"
 if(MPMFAST_NATIVE)
   string(APPEND MPMFAST_FLAGS " -march=native")
 endif()
+if(MPMFAST_SINGLE)
+  string(APPEND MPMFAST_FLAGS " -DMPMFAST_SINGLE_TRANSFERS")
+endif()
 string(STRIP "${MPMFAST_FLAGS}" MPMFAST_FLAGS)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/version.hpp.in ${PROJECT_BINARY_DIR}/generated/mpmfast_version.hpp @ONLY)

@@ -44,8 +44,8 @@ template <int Dim, int K>
 struct ChunkWeights {
   static constexpr int kNodes = power(K, Dim);
   int first[kChunk<Dim>];
-  alignas(64) double value[kNodes][kChunk<Dim>];          ///< S_pi
-  alignas(64) double gradient[Dim][kNodes][kChunk<Dim>];  ///< G_pi, 1/m
+  alignas(64) Real value[kNodes][kChunk<Dim>];          ///< S_pi
+  alignas(64) Real gradient[Dim][kNodes][kChunk<Dim>];  ///< G_pi, 1/m
 
   double value_at(int n, int k) const { return value[n][k]; }
   double gradient_at(int d, int n, int k) const { return gradient[d][n][k]; }
@@ -57,8 +57,8 @@ template <int Dim, int K>
 struct ProductWeights {
   static constexpr int kNodes = power(K, Dim);
   int first[kChunk<Dim>];
-  alignas(64) double value[Dim][K][kChunk<Dim>];  ///< N_d on the K nodes along d
-  alignas(64) double slope[Dim][K][kChunk<Dim>];  ///< its derivative, 1/m
+  alignas(64) Real value[Dim][K][kChunk<Dim>];  ///< N_d on the K nodes along d
+  alignas(64) Real slope[Dim][K][kChunk<Dim>];  ///< its derivative, 1/m
 
   double value_at(int n, int k) const {
     double product = 1;

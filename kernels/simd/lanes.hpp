@@ -1,8 +1,8 @@
 #pragma once
 
-/// @file Short vectors of doubles: Lanes holds one quantity of several particles, Record four quantities of
+/// @file Short vectors: Lanes holds one quantity of several particles, Row of four, Record four quantities of
 /// one node, WideRecord eight. All are GCC vector types, so that arithmetic, comparison and ?: read as for a
-/// double.
+/// number.
 
 #include <cstdint>
 #include <cstring>
@@ -27,12 +27,21 @@ inline constexpr int kLanes = 2;
 
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using IntLanes = std::int64_t __attribute__((vector_size(8 * kLanes)));
-using Record = double __attribute__((vector_size(32)));
-using WideRecord = double __attribute__((vector_size(64)));
-/// What holds N quantities of a node: wide records are for machines with 512-bit registers, others would
-/// spill.
+using Row = double __attribute__((vector_size(32)));
+
+/// What transfers weigh and sum in, between the columns, which are doubles.
+#if defined(MPMFAST_SINGLE_TRANSFERS)
+using Real = float;
+#else
+using Real = double;
+#endif
+using Record = Real __attribute__((vector_size(4 * sizeof(Real))));
+using WideRecord = Real __attribute__((vector_size(8 * sizeof(Real))));
+/// What holds N quantities of a node: wide records are for machines that have registers for them, others
+/// would spill.
 template <int N>
-using RecordFor = std::conditional_t<(N > 4 && kLanes == 8), WideRecord, Record>;
+using RecordFor =
+    std::conditional_t<(N > 4 && kLanes * sizeof(double) >= sizeof(WideRecord)), WideRecord, Record>;
 
 template <class V>
 struct LaneTraits;
@@ -53,6 +62,12 @@ inline Lanes load_lanes(const double* p) {
   return v;
 }
 inline void store_lanes(double* p, Lanes v) { std::memcpy(p, &v, sizeof v); }
+/// Rounded.
+inline void store_lanes(float* p, Lanes v) {
+  using Floats = float __attribute__((vector_size(4 * kLanes)));
+  const Floats rounded = __builtin_convertvector(v, Floats);
+  std::memcpy(p, &rounded, sizeof rounded);
+}
 
 /// Whole numbers as int.
 inline void store_indices(int* p, Lanes v) {
@@ -77,8 +92,8 @@ inline void store_first(double* p, Lanes v, int n) {
 }
 
 /// The same value in every lane (or the value itself).
-template <class V>
-inline V broadcast(double x) {
+template <class V, class Number>
+inline V broadcast(Number x) {
   return V{} + x;
 }
 
@@ -158,7 +173,8 @@ inline double largest_of(Lanes x) {
 
 /// Transposes four records in place: row i of the result holds component i of each.
 inline void transpose(Record& a, Record& b, Record& c, Record& d) {
-  using Pick = std::int64_t __attribute__((vector_size(32)));
+  using Index = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
+  using Pick = Index __attribute__((vector_size(sizeof(Record))));
   const Record ab_even = __builtin_shuffle(a, b, Pick{0, 4, 2, 6}),
                ab_odd = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
   const Record cd_even = __builtin_shuffle(c, d, Pick{0, 4, 2, 6}),

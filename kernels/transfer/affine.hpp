@@ -17,10 +17,11 @@ namespace mpmfast {
 /// x_p − x_first in cells, for particle k of a chunk.
 template <int Dim, int K>
 inline void place_in_support(const ProductWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
-                             double (&r)[Dim]) {
+                             Real (&r)[Dim]) {
   int index = w.first[k];
   for (int d = 0; d < Dim; ++d) {
-    r[d] = (g.position[d][k] - g.origin[d]) * g.inverse_cell - (g.window[d] + index % kWindowSide);
+    r[d] = static_cast<Real>((g.position[d][k] - g.origin[d]) * g.inverse_cell -
+                             (g.window[d] + index % kWindowSide));
     index /= kWindowSide;
   }
 }
@@ -33,7 +34,7 @@ inline void scatter_linear(const ProductWeights<Dim, K>& w, int k, Record a, con
   Record plane = a, along_y = a;
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, Record* row) {
     if (y == 0) along_y = plane;
-    const double weight = (Dim == 3 ? w.value[Dim - 1][z][k] : 1.0) * w.value[1][y][k];
+    const Real weight = (Dim == 3 ? w.value[Dim - 1][z][k] : Real{1}) * w.value[1][y][k];
     Record node = weight * along_y;
     const Record step = weight * b[0];
 #pragma GCC unroll 4
@@ -52,19 +53,19 @@ inline void gather_moments(const ProductWeights<Dim, K>& w, int k, const R* wind
   for (auto& o : out) o = R{};
   R plane{};
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, const R* row) {
-    const double weight = (Dim == 3 ? w.value[Dim - 1][z][k] : 1.0) * w.value[1][y][k];
+    const Real weight = (Dim == 3 ? w.value[Dim - 1][z][k] : Real{1}) * w.value[1][y][k];
     R sum = w.value[0][0][k] * row[0], moment{};
 #pragma GCC unroll 4
     for (int x = 1; x < K; ++x) {
       const R share = w.value[0][x][k] * row[x];
       sum += share;
-      moment += static_cast<double>(x) * share;
+      moment += static_cast<Real>(x) * share;
     }
     out[0] += weight * moment;
     plane += weight * sum;
-    out[1] += static_cast<double>(y) * (weight * sum);
+    out[1] += static_cast<Real>(y) * (weight * sum);
     if (Dim == 3 && y == K - 1) {
-      out[Dim - 1] += static_cast<double>(z) * plane;
+      out[Dim - 1] += static_cast<Real>(z) * plane;
       plane = R{};
     }
   });
@@ -81,13 +82,14 @@ bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumn
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
           const double m = p.mass[q];
-          double r[Dim];
+          Real r[Dim];
           place_in_support(w, g, k, r);
-          Record at_first{m}, slope[Dim];
-          for (int i = 0; i < Dim; ++i) at_first[1 + i] = m * p.velocity[i][q];
+          Record at_first{static_cast<Real>(m)}, slope[Dim];
+          for (int i = 0; i < Dim; ++i) at_first[1 + i] = static_cast<Real>(m * p.velocity[i][q]);
           for (int d = 0; d < Dim; ++d) {
             slope[d] = Record{};
-            for (int i = 0; i < Dim; ++i) slope[d][1 + i] = m * c.grid->cell * p.slopes[Dim * i + d][q];
+            for (int i = 0; i < Dim; ++i)
+              slope[d][1 + i] = static_cast<Real>(m * c.grid->cell * p.slopes[Dim * i + d][q]);
             at_first -= r[d] * slope[d];
           }
           scatter_linear(w, k, at_first, slope, room.mass_momentum.at[0]);
@@ -104,9 +106,9 @@ inline void gather_slopes(const TileContext<Dim>& c, const ParticleRun<Dim>& run
                           const ProductWeights<Dim, K>& w, std::uint32_t begin, int count, Room& from,
                           double (&staging)[4 * Dim][kChunk<Dim>]) {
   const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
-  const double scale = g.inverse_cell / Basis::kSpread;
+  const auto scale = static_cast<Real>(g.inverse_cell / Basis::kSpread);
   for (int k = 0; k < count; ++k) {
-    double r[Dim];
+    Real r[Dim];
     place_in_support(w, g, k, r);
     typename Room::Node moment[Dim];
     gather_moments(w, k, from.window.at[0], moment);

@@ -35,7 +35,7 @@ namespace detail {
 template <int Dim, class R>
 inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int count, R* out) {
   stack<1 + Dim>(count, out, 0, [&](int c, int k) {
-    const Record mass = load_row(p.mass + begin + k);
+    const Row mass = load_row(p.mass + begin + k);
     return c == 0 ? mass : mass * load_row(p.velocity[c > 0 ? c - 1 : 0] + begin + k);
   });
 }
@@ -118,28 +118,25 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   clear(room.mass_position);
   clear(room.mass_displacement);
   clear(room.volume);
-  for_each_chunk<Dim, Basis>(c, room.weights, Wanted::both,
-                             [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-                               for (int k = 0; k < count; ++k) {
-                                 const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-                                 const double volume = section_volume<Dim>(p, q),
-                                              m = p.mass[q];  // m³ (of rings the section, m²) and kg
-                                 Record x{}, u{};
-                                 Record unit[Dim] = {};
-                                 for (int d = 0; d < Dim; ++d) {
-                                   x[d] = m * (p.position[d][q] - c.grid->origin[d]);
-                                   if (displaced) u[d] = m * (p.position[d][q] - p.reference_position[d][q]);
-                                   unit[d][d] = volume;
-                                 }
-                                 if (out.mass_position.column[0])
-                                   scatter_values(w, k, x, room.mass_position.at[0]);
-                                 if (out.volume.column[0])
-                                   scatter_values(w, k, Record{volume}, room.volume.at[0]);
-                                 if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
-                                 if (out.volume_gradient.column[0])
-                                   scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
-                               }
-                             });
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; ++k) {
+          const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+          const auto volume = static_cast<Real>(section_volume<Dim>(p, q));
+          const double m = p.mass[q];  // m³ (of rings the section, m²) and kg
+          Record x{}, u{};
+          Record unit[Dim] = {};
+          for (int d = 0; d < Dim; ++d) {
+            x[d] = static_cast<Real>(m * (p.position[d][q] - c.grid->origin[d]));
+            if (displaced) u[d] = static_cast<Real>(m * (p.position[d][q] - p.reference_position[d][q]));
+            unit[d][d] = volume;
+          }
+          if (out.mass_position.column[0]) scatter_values(w, k, x, room.mass_position.at[0]);
+          if (out.volume.column[0]) scatter_values(w, k, Record{volume}, room.volume.at[0]);
+          if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
+          if (out.volume_gradient.column[0]) scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+        }
+      });
   const auto flush = [&](auto& window, const auto& columns) {
     if (columns.column[0]) flush_window(window, c.tile->slot, columns);
   };

@@ -32,9 +32,10 @@ inline void unstack_pairs(const R* in, int count, int quad, Room& room) {
   for (int k = 0; k < count; k += 4) {
     Record row[4];
     for (int i = 0; i < 4; ++i)
-      row[i] = detail::load_row(reinterpret_cast<const double*>(in + k + i) + 4 * quad);
+      row[i] = detail::load_record(reinterpret_cast<const Real*>(in + k + i) + 4 * quad);
     transpose(row[0], row[1], row[2], row[3]);
-    for (int i = 0; i < 4; ++i) detail::store_row(&room.gradient[4 * (i / 2) + i % 2][k], row[i]);
+    for (int i = 0; i < 4; ++i)
+      detail::store_row(&room.gradient[4 * (i / 2) + i % 2][k], detail::to_row(row[i]));
   }
 }
 
@@ -79,7 +80,8 @@ inline void scatter_hoop_force(const ParticleView<Dim>& p, const Weights& w, std
                                Room& room) {
   for (int k = 0; k < count; ++k) {
     const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
-    scatter_values(w, k, Record{-p.volume[q] * p.stress[2][q] / p.position[0][q]}, room.force.at[0]);
+    const double force = p.volume[q] * p.stress[2][q] / p.position[0][q];
+    scatter_values(w, k, Record{static_cast<Real>(-force)}, room.force.at[0]);
   }
 }
 

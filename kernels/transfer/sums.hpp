@@ -23,8 +23,9 @@ inline void for_each_support_row(R* first, const F& f) {
 /// Which lanes of a record of pairs go with ∂/∂x (0) and ∂/∂y (1).
 template <class R>
 inline auto pair_lanes(int d) {
-  constexpr int lanes = sizeof(R) / sizeof(double);
-  std::int64_t __attribute__((vector_size(sizeof(R)))) mask{};
+  constexpr int lanes = sizeof(R) / sizeof(Real);
+  std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t> __attribute__((vector_size(sizeof(R))))
+  mask{};
   for (int i = 0; i < 2; ++i) mask[lanes - 4 + 2 * d + i] = -1;
   return mask;
 }
@@ -125,7 +126,7 @@ inline void scatter(const ProductWeights<Dim, K>& w, int k, R a, const R (&b)[Di
   R plane = a, along_x = b[0], along_y = b[1];
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, R* row) {
     if (Dim == 3 && y == 0) {
-      const double value = w.value[Dim - 1][z][k];
+      const Real value = w.value[Dim - 1][z][k];
       plane = value * a + w.slope[Dim - 1][z][k] * b[Dim - 1];
       along_x = value * b[0];
       along_y = value * b[1];

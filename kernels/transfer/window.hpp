@@ -13,14 +13,14 @@ namespace mpmfast {
 template <int Dim, int NC>
 struct Window {
   using Node = RecordFor<NC>;
-  static constexpr int kPerNode = sizeof(Node) / sizeof(double);
+  static constexpr int kPerNode = sizeof(Node) / sizeof(Real);
   static constexpr int kRecords = (NC + kPerNode - 1) / kPerNode;
   static constexpr int kQuads = kRecords * kPerNode / 4;
   alignas(64) Node at[kRecords][kWindowNodes<Dim>];
 
   /// Quantities 4 q … 4 q + 3 of a node.
-  double* quad(int q, int node) {
-    return reinterpret_cast<double*>(&at[4 * q / kPerNode][node]) + 4 * q % kPerNode;
+  Real* quad(int q, int node) {
+    return reinterpret_cast<Real*>(&at[4 * q / kPerNode][node]) + 4 * q % kPerNode;
   }
 };
 
@@ -48,12 +48,22 @@ inline void for_each_row(const int (&tile_slot)[kCorners<Dim>], F f) {
   }
 }
 
-inline Record load_row(const double* p) {
+inline Row load_row(const double* p) {
+  Row r;
+  std::memcpy(&r, p, sizeof r);
+  return r;
+}
+inline void store_row(double* p, Row r) { std::memcpy(p, &r, sizeof r); }
+inline Record load_record(const Real* p) {
   Record r;
   std::memcpy(&r, p, sizeof r);
   return r;
 }
-inline void store_row(double* p, Record r) { std::memcpy(p, &r, sizeof r); }
+inline void store_record(Real* p, Record r) { std::memcpy(p, &r, sizeof r); }
+
+// Four numbers of a column and those of transfers.
+inline Record to_record(Row r) { return __builtin_convertvector(r, Record); }
+inline Row to_row(Record r) { return __builtin_convertvector(r, Row); }
 
 }  // namespace detail
 
@@ -71,9 +81,10 @@ inline void load_window(const NodeColumns<NC>& columns, const int (&tile_slot)[k
     for (int q = 0; q < window.kQuads; ++q) {
       Record row[4];
       for (int c = 0; c < 4; ++c)
-        row[c] = 4 * q + c < NC ? detail::load_row(columns.column[4 * q + c] + slot) : Record{};
+        row[c] =
+            4 * q + c < NC ? detail::to_record(detail::load_row(columns.column[4 * q + c] + slot)) : Record{};
       transpose(row[0], row[1], row[2], row[3]);
-      for (int c = 0; c < 4; ++c) detail::store_row(window.quad(q, at + c), row[c]);
+      for (int c = 0; c < 4; ++c) detail::store_record(window.quad(q, at + c), row[c]);
     }
   });
 }
@@ -86,11 +97,12 @@ inline void flush_window(Window<Dim, NC>& window, const int (&tile_slot)[kCorner
 #pragma GCC unroll 4
     for (int q = 0; 4 * q < NC; ++q) {
       Record row[4];
-      for (int c = 0; c < 4; ++c) row[c] = detail::load_row(window.quad(q, at + c));
+      for (int c = 0; c < 4; ++c) row[c] = detail::load_record(window.quad(q, at + c));
       transpose(row[0], row[1], row[2], row[3]);
       for (int c = 0; c < 4 && 4 * q + c < NC; ++c) {
         double* column = columns.column[4 * q + c];
-        if (column) detail::store_row(column + slot, detail::load_row(column + slot) + row[c]);
+        if (column)
+          detail::store_row(column + slot, detail::load_row(column + slot) + detail::to_row(row[c]));
       }
     }
   });
@@ -105,9 +117,9 @@ inline void stack(int count, R* out, int quad, const F& value) {
   static_assert(N <= 4);
   for (int k = 0; k < count; k += 4) {
     Record row[4];
-    for (int c = 0; c < 4; ++c) row[c] = c < N ? value(c, k) : Record{};
+    for (int c = 0; c < 4; ++c) row[c] = c < N ? detail::to_record(value(c, k)) : Record{};
     transpose(row[0], row[1], row[2], row[3]);
-    for (int c = 0; c < 4; ++c) detail::store_row(reinterpret_cast<double*>(out + k + c) + 4 * quad, row[c]);
+    for (int c = 0; c < 4; ++c) detail::store_record(reinterpret_cast<Real*>(out + k + c) + 4 * quad, row[c]);
   }
 }
 
@@ -117,9 +129,9 @@ inline void unstack(const R* in, int count, double (*out)[kChunk<Dim>]) {
   for (int c = 0; c < N; c += 4)
     for (int k = 0; k < count; k += 4) {
       Record row[4];
-      for (int i = 0; i < 4; ++i) row[i] = detail::load_row(reinterpret_cast<const double*>(in + k + i) + c);
+      for (int i = 0; i < 4; ++i) row[i] = detail::load_record(reinterpret_cast<const Real*>(in + k + i) + c);
       transpose(row[0], row[1], row[2], row[3]);
-      for (int i = 0; i < 4; ++i) detail::store_row(&out[c + i][k], row[i]);
+      for (int i = 0; i < 4; ++i) detail::store_row(&out[c + i][k], detail::to_row(row[i]));
     }
 }
 

@@ -27,7 +27,8 @@ void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const 
         for (int k = 0; k < count; ++k)
           for (int r = 0; r < room.in.kRecords; ++r) {
             const auto a = gather_values(w, k, room.in.at[r]);
-            scatter_values(w, k, p.mass[begin + static_cast<std::uint32_t>(k)] * a, room.out.at[r]);
+            scatter_values(w, k, static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]) * a,
+                           room.out.at[r]);
           }
       });
   flush_window(room.out, c.tile->slot, out);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "engine/errors.hpp"
 #include "mpmfast_version.hpp"
 #include "tests/unit/study_fixture.hpp"
 #include "tools/study/report.hpp"
@@ -131,6 +132,43 @@ TEST_CASE("a study started again runs what has not ended; by force, everything")
   options.stop_signal = &stop;
   progress = run_study(runs, options);
   CHECK((progress.stopped && progress.ran == 1));
+}
+
+TEST_CASE("another program can run a variant; its run counts until the program changes") {
+  namespace fs = std::filesystem;
+  const StudyFolder folder;
+  const auto make_program = [&](const std::string& ending) {
+    write_text(folder.path() / "other",
+               "#!/bin/sh\nmkdir -p \"$4\"\necho '{\"status\": \"finished\"}' > "
+               "\"$4/run.json\"\necho \"$@\" > \"$4/words\"\nexit " +
+                   ending + "\n");
+    fs::permissions(folder.path() / "other", fs::perms::owner_all);
+  };
+  const auto text = [](const fs::path& file) {
+    std::ifstream stream(file);
+    return std::string{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  };
+  const std::string study =
+      "scene: scene.yaml\nvariants: [{name: a, program: other}]\n"
+      "error: {quantity: block.vy, compare: final, expected: 0}\n";
+  CHECK(folder.faults(study).at(0).find("2: variants.0.program: no program '") == 0);
+  make_program("0");
+  const StudyRuns runs = expand_study(folder.study(study));
+  StudyOptions options;
+  options.folder = folder.path() / "out";
+  options.threads = 1;
+  fs::create_directories(options.folder);
+  CHECK(run_study(runs, options).ran == 1);
+  CHECK(text(options.folder / "a" / "words") ==
+        fmt::format("run {0}/a.yaml --out {0}/a --force --progress none --threads 1\n",
+                    options.folder.string()));
+  CHECK(text(options.folder / "a.yaml").find(runs.variants[0].scene.resolved_yaml) != std::string::npos);
+  CHECK(earlier_run(runs.variants[0], options.folder, 0).ended);
+  make_program("143");
+  CHECK(earlier_run(runs.variants[0], options.folder, 0).note == "the scene or the program was another");
+  CHECK(run_study(runs, options).stopped);
+  make_program("9");
+  CHECK_THROWS_WITH_AS(run_study(runs, options), doctest::Contains("ended with exit status 9"), FileError);
 }
 
 TEST_CASE("a variant is measured against the run of its reference") {

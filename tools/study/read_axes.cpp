@@ -178,16 +178,19 @@ void read_axes(const Value& vary, std::vector<Axis>& axes) {
 Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
   Axis axis{"variants", list.node().place, {}};
   if (!list.is(Node::Kind::list) || list.size() == 0) {
-    list.complain("not a list of {name, set, let, only}");
+    list.complain("not a list of {name, set, let, only, program}");
     return axis;
   }
   for (std::size_t k = 0; k < list.size(); ++k) {
-    MapReader map(list.item(k), "a map {name, set, let, only}");
+    MapReader map(list.item(k), "a map {name, set, let, only, program}");
     Choice choice;
     if (const auto name = map.need("name", "text")) choice.name = name->text().value_or("");
     choice.set = read_settings(map);
     choice.let = read_constants(map);
     choice.only = read_only(map, axes);
+    if (const auto program = map.find("program"))
+      if (const auto path = program->text())
+        choice.program = Setting{{"program", *path}, program->node().place, program->path()};
     map.finish();
     if (find_choice(axis, choice.name)) list.item(k).report(fmt::format("'{}' is given twice", choice.name));
     axis.choices.push_back(std::move(choice));

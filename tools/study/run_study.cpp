@@ -8,6 +8,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/step/step.hpp"
+#include "other_program.hpp"
 #include "study_results.hpp"
 
 namespace mpmfast {
@@ -50,6 +51,7 @@ void prepare_study_folder(const Study& study, const fs::path& folder) {
 
 void try_set_up(const StudyRuns& runs, const StudyOptions& options) {
   for (const StudyRun* run : all_of(runs)) {
+    if (!run->program.empty()) continue;  // that program sees for itself
     if (!options.force && earlier_run(*run, options.folder, options.threads).ended) continue;
     if (run->scene.dimension() == 3) {
       Step<3> step(run->scene);
@@ -78,6 +80,12 @@ StudyProgress run_study(const StudyRuns& runs, const StudyOptions& options) {
         options.force || earlier.note.empty() ? "" : fmt::format(" (again: {})", earlier.note);
     ++progress.ran;
     try {
+      if (!run.program.empty()) {
+        const std::string status = run_by_program(run, options.folder, options.threads);
+        ended(status + again);
+        progress.stopped = status == "stopped";
+        continue;
+      }
       const RunSummary summary = run_scene(run.scene, options_of(run, options));
       ended(fmt::format("{}, {:.2f} s{}", summary.status, summary.wall, again));
       progress.stopped = summary.status == "stopped";

@@ -36,8 +36,9 @@ using Only = std::map<std::string, std::vector<std::string>>;
 struct Choice {
   std::string name;
   std::vector<Setting> set;
-  Constants let;  ///< names for the study's expressions
-  Only only;      ///< what this one goes with
+  Constants let;                   ///< names for the study's expressions
+  Only only;                       ///< what this one goes with
+  std::optional<Setting> program;  ///< what runs it instead; the value is the path as written
 };
 
 /// The runs are the product of all axes. `variants:` is the first axis.
@@ -100,7 +101,8 @@ struct StudyRun {
   std::vector<std::size_t> choice;  ///< of each axis; of a reference, 0 where the axis does not matter
   Constants let;
   Scene scene;
-  std::size_t reference = 0;  ///< index among the references
+  std::filesystem::path program;  ///< that runs it; empty: this one
+  std::size_t reference = 0;      ///< index among the references
 };
 
 struct StudyRuns {

@@ -12,6 +12,7 @@
 
 #include "engine/errors.hpp"
 #include "mpmfast_version.hpp"
+#include "other_program.hpp"
 #include "pareto.hpp"
 
 namespace mpmfast {
@@ -115,6 +116,18 @@ void mark_front(Cost cost, std::vector<StudyResult>& results) {
   for (std::size_t k = 0; k < results.size(); ++k) results[k].pareto = front[k];
 }
 
+/// Why a run of this program does not count; empty if it does.
+std::string what_differs(const StudyRun& run, const fs::path& folder, const nlohmann::json& json) {
+  if (read_text(folder / run.folder / "scene.yaml") != run.scene.resolved_yaml)
+    return "the scene was another";
+  constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
+      {{"version", kVersion}, {"git", kGit}, {"compiler", kCompiler}, {"flags", kFlags}}};
+  for (const auto& [key, value] : kProgram)
+    if (json.value(key, "") != value)
+      return fmt::format("the program's {} was {}", key, json.value(key, "not known"));
+  return "";
+}
+
 }  // namespace
 
 EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads) {
@@ -122,13 +135,12 @@ EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads)
   if (!json) return {};
   const std::string status = json->value("status", "");
   if (status != "finished" && status != "failed") return {false, "it was stopped before"};
-  if (read_text(folder / run.folder / "scene.yaml") != run.scene.resolved_yaml)
-    return {false, "the scene was another"};
-  constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
-      {{"version", kVersion}, {"git", kGit}, {"compiler", kCompiler}, {"flags", kFlags}}};
-  for (const auto& [key, value] : kProgram)
-    if (json->value(key, "") != value)
-      return {false, fmt::format("the program's {} was {}", key, json->value(key, "not known"))};
+  if (!run.program.empty()) {
+    if (read_text(order_file(run, folder)) != order_text(run))
+      return {false, "the scene or the program was another"};
+  } else if (const std::string other = what_differs(run, folder, *json); !other.empty()) {
+    return {false, other};
+  }
   if (threads > 0 && json->value("threads", 0) != threads) return {false, "the threads were others"};
   if (status == "failed") return {true, fmt::format("failed: {}", json->value("reason", ""))};
   return {true, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
@@ -157,7 +169,8 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
     if (json && earlier_run(run, folder, 0).ended) {
       read_summary(*json, result);
       out.machine.cpu = json->value("cpu", "");
-      out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));
+      if (run.program.empty())
+        out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));
       out.machine.threads = json->value("threads", 0);
       if (references_ended) measure(study, runs, run, folder, result);
     }

@@ -1,0 +1,23 @@
+#pragma once
+
+/// @file Runs of a study by another build of the program: an older one, or one of another precision.
+
+#include <filesystem>
+#include <string>
+
+#include "study.hpp"
+
+namespace mpmfast {
+
+/// What run.program is asked to run, and a hash of that program: an earlier run counts if neither has
+/// changed. Throws FileError when the program cannot be read.
+std::string order_text(const StudyRun& run);
+
+/// The file in the study's folder that holds this text.
+std::filesystem::path order_file(const StudyRun& run, const std::filesystem::path& folder);
+
+/// Has run.program run the scene into its folder, quietly. @param threads 0: as many as it wants.
+/// @return "finished", "failed" or "stopped". Throws FileError when it cannot be started or ends otherwise.
+std::string run_by_program(const StudyRun& run, const std::filesystem::path& folder, int threads);
+
+}  // namespace mpmfast
