@@ -9,6 +9,7 @@ namespace mpmfast {
 namespace {
 
 constexpr double kMostCells = 1e6;  // along an edge
+constexpr double kFurthest = 1e9;   // cells: there doubles still tell 1e-7 of a cell apart
 
 /// A size must be a whole number of cells, or the far face would lie inside one.
 bool check_cells(const Value& size, int dimension, const GridSpec& grid) {
@@ -48,6 +49,13 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
   map.finish();
   if (!good || !size || grid.cell <= 0) return false;
   grid.size = *size;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
+    if (std::abs(grid.origin[k]) > kFurthest * grid.cell) {
+      map.find("origin")->item(k).complain(
+          fmt::format("{:.2g} cells from zero (at most {:g}, or places would be rounded too far)",
+                      std::abs(grid.origin[k]) / grid.cell, kFurthest));
+      return false;
+    }
   return check_cells(*size_value, dimension, grid);
 }
 

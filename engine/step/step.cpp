@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "engine/errors.hpp"
+#include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
 
 namespace mpmfast {
@@ -58,6 +59,7 @@ Step<Dim>::Step(const Scene& scene)
 
 template <int Dim>
 const State<Dim>& Step<Dim>::seeded(const Scene& scene) {
+  check_memory(scene, plan_, machine_memory());
   seed(scene, plan_, state_);
   return state_;
 }

@@ -1,0 +1,65 @@
+// What a scene would take of the machine is known before it is taken.
+
+#include "engine/plan/memory.hpp"
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+template <int Dim>
+void check_estimate(const char* file) {
+  CAPTURE(std::string(file));
+  const Scene scene = scene_file(file);
+  Step<Dim> step(scene);
+  step.advance(step.stable_dt());
+  const auto& state = step.state();
+  const auto count = static_cast<double>(state.particles.size());
+  CHECK(estimated_particles(scene) == doctest::Approx(count).epsilon(0.03));
+  if (count < 5000) return;  // the nodes of half-empty tiles are then the most
+  const auto taken =
+      static_cast<double>(state.particles.planned_bytes() + state.nodes.bytes() + state.tiling.bytes());
+  const double ratio = estimated_bytes(scene, step.plan(), count) / taken;
+  CHECK(ratio > 0.67);
+  CHECK(ratio < 1.5);
+}
+
+TEST_CASE("particles and memory of a scene are foretold") {
+  check_estimate<2>("thick_ring.yaml");
+  check_estimate<2>("oblique_impact.yaml");
+  check_estimate<2>("bench/block-2d.yaml");
+  check_estimate<3>("bench/block-3d.yaml");
+  check_estimate<3>("sphere_plane.yaml");
+}
+
+TEST_CASE("a scene that needs more memory than there is, is refused with the figures") {
+  const Scene scene = scene_file("bench/block-2d.yaml", {{"grid.cell", "1/15810 m"}});
+  const Plan plan = make_plan(scene);
+  try {
+    check_memory(scene, plan, std::uint64_t{8} << 30);
+    FAIL("it was taken");
+  } catch (const SceneError& error) {
+    CHECK(std::string(error.what()).find("about 1e+09 particles would take ") != std::string::npos);
+    CHECK(std::string(error.what()).find("and there are 8 GiB") != std::string::npos);
+  }
+  CHECK_NOTHROW(check_memory(scene, plan, std::uint64_t{1} << 50));
+  CHECK_NOTHROW(check_memory(scene, plan, 0));
+}
+
+TEST_CASE("a scene is not refused for the empty corners of the boxes around its bodies") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [1 m, 1 m], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: b, ring: {centre: [0.5 m, 0.5 m], outer: 0.4 m, inner: 0.39 m}, material: m}]
+)");
+  const Plan plan = make_plan(scene);
+  const double bytes = estimated_bytes(scene, plan, estimated_particles(scene));
+  CHECK_NOTHROW(check_memory(scene, plan, static_cast<std::uint64_t>(1.2 * bytes)));
+  CHECK_THROWS_AS(check_memory(scene, plan, static_cast<std::uint64_t>(0.8 * bytes)), SceneError);
+}
+
+}  // namespace
+}  // namespace mpmfast
