@@ -37,6 +37,17 @@ inline void left_cauchy_green(const V (&f)[Dim * Dim], V (&b)[kSymmetric<Dim>]) 
   }
 }
 
+/// dev(B) of a 3-D tensor, from differences: no stress comes of round-off where B = I, so that what rests
+/// stays at rest to the last bit.
+template <int Dim, class V>
+inline void deviator(const V (&b)[kSymmetric<Dim>], V (&dev)[kSymmetric<Dim>]) {
+  const V d01 = b[0] - b[1], d12 = b[1] - b[2], d20 = b[2] - b[0];
+  dev[0] = (d01 - d20) * (1.0 / 3.0);
+  dev[1] = (d12 - d01) * (1.0 / 3.0);
+  dev[2] = (d20 - d12) * (1.0 / 3.0);
+  for (int c = 3; c < kSymmetric<Dim>; ++c) dev[c] = b[c];
+}
+
 /// ε = sym(F) − I.
 template <int Dim, class V>
 inline void small_strain(const V (&f)[Dim * Dim], V (&e)[kSymmetric<Dim>]) {

@@ -39,8 +39,10 @@ struct Metal {
     }
     const auto response = volume.respond(step, density, heat_capacity, work, V(heat_share * work), state);
     const V trace = b[0] + b[1] + b[2];
-    for (int c = 0; c < 3; ++c) tau[c] = shear * (b[c] - trace * (1.0 / 3.0)) - response.pressure;
-    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = shear * b[c];
+    V dev[kSymmetric<Dim>];
+    deviator<Dim>(b, dev);
+    for (int c = 0; c < kSymmetric<Dim>; ++c)
+      tau[c] = c < 3 ? shear * dev[c] - response.pressure : shear * dev[c];
     // As in neo_hookean.hpp; det b̄ = 1. Plastic flow only slows waves down.
     const V smallest = smallest_stretch_squared<Dim>(b, broadcast<V>(1.0));
     const V modulus = response.modulus + shear * (trace * (5.0 / 9.0) - smallest * (1.0 / 3.0));

@@ -29,8 +29,10 @@ struct NeoHookean {
     const V scale = shear * isochoric_factor(j);
     const V i1 = b[0] + b[1] + b[2];
     const V pressure_part = 0.5 * bulk * (j * j - 1.0);
-    for (int c = 0; c < 3; ++c) tau[c] = scale * (b[c] - i1 * (1.0 / 3.0)) + pressure_part;
-    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = scale * b[c];
+    V dev[kSymmetric<Dim>];
+    deviator<Dim>(b, dev);
+    for (int c = 0; c < kSymmetric<Dim>; ++c)
+      tau[c] = c < 3 ? scale * dev[c] + pressure_part : scale * dev[c];
     const V modulus = 0.5 * bulk * (j * j + 1.0) +
                       scale * (i1 * (5.0 / 9.0) - smallest_stretch_squared<Dim>(b, j) * (1.0 / 3.0));
     wave_speed_squared = modulus * (1.0 / density);
