@@ -78,35 +78,36 @@ std::uint64_t check_seal(const std::filesystem::path& path) {
   return columns;
 }
 
-std::filesystem::path aside_of(std::filesystem::path path) { return path += ".tmp"; }
-
-/// HDF5 would say less of why it cannot be made.
-const std::filesystem::path& touched(const std::filesystem::path& aside) {
-  Descriptor::create(aside);
-  return aside;
-}
-
 }  // namespace
 
-CheckpointWriter::CheckpointWriter(const std::filesystem::path& path)
-    : path_(path), aside_(aside_of(path)), file_(Hdf5File::create(touched(aside_), kSeal)) {}
-
-CheckpointWriter::~CheckpointWriter() {
-  std::error_code ignored;
-  if (!kept_) std::filesystem::remove(aside_, ignored);
+AsideFile::AsideFile(const std::filesystem::path& path) : path_(path), aside_(path) {
+  aside_ += ".tmp";
+  Descriptor::create(aside_);  // HDF5 would say less of why it cannot be made
 }
 
-void CheckpointWriter::keep(int version) {
-  file_.close();
-  const Descriptor file = Descriptor::open(aside_, true);
-  const Content content = hash_content(file, aside_);
-  file.write_at(seal_text(version, columns_, content.bytes, content.hash), 0, aside_);
-  file.sync(aside_);
+AsideFile::~AsideFile() {
+  std::error_code ignored;
+  if (!done_) std::filesystem::remove(aside_, ignored);
+}
+
+void AsideFile::take_place() {
   std::error_code error;
   std::filesystem::rename(aside_, path_, error);
   if (error) throw_file_error("write", path_, error.value());
-  kept_ = true;
-  sync_folder(path_.parent_path());  // the new name itself
+  done_ = true;
+  sync_folder(path_.parent_path());
+}
+
+CheckpointWriter::CheckpointWriter(const std::filesystem::path& path)
+    : aside_(path), file_(Hdf5File::create(aside_.path(), kSeal)) {}
+
+void CheckpointWriter::keep(int version) {
+  file_.close();
+  const Descriptor file = Descriptor::open(aside_.path(), true);
+  const Content content = hash_content(file, aside_.path());
+  file.write_at(seal_text(version, columns_, content.bytes, content.hash), 0, aside_.path());
+  file.sync(aside_.path());
+  aside_.take_place();
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path)

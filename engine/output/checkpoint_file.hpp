@@ -18,14 +18,26 @@ namespace mpmfast {
 /// Of the names and meanings of the columns: raise it when they change.
 inline constexpr int kCheckpointVersion = 1;
 
-/// Writes beside the file and puts it in place when it is whole and on the disk.
+/// A file beside the one that is wanted: it is gone in the end, unless it took that one's place.
+class AsideFile {
+ public:
+  explicit AsideFile(const std::filesystem::path& path);  ///< Throws FileError.
+  AsideFile(const AsideFile&) = delete;
+  ~AsideFile();
+  const std::filesystem::path& path() const { return aside_; }
+  void take_place();  ///< Throws FileError.
+
+ private:
+  std::filesystem::path path_, aside_;
+  bool done_ = false;
+};
+
+/// Writes beside the file and puts it in place when it is whole and on the disk: without keep(), nothing is
+/// left of it.
 class CheckpointWriter final : public Archive {
  public:
   /// Throws FileError, as all that follows.
   explicit CheckpointWriter(const std::filesystem::path& path);
-  CheckpointWriter(const CheckpointWriter&) = delete;
-  /// Without keep(), nothing is left.
-  ~CheckpointWriter() override;
   bool reading() const override { return false; }
   /// Seals the file and gives it its name. @param version for tests
   void keep(int version = kCheckpointVersion);
@@ -37,10 +49,9 @@ class CheckpointWriter final : public Archive {
   }
   std::size_t length(const std::string&) override { return 0; }
 
-  std::filesystem::path path_, aside_;
+  AsideFile aside_;
   Hdf5File file_;
   std::uint64_t columns_ = 0;
-  bool kept_ = false;
 };
 
 class CheckpointReader final : public Archive {

@@ -72,17 +72,18 @@ Hdf5Handle access() {
 
 Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t room) {
   quieten();
-  const Hdf5Handle creation = properties(H5P_FILE_CREATE);
+  const Hdf5Handle creation = properties(H5P_FILE_CREATE), how = access();
   H5Pset_userblock(creation.id(), room);
   H5Pset_obj_track_times(creation.id(), false);
-  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), access().id()), H5Fclose);
+  Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), how.id()), H5Fclose);
   if (!file.valid()) fail("write", path);
   return {path, std::move(file)};
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
   quieten();
-  Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access().id()), H5Fclose);
+  const Hdf5Handle how = access();
+  Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, how.id()), H5Fclose);
   if (!file.valid()) fail("read", path);
   return {path, std::move(file)};
 }

@@ -355,7 +355,12 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
 
 std::optional<RunSummary> resume_run(const RunOptions& options) {
   if (options.threads > 0) omp_set_num_threads(options.threads);
-  std::optional<CheckpointReader> checkpoint(options.folder / kCheckpointName);
+  const std::filesystem::path path = options.folder / kCheckpointName;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw FileError(options.folder.string() +
+                    " holds no checkpoint (output.checkpoint says when one is written)");
+  std::optional<CheckpointReader> checkpoint(path);
   const Scene scene = read_scene(options.folder / "scene.yaml");
   const std::optional<RunOrigin> origin = next_origin(scene, options, *checkpoint);
   if (!origin) return std::nullopt;
