@@ -104,6 +104,18 @@ check_full_disk() {
   [[ -z $(find full -name '*.tmp') && ! -e full/checkpoint.h5 ]] || fail 'a full disk leaves half a file'
   [[ -z $(tail -c 1 full/history.csv) ]] || fail 'a full disk leaves half a row'
   rm -rf full
+  # What was good before the disk was full goes on when it is not.
+  run 0 run scene.yaml --out whole --progress none
+  run 0 run scene.yaml --out filled --steps 2 --progress none
+  (
+    ulimit -f 16
+    "$program" resume filled --progress none >out 2>err
+  )
+  code=$?
+  [[ $code == 4 ]] || fail "a full disk after resume: exit $code"
+  run 0 resume filled --progress none
+  cmp -s whole/history.csv filled/history.csv || fail 'a run resumed after a full disk has another history'
+  rm -rf whole filled
 }
 
 check_removed_folder() {

@@ -1,5 +1,9 @@
 // A run that stops and goes on leaves the files of one that never stopped.
 
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#define STB_IMAGE_WRITE_STATIC
+#include <stb_image_write.h>
+
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -92,6 +96,51 @@ TEST_CASE("a run that stops after some steps, on any threads, and goes on is the
     CHECK(resumed->resumes == (stop + 1 < whole.steps ? 2 : 1));
     check_same_files(part, folder / "whole");
   }
+}
+
+/// What a scene seeds, in 2-D or 3-D.
+std::string seeding_of(const Scene& scene) {
+  if (scene.dimension() == 3) return seeding_hash(Step<3>(scene).state().particles);
+  return seeding_hash(Step<2>(scene).state().particles);
+}
+
+TEST_CASE("the resolved scene seeds the same particles to the bit, for every scene of configs") {
+  int scenes = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(MPMFAST_SOURCE_DIR) / "configs")) {
+    if (entry.path().extension() != ".yaml") continue;
+    CAPTURE(entry.path().filename().string());
+    const Scene scene = read_scene(entry.path());
+    const Scene resolved = parse_scene(scene.resolved_yaml, "/elsewhere/scene.yaml");
+    CHECK(resolved.resolved_yaml == scene.resolved_yaml);
+    CHECK(seeding_of(resolved) == seeding_of(scene));
+    ++scenes;
+  }
+  CHECK(scenes > 10);
+}
+
+TEST_CASE("an image that changed since the run began is noticed") {
+  const Folder folder;
+  const auto draw = [&](unsigned char corner) {
+    std::vector<unsigned char> grey(16, 10);
+    grey[10] = 20;
+    grey[5] = corner;
+    stbi_write_png((folder / "grains.png").c_str(), 4, 4, 1, grey.data(), 4);
+  };
+  draw(10);
+  std::ofstream(folder / "scene.yaml") << R"(
+space: plane_strain
+grid: {size: [4 mm, 4 mm], cell: 0.5 mm}
+time: {end: 2 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{bitmap: grains.png, extent: [4 mm, 4 mm], material: m}]
+)";
+  RunOptions options = into(folder / "run");
+  options.max_steps = 1;
+  run_scene(read_scene(folder / "scene.yaml"), options);
+  draw(20);
+  CHECK(holds(complaint([&] { resume_run(into(folder / "run")); }), "did an image change?"));
+  draw(10);
+  CHECK(resume_run(into(folder / "run"))->status == "finished");
 }
 
 TEST_CASE("what was written after the checkpoint is cut off") {
