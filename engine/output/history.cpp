@@ -154,9 +154,19 @@ void HistoryFile::claim() const {
   if (!file_.claim()) throw FileError(path_.parent_path().string() + " belongs to a run that goes on now");
 }
 
+/// Another run may have taken the folder by force.
+void HistoryFile::check_there() const {
+  if (!file_.has_name()) throw FileError(path_.string() + " was removed while the run went on");
+}
+
+void HistoryFile::sync() const {
+  check_there();
+  file_.sync(path_);
+}
+
 /// All of a line or nothing of it.
 void HistoryFile::append_line(std::string_view line) {
-  if (!file_.has_name()) throw FileError(path_.string() + " was removed while the run went on");
+  check_there();
   try {
     file_.write_at(line, size_, path_);
   } catch (const FileError&) {

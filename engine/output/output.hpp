@@ -70,10 +70,11 @@ class HistoryFile {
   void append(const HistoryRow& row);
   std::uint64_t rows() const { return rows_; }
   /// Waits until the disk has it.
-  void sync() const { file_.sync(path_); }
+  void sync() const;
 
  private:
   void claim() const;
+  void check_there() const;
   void append_line(std::string_view line);
 
   std::filesystem::path path_;

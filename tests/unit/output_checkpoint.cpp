@@ -230,6 +230,7 @@ TEST_CASE(
   HistoryFile file(folder.path(), scene, 3, 25);
   std::filesystem::remove(path);
   CHECK_THROWS_AS(append(file, 31), FileError);
+  CHECK_THROWS_AS(file.sync(), FileError);
   CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 3, 25), FileError);
 }
 

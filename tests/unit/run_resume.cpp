@@ -233,6 +233,27 @@ TEST_CASE("checkpoints come every so many steps, every so often, or never") {
   CHECK(holds(complaint([&] { resume_run(into(folder / "never")); }), "holds no checkpoint"));
 }
 
+TEST_CASE("a run that another build of the program began goes on, with a warning") {
+  const Folder folder;
+  RunOptions options = into(folder / "run");
+  options.max_steps = 3;
+  run_scene(scene_from(kDisks), options);
+  const fs::path path = folder / "run" / "checkpoint.h5";
+  std::string bytes = text_of(path);
+  const std::string program = program_text(), seal = "xxh3_128 ";
+  bytes[bytes.find(program) + program.size() - 1] = '?';
+  const std::string hash = text_hash(bytes.substr(512));
+  bytes.replace(bytes.find(seal) + seal.size(), hash.size(), hash);
+  std::ofstream(path, std::ios::binary) << bytes;
+  std::vector<std::string> warnings;
+  RunOptions next = into(folder / "run");
+  next.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  next.max_steps = 4;
+  CHECK(resume_run(next)->steps == 4);
+  REQUIRE(warnings.size() == 1);
+  CHECK(holds(warnings[0], "begun by another program, mpmfast "));
+}
+
 TEST_CASE("a checkpoint beside another scene, another history or none is refused, and nothing is changed") {
   const Folder folder;
   RunOptions options = into(folder / "run");

@@ -77,6 +77,7 @@ Memory figures(Step<Dim>& step) {
 template <int Dim>
 void check_goes_on(const std::string& yaml, int stop, int steps) {
   const Scene scene = scene_from(yaml);
+  const int before = omp_get_max_threads();
   omp_set_num_threads(1);
   Step<Dim> whole(scene), stopped(scene);
   advance(whole, steps);
@@ -92,6 +93,7 @@ void check_goes_on(const std::string& yaml, int stop, int steps) {
   CHECK(resumed.stored_energy() == whole.stored_energy());
   advance(stopped, steps - stop);  // writing changes nothing
   CHECK(figures(stopped) == figures(whole));
+  omp_set_num_threads(before);
 }
 
 const char* const kPlane = R"(
