@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-#include <memory>
-#include <new>
-
 #include "engine/output/hash.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
@@ -12,30 +8,19 @@ namespace {
 /// XXH3-128 over values gathered in a given order.
 class StateHash {
  public:
-  explicit StateHash(std::vector<std::uint32_t> order)
-      : order_(std::move(order)), state_(XXH3_createState()) {
-    if (!state_) throw std::bad_alloc();
-    XXH3_128bits_reset(state_.get());
-  }
+  explicit StateHash(std::vector<std::uint32_t> order) : order_(std::move(order)) {}
 
   template <class T>
   void add(const T* values) {
     std::vector<T> gathered(order_.size());
     for (std::size_t i = 0; i < order_.size(); ++i) gathered[i] = values[order_[i]];
-    XXH3_128bits_update(state_.get(), gathered.data(), gathered.size() * sizeof(T));
+    hash_.add(gathered.data(), gathered.size() * sizeof(T));
   }
-
-  std::string text() const {
-    const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
-    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
-  }
+  std::string text() const { return hash_.text(); }
 
  private:
-  struct Free {
-    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
-  };
   std::vector<std::uint32_t> order_;
-  std::unique_ptr<XXH3_state_t, Free> state_;
+  Hash128 hash_;
 };
 
 }  // namespace
@@ -55,7 +40,26 @@ std::string checksum(const Particles<Dim>& particles) {
   return hash.text();
 }
 
+template <int Dim>
+std::string seeding_hash(const Particles<Dim>& particles) {
+  Hash128 hash;
+  hash.add(particles.id().data(), particles.size() * sizeof(std::uint32_t));
+  hash.add(particles.body().data(), particles.size() * sizeof(std::uint16_t));
+  for (const Quantity quantity : particles.quantities())
+    for (int k = 0; k < Particles<Dim>::components(quantity); ++k)
+      hash.add(particles.column(quantity, k), particles.size() * sizeof(double));
+  return hash.text();
+}
+
+std::string text_hash(const std::string& text) {
+  Hash128 hash;
+  hash.add(text.data(), text.size());
+  return hash.text();
+}
+
 template std::string checksum(const Particles<2>&);
 template std::string checksum(const Particles<3>&);
+template std::string seeding_hash(const Particles<2>&);
+template std::string seeding_hash(const Particles<3>&);
 
 }  // namespace mpmfast

@@ -58,6 +58,15 @@ void remove_earlier_run(const std::filesystem::path& folder) {
 
 }  // namespace
 
+void reopen_folder(const std::filesystem::path& folder) {
+  const auto half_written = [](const std::string& name) { return ends_with(name, ".tmp") && is_ours(name); };
+  remove_files(folder, [&](const std::string& name) { return name == "run.json" || half_written(name); });
+  std::error_code error;
+  if (std::filesystem::is_directory(folder / "particles", error))
+    remove_files(folder / "particles",
+                 [](const std::string& name) { return ends_with(name, ".tmp") && is_frame(name); });
+}
+
 void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force) {
   std::error_code error;
   if (std::filesystem::exists(folder, error)) {

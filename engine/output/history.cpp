@@ -1,9 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <string_view>
 
-#include "engine/output/files.hpp"
+#include "engine/errors.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
 
@@ -92,18 +93,87 @@ class Line {
   std::string text_;
 };
 
+std::string header(const Scene& scene) {
+  std::vector<std::string> cells = column_names(scene);
+  for (auto& cell : cells) cell = csv_cell(cell);
+  return fmt::format("{}\n", fmt::join(cells, ","));
+}
+
+/// Where a line begins and ends, and how many whole lines there are up to it.
+struct LineEnds {
+  std::uint64_t lines = 0, before = 0, after = 0;
+};
+
+/// Of line `number`, counted from 0.
+LineEnds find_line(const Descriptor& file, const std::filesystem::path& path, std::uint64_t number) {
+  std::vector<char> block(std::size_t{1} << 16);
+  LineEnds ends;
+  std::uint64_t at = 0;
+  while (const std::size_t n = file.read_at(block.data(), block.size(), at, path)) {
+    for (std::size_t i = 0; i < n; ++i) {
+      if (block[i] != '\n') continue;
+      ends.before = ends.after;
+      ends.after = at + i + 1;
+      if (ends.lines++ == number) return ends;
+    }
+    at += n;
+  }
+  return ends;
+}
+
 }  // namespace
 
 std::vector<std::string> history_columns(const Scene& scene) { return column_names(scene); }
 
 HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene)
-    : path_(folder / "history.csv"), scene_(&scene) {
-  errno = 0;
-  file_.open(path_, std::ios::binary | std::ios::trunc);
-  std::vector<std::string> cells = column_names(scene);
-  for (auto& cell : cells) cell = csv_cell(cell);
-  file_ << fmt::format("{}\n", fmt::join(cells, ",")) << std::flush;
-  if (!file_) throw_file_error("write", path_);
+    : path_(folder / "history.csv"), file_(Descriptor::create(path_)), scene_(&scene) {
+  claim();
+  append_line(header(scene));
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene, std::uint64_t rows,
+                         std::uint64_t last_step)
+    : path_(folder / "history.csv"), file_(Descriptor::open(path_, true)), scene_(&scene), rows_(rows) {
+  claim();
+  const LineEnds ends = find_line(file_, path_, rows);
+  const std::string first = header(scene), last = rows > 0 ? fmt::format("{},", last_step) : "";
+  std::string text(std::max(first.size(), last.size()), '\0');
+  const auto starts_with = [&](std::uint64_t offset, const std::string& wanted) {
+    return file_.read_at(text.data(), wanted.size(), offset, path_) == wanted.size() &&
+           text.compare(0, wanted.size(), wanted) == 0;
+  };
+  if (ends.lines <= rows || !starts_with(0, first) || (rows > 0 && !starts_with(ends.before, last)))
+    throw FileError(
+        fmt::format("{} is not that of the checkpoint, which has {} rows up to step {}: nothing was changed",
+                    path_.string(), rows, last_step));
+  size_ = ends.after;
+  file_.cut(size_, path_);
+}
+
+void HistoryFile::claim() const {
+  if (!file_.claim()) throw FileError(path_.parent_path().string() + " belongs to a run that goes on now");
+}
+
+/// Another run may have taken the folder by force.
+void HistoryFile::check_there() const {
+  if (!file_.has_name()) throw FileError(path_.string() + " was removed while the run went on");
+}
+
+void HistoryFile::sync() const {
+  check_there();
+  file_.sync(path_);
+}
+
+/// All of a line or nothing of it.
+void HistoryFile::append_line(std::string_view line) {
+  check_there();
+  try {
+    file_.write_at(line, size_, path_);
+  } catch (const FileError&) {
+    file_.cut(size_, path_);
+    throw;
+  }
+  size_ += line.size();
 }
 
 void HistoryFile::append(const HistoryRow& row) {
@@ -141,9 +211,8 @@ void HistoryFile::append(const HistoryRow& row) {
     line.add(overlap.area);
     line.add(overlap.inside);
   }
-  errno = 0;
-  file_ << line.end() << std::flush;
-  if (!file_) throw_file_error("write", path_);
+  append_line(line.end());
+  ++rows_;
 }
 
 }  // namespace mpmfast

@@ -5,12 +5,13 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "engine/output/descriptor.hpp"
 #include "engine/output/overlap.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/particles.hpp"
@@ -21,6 +22,10 @@ namespace mpmfast {
 /// with `force` removes what an earlier run of ours left there and nothing else (pictures: picture_*.png).
 /// Writes scene.yaml.
 void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
+
+/// What a run leaves when it ends (run.json) or is killed (files half written) must not stay beside one that
+/// goes on. Throws FileError.
+void reopen_folder(const std::filesystem::path& folder);
 
 /// What one row of history.csv says. Energies in J, per `thickness` in 2-D.
 struct HistoryRow {
@@ -53,29 +58,44 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
 /// The header of history.csv.
 std::vector<std::string> history_columns(const Scene& scene);
 
-/// history.csv, flushed after each row.
+/// history.csv: whole up to its last row whenever the run ends, on a full disk too. It belongs to one process
+/// at a time. Everything throws FileError.
 class HistoryFile {
  public:
+  /// With a header and no row yet.
   HistoryFile(const std::filesystem::path& folder, const Scene& scene);
+  /// The one that is there, cut to its first rows, of which the last must be that of a step.
+  HistoryFile(const std::filesystem::path& folder, const Scene& scene, std::uint64_t rows,
+              std::uint64_t last_step);
   void append(const HistoryRow& row);
+  std::uint64_t rows() const { return rows_; }
+  /// Waits until the disk has it.
+  void sync() const;
 
  private:
+  void claim() const;
+  void check_there() const;
+  void append_line(std::string_view line);
+
   std::filesystem::path path_;
-  std::ofstream file_;
+  Descriptor file_;
   const Scene* scene_;
+  std::uint64_t size_ = 0, rows_ = 0;  ///< bytes; without the header
 };
 
 /// particles.pvd and particles/NNNNNN.vtu: appended raw, zlib level 1, vertex cells, TimeValue in each file.
 template <int Dim>
 class ParticleSeries {
  public:
-  ParticleSeries(const std::filesystem::path& folder, const Scene& scene);
+  /// @param times  of the frames that are there already; later ones are removed
+  ParticleSeries(const std::filesystem::path& folder, const Scene& scene, std::vector<double> times = {});
   void append(const Particles<Dim>& particles, double time);
+  const std::vector<double>& times() const { return times_; }
 
  private:
   std::filesystem::path folder_;
   const Scene* scene_;
-  std::vector<std::pair<double, std::string>> frames_;
+  std::vector<double> times_;  ///< s, of each frame
 };
 
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
@@ -89,6 +109,13 @@ void draw_particles(const std::filesystem::path& png, const Particles<Dim>& part
 /// order.
 template <int Dim>
 std::string checksum(const Particles<Dim>& particles);
+
+/// XXH3-128 over every column as it lies, before the first sort: what a scene seeded.
+template <int Dim>
+std::string seeding_hash(const Particles<Dim>& particles);
+
+/// XXH3-128 of a text.
+std::string text_hash(const std::string& text);
 
 /// The content of run.json.
 struct RunSummary {
@@ -108,10 +135,14 @@ struct RunSummary {
   std::string checksum;
   std::string command;                 ///< the command line
   std::vector<std::string> overrides;  ///< --set arguments
+  std::uint64_t resumes = 0;           ///< how often the run went on from a checkpoint
   std::string resolved_yaml;           ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
+
+/// Version, commit, compiler and flags of this program.
+std::string program_text();
 
 /// The largest resident set of this process so far, bytes.
 std::uint64_t peak_memory_bytes();

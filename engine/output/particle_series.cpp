@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include "engine/output/files.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
@@ -94,21 +96,35 @@ void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>
   }
 }
 
-std::string pvd_text(const std::vector<std::pair<double, std::string>>& frames) {
+std::string frame_name(std::size_t number) { return fmt::format("particles/{:06}.vtu", number); }
+
+std::string pvd_text(const std::vector<double>& times) {
   std::string text =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
-  for (const auto& [time, file] : frames)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", time, file);
+  for (std::size_t k = 0; k < times.size(); ++k)
+    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times[k], frame_name(k));
   return text + "  </Collection>\n</VTKFile>\n";
+}
+
+/// Frames are numbered without gaps: those from `first` on.
+void remove_frames(const std::filesystem::path& folder, std::size_t first) {
+  std::error_code error;
+  for (std::size_t k = first; std::filesystem::remove(folder / frame_name(k), error); ++k) {
+  }
+  if (error) throw_file_error("remove frames from", folder / "particles", error.value());
 }
 
 }  // namespace
 
 template <int Dim>
-ParticleSeries<Dim>::ParticleSeries(const std::filesystem::path& folder, const Scene& scene)
-    : folder_(folder), scene_(&scene) {
+ParticleSeries<Dim>::ParticleSeries(const std::filesystem::path& folder, const Scene& scene,
+                                    std::vector<double> times)
+    : folder_(folder), scene_(&scene), times_(std::move(times)) {
   make_folder(folder_ / "particles");
+  if (times_.empty()) return;
+  write_aside(folder_ / "particles.pvd", pvd_text(times_));
+  remove_frames(folder_, times_.size());
 }
 
 template <int Dim>
@@ -122,10 +138,9 @@ void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
   if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
   if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
   add_state(particles, order, file);
-  const std::string name = fmt::format("particles/{:06}.vtu", frames_.size());
-  file.write(folder_ / name, time);
-  frames_.emplace_back(time, name);
-  write_aside(folder_ / "particles.pvd", pvd_text(frames_));
+  file.write(folder_ / frame_name(times_.size()), time);
+  times_.push_back(time);
+  write_aside(folder_ / "particles.pvd", pvd_text(times_));
 }
 
 template class ParticleSeries<2>;

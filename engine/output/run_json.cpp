@@ -37,6 +37,10 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
+std::string program_text() {
+  return fmt::format("mpmfast {} ({}), {}, {}", kVersion, kGit, kCompiler, kFlags);
+}
+
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary) {
   nlohmann::ordered_json json;
   json["version"] = kVersion;
@@ -47,6 +51,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
   json["threads"] = summary.threads;
   json["command"] = summary.command;
   json["overrides"] = summary.overrides;
+  json["resumes"] = summary.resumes;
   json["scene"] = summary.scene_name;
   if (!summary.resolved_yaml.empty())
     json["scene_hash"] =

@@ -88,10 +88,27 @@ void read_gravity(MapReader& top, int dimension, GravitySpec& gravity) {
   map.finish();
 }
 
+/// By wall time, by steps, or both; what is not asked for is off.
+void read_checkpoint(const Value& value, CheckpointSpec& checkpoint) {
+  if (value.is_word("none")) {
+    checkpoint.active = false;
+    return;
+  }
+  MapReader map(value, "none or a map {every, steps}");
+  if (!map.valid()) return;
+  constexpr int kMostSteps = 2000000000;
+  const auto every = map.find("every"), steps = map.find("steps");
+  if (steps && !steps->is_word("none")) checkpoint.steps = steps->integer(1, kMostSteps).value_or(0);
+  if (every || steps) checkpoint.every = 0;
+  if (every && !every->is_word("none"))
+    checkpoint.every = every->quantity(Measure::time, kPositive).value_or(0);
+  map.finish();
+}
+
 void read_output(MapReader& top, int dimension, OutputSpec& output) {
   const auto section = top.find("output");
   if (!section) return;
-  MapReader map(*section, "a map {frames, history, picture, overlap}");
+  MapReader map(*section, "a map {frames, history, picture, overlap, checkpoint}");
   constexpr int kMostFrames = 999999;  // frames are numbered with six digits
   constexpr int kMostRows = 100000000;
   map.integer("frames", 0, kMostFrames, output.frames);
@@ -100,6 +117,7 @@ void read_output(MapReader& top, int dimension, OutputSpec& output) {
     output.overlap = overlap->boolean().value_or(false);
     if (output.overlap && dimension == 3) overlap->complain("the overlap of bodies is measured in 2-D only");
   }
+  if (const auto checkpoint = map.find("checkpoint")) read_checkpoint(*checkpoint, output.checkpoint);
   if (const auto picture = map.find("picture")) {
     std::vector<std::string> known;
     for (const char* name : kPictures) {

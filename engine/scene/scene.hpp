@@ -267,10 +267,18 @@ struct ContactSpec : LawSpec {
   std::vector<ContactPair> pairs;
 };
 
+/// When a run writes its state down, beside at a signal and at its end.
+struct CheckpointSpec {
+  bool active = true;  ///< false: never
+  double every = 600;  ///< s of wall time; 0: not by time
+  int steps = 0;       ///< 0: not by steps
+};
+
 struct OutputSpec {
   int frames = 20;       ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
   int history = 200;     ///< rows of history.csv beside the initial one
   bool overlap = false;  ///< 2-D: the history measures how much bodies enter each other
+  CheckpointSpec checkpoint;
   std::string picture = "pressure";  ///< field of the second picture: pressure, von_mises, stress_xx, …
 };
 

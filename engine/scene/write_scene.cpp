@@ -302,6 +302,16 @@ std::string contact_text(const Scene& scene) {
   return out + pairs_text(scene);
 }
 
+std::string output_text(const OutputSpec& output) {
+  const CheckpointSpec& c = output.checkpoint;
+  const std::string every = c.every > 0 ? quantity_text(c.every, Measure::time) : "none",
+                    steps = c.steps > 0 ? fmt::format("{}", c.steps) : "none",
+                    checkpoint = c.active ? fmt::format("{{every: {}, steps: {}}}", every, steps)
+                                          : std::string("none");
+  return fmt::format("output:\n  frames: {}\n  history: {}\n  overlap: {}\n  checkpoint: {}\n  picture: {}\n",
+                     output.frames, output.history, output.overlap, checkpoint, output.picture);
+}
+
 }  // namespace
 
 std::string write_scene(const Scene& scene) {
@@ -321,9 +331,7 @@ std::string write_scene(const Scene& scene) {
                      vector_text(scene.gravity.acceleration, Measure::acceleration, d),
                      quantity_text(scene.gravity.ramp, Measure::time));
   out += contact_text(scene);
-  out += fmt::format("output:\n  frames: {}\n  history: {}\n  overlap: {}\n  picture: {}\n",
-                     scene.output.frames, scene.output.history, scene.output.overlap, scene.output.picture);
-  return out;
+  return out + output_text(scene.output);
 }
 
 }  // namespace mpmfast

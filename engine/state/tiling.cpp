@@ -119,6 +119,13 @@ void Tiling<Dim>::build(Particles<Dim>& particles, const std::vector<int>& body_
 }
 
 template <int Dim>
+void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field) {
+  archive.list("tiling/keys", buffers_.key);
+  archive.number("tiling/bodies", bodies_);
+  if (archive.reading() && !buffers_.key.empty()) build(particles, body_field);
+}
+
+template <int Dim>
 void Tiling<Dim>::sort(Particles<Dim>& particles) {
   if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;
   const std::size_t n = particles.size();

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/state/archive.hpp"
 #include "engine/state/particles.hpp"
 #include "kernels/views.hpp"
 
@@ -74,6 +75,10 @@ class Tiling {
   /// Sorts the particles by their keys and numbers the slots.
   /// @param body_field  velocity field of each body
   void build(Particles<Dim>& particles, const std::vector<int>& body_field);
+
+  /// The keys of the last sort, from which all the rest follows: sums depend on when that was.
+  /// @param particles  as they were sorted, in the order that they have now
+  void visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field);
 
   std::vector<ParticleTile<Dim>> tiles;
   std::vector<ParticleRun<Dim>> runs;

@@ -39,6 +39,7 @@ class PassClock {
     return f();
   }
   const std::array<double, kPassNames.size()>& seconds() const { return seconds_; }
+  std::array<double, kPassNames.size()>& seconds() { return seconds_; }
 
  private:
   std::array<double, kPassNames.size()> seconds_{};

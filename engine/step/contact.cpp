@@ -8,7 +8,7 @@ namespace mpmfast {
 
 template <int Dim>
 void Contact<Dim>::find_nodes(const State<Dim>& state) {
-  const bool memory = spec_.hysteresis > 0 || spec_.warm_start || spec_.persistent;
+  const bool memory = has_memory();
   if (memory) remember();
   list_.nodes.clear();
   list_.fields.clear();

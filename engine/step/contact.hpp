@@ -6,6 +6,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
 #include "engine/step/passes.hpp"
@@ -49,6 +50,9 @@ class Contact {
   /// final: forces change too. Friction work and the impulses on rigid bodies and of pairs are summed.
   void resolve(State<Dim>& state, Correction correction, double dt);
 
+  /// What a step leaves to the next.
+  void visit(Archive& archive);
+
   const ContactList<Dim>& list() const { return list_; }
   /// Of the last step.
   const ContactBooks<Dim>& books() const { return books_; }
@@ -59,6 +63,7 @@ class Contact {
   void add_pairs(const ContactNode<Dim>& node);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  bool has_memory() const { return spec_.hysteresis > 0 || spec_.warm_start || spec_.persistent; }
   void remember();
   void recall(const State<Dim>& state);
   void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);

@@ -31,6 +31,15 @@ std::string overlap_text(const State<2>& state) {
                      overlap.area, 100 * overlap.area / all, overlap.particles_inside);
 }
 
+/// @param bytes  of the columns and the keys of the sort
+std::string checkpoint_text(const CheckpointSpec& checkpoint, std::size_t bytes) {
+  if (!checkpoint.active) return "none";
+  std::string when;
+  if (checkpoint.every > 0) when += fmt::format("every {:.4g} s of wall time, ", checkpoint.every);
+  if (checkpoint.steps > 0) when += fmt::format("every {} steps, ", checkpoint.steps);
+  return fmt::format("{}, {}at a signal and at the end", in_mebibytes(bytes), when);
+}
+
 template <int Dim>
 std::string describe(const Scene& scene) {
   Step<Dim> step(scene);
@@ -82,6 +91,8 @@ std::string describe(const Scene& scene) {
        fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting",
                    in_mebibytes(planned), particles.size() > 0 ? planned / particles.size() : 0,
                    in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes())));
+  line("checkpoint",
+       checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
   line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));
   line("steps", fmt::format("{:.0f} at that step", steps));
   line("estimated time", estimate);

@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 
 #include "engine/errors.hpp"
+#include "engine/output/checkpoint_file.hpp"
+#include "engine/scene/read_scene.hpp"
+#include "engine/step/run_counters.hpp"
 #include "engine/step/step.hpp"
 
 namespace mpmfast {
@@ -16,110 +20,173 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kCheckpointName = "checkpoint.h5";
+
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-/// Even marks in time: 0, interval, 2 · interval …
-class Marks {
- public:
-  Marks(double end, int count) : interval_(count > 0 ? end / count : 0) {}
-  bool due(double time) const { return interval_ > 0 && time >= interval_ * next_ * (1 - 1e-12); }
-  void pass(double time) {
-    while (due(time)) ++next_;
-  }
+bool has_ended(double time, double end) { return time >= end * (1 - 1e-12); }
 
- private:
-  double interval_;
-  int next_ = 1;
-};
+RunOrigin first_origin(const Scene& scene, const RunOptions& options) {
+  RunOrigin origin;
+  origin.scene_hash = text_hash(scene.resolved_yaml);
+  origin.program = program_text();
+  origin.scene_name = scene.file.filename().string();
+  origin.command = options.command;
+  origin.overrides = options.overrides;
+  origin.end = std::min(scene.time.end, options.until);
+  origin.max_steps = options.max_steps;
+  return origin;
+}
 
-/// The balance kinetic + stored + dissipated + friction − work of boundaries and body forces, and how far it
-/// has drifted.
-class EnergyBalance {
- public:
-  void add(const HistoryRow& row) {
-    const double balance =
-        row.kinetic + row.stored + row.dissipated + row.friction - row.boundary_work - row.body_force_work;
-    if (!started_) first_ = balance;
-    started_ = true;
-    drift_ = balance - first_;
-    scale_ = std::max({scale_, row.kinetic + row.stored + row.dissipated, std::abs(row.boundary_work),
-                       std::abs(row.body_force_work)});
-  }
-  double error() const { return scale_ > 0 ? drift_ / scale_ : 0; }
-
- private:
-  bool started_ = false;
-  double first_ = 0, drift_ = 0, scale_ = 0;
-};
+/// The origin that a checkpoint states, with the end that is asked for now; nothing when that is reached and
+/// all is written. An earlier limit that was not reached holds, one that was gives way to the scene's end.
+std::optional<RunOrigin> next_origin(const Scene& scene, const RunOptions& options,
+                                     CheckpointReader& checkpoint) {
+  RunOrigin origin;
+  double time = 0;
+  std::uint64_t step = 0;
+  origin.visit(checkpoint);
+  checkpoint.number("step/time", time);
+  checkpoint.number("step/number", step);
+  if (origin.scene_hash != text_hash(scene.resolved_yaml))
+    throw FileError(
+        fmt::format("{} was altered: it is not the scene of the checkpoint beside it", scene.file.string()));
+  if (origin.program != program_text() && options.warn)
+    options.warn(
+        fmt::format("the run was begun by another program, {}: what follows need not be to the bit "
+                    "what that would have given",
+                    origin.program));
+  if (has_ended(time, origin.end)) origin.end = scene.time.end;
+  origin.max_steps =
+      step < origin.max_steps ? std::min(origin.max_steps, options.max_steps) : options.max_steps;
+  if (std::isfinite(options.until)) origin.end = options.until;
+  const bool whole = std::filesystem::exists(options.folder / "run.json");
+  if (whole && (has_ended(time, origin.end) || step >= origin.max_steps)) return std::nullopt;
+  return origin;
+}
 
 template <int Dim>
 class Run {
  public:
-  Run(const Scene& scene, const RunOptions& options)
-      : scene_(scene),
-        options_(options),
-        step_(scene),
-        end_(std::min(scene.time.end, options.until)),
-        history_marks_(scene.time.end, scene.output.history),
-        frame_marks_(scene.time.end, scene.output.frames) {
+  /// From the start.
+  Run(const Scene& scene, const RunOptions& options) : Run(scene, options, first_origin(scene, options)) {
     prepare_folder(options.folder, scene, options.force);
     history_.emplace(options.folder, scene);
     if (scene.output.frames > 0) series_.emplace(options.folder, scene);
-    last_impulse_ = step_.sums();
-  }
-
-  RunSummary execute() {
     write_row(0);
     write_frame();
     draw("first");
-    start_ = Clock::now();
-    last_report_ = start_;
+  }
+
+  /// From a checkpoint of the folder, of which the origin has been read.
+  Run(const Scene& scene, const RunOptions& options, const RunOrigin& origin, CheckpointReader& checkpoint)
+      : Run(scene, options, origin) {
+    if (origin_.seeding != origin.seeding)
+      throw FileError(
+          fmt::format("{} does not give the particles that the run began with: did an image change?",
+                      scene.file.string()));
+    step_.visit(checkpoint);
+    counters_.visit(checkpoint);
+    checkpoint.finish();
+    history_.emplace(options.folder, scene, counters_.rows, counters_.last_row_step);
+    reopen_folder(options.folder);
+    if (scene.output.frames > 0) series_.emplace(options.folder, scene, counters_.frame_times);
+    saved_step_ = step_.state().step;
+    ++counters_.resumes;
+  }
+
+  RunSummary execute() {
+    last_report_ = last_save_ = Clock::now();
+    start_ = last_save_ -
+             std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(counters_.wall));
     try {
       loop();
     } catch (const std::exception& failure) {
       keep_what_there_is(failure.what());
       throw;
     }
-    if (last_row_step_ != step_.state().step) write_row(dt_);
-    if (last_frame_step_ != step_.state().step) write_frame();
+    // Before the last row and frame, which a run that went on would not have written; they are written even
+    // where the checkpoint cannot be.
+    std::exception_ptr unsaved;
+    try {
+      if (saved_step_ != step_.state().step) save();
+    } catch (const FileError&) {
+      unsaved = std::current_exception();
+    }
+    if (counters_.last_row_step != step_.state().step) write_row(counters_.dt);
+    if (counters_.last_frame_step != step_.state().step) write_frame();
     draw("last");
-    const bool ended = step_.state().time >= end_ * (1 - 1e-12);
-    return summarise(stopped_ ? "stopped" : "finished", stopped_ ? "signal" : ended ? "" : "steps");
+    const bool ended = has_ended(step_.state().time, origin_.end);
+    const RunSummary summary = summarise(stopped_ ? "stopped" : "finished", stopped_ ? "signal"
+                                                                            : ended  ? ""
+                                                                                     : "steps");
+    if (unsaved) std::rethrow_exception(unsaved);
+    return summary;
   }
 
  private:
+  Run(const Scene& scene, const RunOptions& options, const RunOrigin& origin)
+      : scene_(scene), options_(options), origin_(origin), step_(scene), counters_(scene) {
+    origin_.seeding = seeding_hash(step_.state().particles);
+    counters_.last_sums = step_.sums();
+  }
+
   void loop() {
     auto& state = step_.state();
-    while (state.time < end_ * (1 - 1e-12) && state.step < options_.max_steps) {
+    const double end = origin_.end;
+    while (!has_ended(state.time, end) && state.step < origin_.max_steps) {
       if (options_.stop_signal && *options_.stop_signal) {
         stopped_ = true;
         return;
       }
       const double stable = step_.stable_dt();
-      const double left = end_ - state.time;
+      const double left = end - state.time;
       // Two even steps rather than a last sliver.
       const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
-      if (!(dt > 1e-12 * end_) && dt < left)
+      if (!(dt > 1e-12 * end) && dt < left)
         throw RunFailure(fmt::format("step {}, time {:.9g} s: the time step collapsed to {:.3g} s",
                                      state.step, state.time, dt));
       const auto begin = Clock::now();
       step_.advance(dt);
-      stepping_ += seconds_since(begin);
-      dt_ = dt;
-      dt_min_ = std::min(dt_min_, dt);
-      dt_max_ = std::max(dt_max_, dt);
-      if (history_marks_.due(state.time)) {
+      counters_.stepping += seconds_since(begin);
+      counters_.dt = dt;
+      counters_.dt_min = std::min(counters_.dt_min, dt);
+      counters_.dt_max = std::max(counters_.dt_max, dt);
+      if (counters_.history.due(state.time)) {
         write_row(dt);
-        history_marks_.pass(state.time);
+        counters_.history.pass(state.time);
       }
-      if (frame_marks_.due(state.time)) {
+      if (counters_.frames.due(state.time)) {
         write_frame();
-        frame_marks_.pass(state.time);
+        counters_.frames.pass(state.time);
       }
+      if (is_save_due()) save();
       report();
     }
+  }
+
+  bool is_save_due() const {
+    const CheckpointSpec& when = scene_.output.checkpoint;
+    if (when.steps > 0 && step_.state().step % static_cast<std::uint64_t>(when.steps) == 0) return true;
+    return when.every > 0 && seconds_since(last_save_) >= when.every;
+  }
+
+  /// The run as it stands. The history must be on the disk before a checkpoint that counts its rows.
+  void save() {
+    if (!scene_.output.checkpoint.active) return;
+    counters_.wall = seconds_since(start_);
+    counters_.rows = history_->rows();
+    if (series_) counters_.frame_times = series_->times();
+    CheckpointWriter checkpoint(options_.folder / kCheckpointName);
+    origin_.visit(checkpoint);
+    step_.visit(checkpoint);
+    counters_.visit(checkpoint);
+    history_->sync();
+    checkpoint.keep();
+    saved_step_ = step_.state().step;
+    last_save_ = Clock::now();
   }
 
   void write_row(double dt) {
@@ -135,7 +202,7 @@ class Run {
     row.boundary_work = sums.boundary_work;
     row.body_force_work = sums.body_force_work;
     fill_particle_sums(state.particles, scene_, row);
-    const double elapsed = state.time - last_row_time_;
+    const double elapsed = state.time - counters_.last_row_time;
     const auto mean_force = [&](const auto& now, const auto& before) {
       Vec3 force{};
       for (int d = 0; d < now.size() && elapsed > 0; ++d)
@@ -143,24 +210,25 @@ class Run {
       return force;
     };
     for (std::size_t b = 0; b < sums.boundary_impulse.size(); ++b)
-      row.boundary_force.push_back(mean_force(sums.boundary_impulse[b], last_impulse_.boundary_impulse[b]));
+      row.boundary_force.push_back(
+          mean_force(sums.boundary_impulse[b], counters_.last_sums.boundary_impulse[b]));
     row.rigid_force.assign(scene_.bodies.size(), Vec3{});
     row.rigid_moment.assign(scene_.bodies.size(), Vec3{});
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const auto f = static_cast<std::size_t>(step_.plan().body_field[b]);
       if (!step_.plan().field_rigid[f]) continue;
-      row.rigid_force[b] = mean_force(sums.rigid_impulse[f], last_impulse_.rigid_impulse[f]);
-      row.rigid_moment[b] = mean_force(sums.rigid_moment[f], last_impulse_.rigid_moment[f]);
+      row.rigid_force[b] = mean_force(sums.rigid_impulse[f], counters_.last_sums.rigid_impulse[f]);
+      row.rigid_moment[b] = mean_force(sums.rigid_moment[f], counters_.last_sums.rigid_moment[f]);
     }
     for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
-      row.pair_force.push_back(mean_force(sums.pair_impulse[k], last_impulse_.pair_impulse[k]));
+      row.pair_force.push_back(mean_force(sums.pair_impulse[k], counters_.last_sums.pair_impulse[k]));
     row.pair_friction = sums.pair_friction_work;
     measure_overlap_of_fields();
-    row.overlap = overlap_;
-    last_impulse_ = sums;
-    last_row_time_ = state.time;
-    last_row_step_ = state.step;
-    balance_.add(row);
+    row.overlap = counters_.overlap;
+    counters_.last_sums = sums;
+    counters_.last_row_time = state.time;
+    counters_.last_row_step = state.step;
+    counters_.balance.add(row);
     history_->append(row);
   }
 
@@ -168,13 +236,13 @@ class Run {
     const auto& state = step_.state();
     if constexpr (Dim == 2)
       if (scene_.output.overlap)
-        overlap_ =
+        counters_.overlap =
             measure_overlap(particle_domains(state.particles, state.bodies, state.body_field), state.threads);
   }
 
   void write_frame() {
     if (series_) series_->append(step_.state().particles, step_.state().time);
-    last_frame_step_ = step_.state().step;
+    counters_.last_frame_step = step_.state().step;
   }
 
   void draw(const std::string& which) {
@@ -186,7 +254,7 @@ class Run {
   double throughput() const {
     const auto work =
         static_cast<double>(step_.state().particles.size()) * static_cast<double>(step_.state().step);
-    return stepping_ > 0 ? work / stepping_ : 0;
+    return counters_.stepping > 0 ? work / counters_.stepping : 0;
   }
 
   void report() {
@@ -196,11 +264,13 @@ class Run {
     Progress p;
     p.step = state.step;
     p.time = state.time;
-    p.end = end_;
+    p.end = origin_.end;
     p.wall = seconds_since(start_);
     p.particle_steps_per_second = throughput();
-    p.seconds_left = dt_ > 0 ? (end_ - state.time) / dt_ * p.wall / static_cast<double>(state.step) : 0;
-    p.energy_error = balance_.error();
+    p.seconds_left = counters_.dt > 0 ? (origin_.end - state.time) / counters_.dt * p.wall /
+                                            static_cast<double>(state.step)
+                                      : 0;
+    p.energy_error = counters_.balance.error();
     options_.progress(p);
   }
 
@@ -222,7 +292,7 @@ class Run {
     const auto& state = step_.state();
     RunSummary s;
     s.resolved_yaml = scene_.resolved_yaml;
-    s.scene_name = scene_.file.filename().string();
+    s.scene_name = origin_.scene_name;
     s.status = status;
     s.reason = reason;
     s.dimension = Dim;
@@ -232,44 +302,48 @@ class Run {
     s.nodes_active_peak = step_.nodes_peak();
     s.steps = state.step;
     s.time = state.time;
-    s.dt_min = state.step > 0 ? dt_min_ : 0;
-    s.dt_max = dt_max_;
+    s.dt_min = state.step > 0 ? counters_.dt_min : 0;
+    s.dt_max = counters_.dt_max;
     s.wall = seconds_since(start_);
     s.particle_steps_per_second = throughput();
     s.peak_memory_bytes = peak_memory_bytes();
     for (std::size_t k = 0; k < kPassNames.size(); ++k)
       s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
-    s.seconds.emplace_back("output", std::max(0.0, s.wall - stepping_));
+    s.seconds.emplace_back("output", std::max(0.0, s.wall - counters_.stepping));
     const ContactCounters& c = step_.contact_counters();
     const double mean_iterations =
         c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;
     s.contact = {c.nodes_peak,    c.regressions, c.fallbacks,     c.unconverged,
                  mean_iterations, c.pair_nodes,  c.pair_fallbacks};
-    s.energy_error = balance_.error();
-    s.overlap = overlap_;
+    s.energy_error = counters_.balance.error();
+    s.overlap = counters_.overlap;
     s.checksum = checksum(state.particles);
-    s.command = options_.command;
-    s.overrides = options_.overrides;
+    s.command = origin_.command;
+    s.overrides = origin_.overrides;
+    s.resumes = counters_.resumes;
     write_run_json(options_.folder, s);
     return s;
   }
 
   const Scene& scene_;
   const RunOptions& options_;
+  RunOrigin origin_;
   Step<Dim> step_;
-  double end_;
-  Marks history_marks_, frame_marks_;
+  RunCounters<Dim> counters_;
   std::optional<HistoryFile> history_;
   std::optional<ParticleSeries<Dim>> series_;
-  EnergyBalance balance_;
-  std::optional<Overlap> overlap_;  ///< of the last row
-  Sums<Dim> last_impulse_;
-  double last_row_time_ = 0, dt_ = 0, dt_min_ = std::numeric_limits<double>::infinity(), dt_max_ = 0,
-         stepping_ = 0;
-  std::uint64_t last_row_step_ = ~std::uint64_t{0}, last_frame_step_ = ~std::uint64_t{0};
+  std::uint64_t saved_step_ = ~std::uint64_t{0};  ///< of the last checkpoint
   bool stopped_ = false;
-  Clock::time_point start_ = Clock::now(), last_report_ = start_;
+  Clock::time_point start_ = Clock::now(), last_report_ = start_, last_save_ = start_;
 };
+
+template <int Dim>
+RunSummary go_on(const Scene& scene, const RunOptions& options, const RunOrigin& origin,
+                 std::optional<CheckpointReader>& checkpoint) {
+  Run<Dim> run(scene, options, origin, *checkpoint);
+  checkpoint.reset();  // closes the file, which the next one replaces
+  return run.execute();
+}
 
 }  // namespace
 
@@ -277,6 +351,21 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options) {
   if (options.threads > 0) omp_set_num_threads(options.threads);
   if (scene.dimension() == 3) return Run<3>(scene, options).execute();
   return Run<2>(scene, options).execute();
+}
+
+std::optional<RunSummary> resume_run(const RunOptions& options) {
+  if (options.threads > 0) omp_set_num_threads(options.threads);
+  const std::filesystem::path path = options.folder / kCheckpointName;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw FileError(options.folder.string() +
+                    " holds no checkpoint (output.checkpoint says when one is written)");
+  std::optional<CheckpointReader> checkpoint(path);
+  const Scene scene = read_scene(options.folder / "scene.yaml");
+  const std::optional<RunOrigin> origin = next_origin(scene, options, *checkpoint);
+  if (!origin) return std::nullopt;
+  if (scene.dimension() == 3) return go_on<3>(scene, options, *origin, checkpoint);
+  return go_on<2>(scene, options, *origin, checkpoint);
 }
 
 }  // namespace mpmfast

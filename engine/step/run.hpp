@@ -34,13 +34,19 @@ struct RunOptions {
   std::string command;
   std::vector<std::string> overrides;
   std::function<void(const Progress&)> progress;  ///< may be empty
+  std::function<void(const std::string&)> warn;   ///< may be empty
   const volatile int* stop_signal = nullptr;      ///< non-zero: finish the step and stop
 };
 
-/// Runs a scene and writes everything of design §4 but checkpoints.
-/// Throws FileError (exit 4); RunFailure (exit 3) after the history is closed and run.json says status
-/// "failed".
+/// Runs a scene and writes everything of design §4. Throws FileError (exit 4); RunFailure (exit 3) after the
+/// history is closed and run.json says status "failed": the last checkpoint stays.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
+
+/// Goes on with the run in options.folder from its checkpoint, to the bit as if it had never stopped, up to
+/// options.until or, without it, to where the run was to go. What was written after the checkpoint is cut
+/// off. Returns nothing, and changes nothing, when the run is there already. Throws as run_scene; FileError
+/// also when checkpoint, scene and history do not belong together, SceneError when the scene was spoilt.
+std::optional<RunSummary> resume_run(const RunOptions& options);
 
 /// What `mpmfast check` prints: particles, nodes, fields, columns, passes, memory, time step, steps,
 /// estimated time. Throws SceneError when the scene cannot be set up (a particle outside the grid, a body

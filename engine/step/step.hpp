@@ -7,6 +7,7 @@
 
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/clock.hpp"
 #include "engine/step/conditions.hpp"
@@ -52,6 +53,10 @@ class Step {
   std::uint64_t nodes_peak() const { return nodes_peak_; }
   double stored_energy();
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
+
+  /// All that lasts from one step to the next: filled from an archive, a step of the same scene goes on to
+  /// the bit as the one that was written. Throws what the archive throws.
+  void visit(Archive& archive);
 
  private:
   const State<Dim>& seeded(const Scene& scene);

@@ -4,36 +4,7 @@
 #
 # A broken scene states what it must provoke in lines "# expect: LINE: path: fragment"; the path is empty where the file
 # as a whole is meant.
-set -u
-program=$(realpath "$1")
-source_dir=$(realpath "$2")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-fail() {
-  failures=$((failures + 1))
-  printf 'FAILED: %s\n' "$1"
-  sed 's/^/    /' out err
-}
-
-# run EXPECTED_CODE WORDS…: runs the program; its streams are in the files out and err.
-run() {
-  local expected=$1
-  shift
-  checks=$((checks + 1))
-  "$program" "$@" >out 2>err
-  local code=$?
-  [[ $code == "$expected" ]] || fail "mpmfast $*: exit $code, expected $expected"
-}
-
-# says FILE TEXT: the stream holds the text.
-says() {
-  checks=$((checks + 1))
-  grep -qF -- "$2" "$1" || fail "'$2' is missing from $1"
-}
+source "$(dirname "$0")/helpers.sh"
 
 # Only the streams may lie in the work folder, beside what the caller names.
 wrote_nothing() {
@@ -93,19 +64,6 @@ check_unreadable_scenes() {
   wrote_nothing 'an unreadable scene'
 }
 
-write_good_scene() {
-  cat >scene.yaml <<'SCENE'
-title: a falling block
-space: plane_strain
-grid: {size: [10 mm, 10 mm], cell: 1 mm}
-time: {end: 1 us}
-materials: {steel: {model: linear_elastic, density: 7.85 g/cm^3, young: 210 GPa, poisson: 0.3}}
-bodies:
-  - {name: block, box: {from: [1 mm, 1 mm], to: [4 mm, 3 mm]}, material: steel, velocity: [0, -1 m/s]}
-output: {frames: 1, history: 2}
-SCENE
-}
-
 check_words() {
   run 0 --version
   says out 'mpmfast '
@@ -113,7 +71,7 @@ check_words() {
   says out 'run'
   run 2
   run 2 rnu scene.yaml
-  says err "unknown command 'rnu' (one of run, check, study, plot, list). Did you mean 'run'?"
+  says err "unknown command 'rnu' (one of run, resume, check, study, plot, list). Did you mean 'run'?"
   run 2 run
   says err 'SCENE is required'
   run 2 run scene.yaml --thread 2
@@ -129,6 +87,9 @@ check_words() {
   run 2 run scene.yaml --set cfl
   says err '--set: not an override (KEY=VALUE'
   run 2 check scene.yaml another.yaml
+  run 2 resume
+  says err 'DIR is required'
+  run 2 resume folder --until now
   wrote_nothing 'a wrong command line'
 }
 
@@ -177,27 +138,6 @@ check_failed_run() {
   grep -q '"failed"' fallen/run.json || fail 'run.json does not say failed'
   run 4 run scene.yaml --out /dev/null/folder
   rm -rf fallen
-}
-
-check_signals() {
-  local signal code
-  for signal in INT TERM; do
-    "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' \
-      --out "stopped_$signal" --progress none >out 2>err &
-    local process=$!
-    for _ in $(seq 100); do  # the folder appears once the run has begun
-      [[ -d stopped_$signal ]] && break
-      sleep 0.1
-    done
-    sleep 0.3
-    kill -s "$signal" "$process"
-    wait "$process"
-    code=$?
-    checks=$((checks + 1))
-    [[ $code == $((128 + $(kill -l "$signal"))) ]] || fail "SIG$signal: exit $code"
-    grep -q '"stopped"' "stopped_$signal/run.json" || fail "SIG$signal: run.json does not say stopped"
-    rm -rf "stopped_$signal"
-  done
 }
 
 # Two variants x two values; one variant throws its block out of the grid.
@@ -330,7 +270,6 @@ check_lists
 check_overrides
 check_output_folder
 check_failed_run
-check_signals
 check_study
 check_stopped_study
 check_study_without_gnuplot

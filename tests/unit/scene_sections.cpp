@@ -244,3 +244,28 @@ TEST_CASE("the overlap of bodies is measured on request, in 2-D") {
         "scene.yaml:8:19: output.overlap: the overlap of bodies is measured in 2-D only, got 'true'");
   CHECK_FALSE(parse(solid_scene() + "output: {overlap: false}\n").output.overlap);
 }
+
+TEST_CASE("checkpoints are asked for by wall time, by steps, by both or not at all") {
+  const auto of = [](const std::string& value) {
+    const Scene scene = parse(plain_scene() + "output: {checkpoint: " + value + "}\n");
+    CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+    return scene.output.checkpoint;
+  };
+  const CheckpointSpec plain = parse(plain_scene()).output.checkpoint;
+  CHECK((plain.active && plain.every == 600 && plain.steps == 0));
+  CHECK(of("{every: 90 s}").every == 90);
+  CHECK(of("{every: 90 s}").steps == 0);
+  CHECK(of("{steps: 50}").steps == 50);
+  CHECK(of("{steps: 50}").every == 0);
+  CHECK((of("{every: 1 h, steps: 7}").every == 3600 && of("{every: 1 h, steps: 7}").steps == 7));
+  CHECK((of("{every: none}").active && of("{every: none}").every == 0));
+  CHECK_FALSE(of("none").active);
+  const auto wrong = [](const std::string& value) {
+    return fault(plain_scene() + "output: {checkpoint: " + value + "}\n");
+  };
+  CHECK(holds(wrong("{every: 5 mm}"), "output.checkpoint.every: 'mm' is a length"));
+  CHECK(holds(wrong("{every: 0 s}"), "output.checkpoint.every: must be positive"));
+  CHECK(holds(wrong("{steps: 0}"), "output.checkpoint.steps"));
+  CHECK(holds(wrong("{step: 5}"), "Did you mean 'steps'?"));
+  CHECK(holds(wrong("often"), "none or a map {every, steps}"));
+}

@@ -93,6 +93,17 @@ void add_progress(CLI::App& command, RawOptions& raw) {
       ->type_name("auto|plain|none");
 }
 
+void add_until(CLI::App& command, RawOptions& raw, const std::string& says) {
+  command.add_option("--until", raw.until, says)->check(CLI::Validator(check_until, ""))->type_name("TIME");
+}
+
+void add_resume_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
+  add_until(command, raw, "Stop at this time; where the run was to end if not given");
+  add_threads(command, raw);
+  add_progress(command, raw);
+}
+
 void add_study_options(CLI::App& command, RawOptions& raw) {
   command.add_option("STUDY", raw.scene, "The study, a YAML file")->required()->type_name("");
   add_out(command, raw, "Output folder; runs/<study> if not given. What has ended there is not run again");
@@ -116,19 +127,21 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *check, *study, *plot, *list;
+  CLI::App *run, *resume, *check, *study, *plot, *list;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
                          fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
     app.require_subcommand(1);
     run = app.add_subcommand("run", "Run a scene");
+    resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
     study = app.add_subcommand("study", "Run the variants of a scene; table and chart of error against cost");
     plot = app.add_subcommand("plot", "Draw the history of a run");
     list = app.add_subcommand("list", "What this build offers");
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
+    add_resume_options(*resume, raw);
     add_study_options(*study, raw);
     add_plot_options(*plot, raw);
     add_out(*run, raw, "Output folder; runs/<scene> if not given");
@@ -136,9 +149,7 @@ struct Commands {
     run->add_option("--steps", raw.steps, "Stop after so many steps")
         ->check(CLI::Validator(check_steps, ""))
         ->type_name("N");
-    run->add_option("--until", raw.until, "Stop at this time, such as \"5 us\"")
-        ->check(CLI::Validator(check_until, ""))
-        ->type_name("TIME");
+    add_until(*run, raw, "Stop at this time, such as \"5 us\"");
     add_progress(*run, raw);
     run->add_flag("--force", raw.force, "Replace what an earlier run left in the output folder");
     list->add_option("TOPIC", raw.topic, fmt::format("One of {}", fmt::join(catalogue_topics(), ", ")))
@@ -188,11 +199,12 @@ std::string shell_text(int count, const char* const* arguments) {
 
 CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   CommandLine line;
-  line.command = *commands.run     ? Command::run
-                 : *commands.check ? Command::check
-                 : *commands.study ? Command::study
-                 : *commands.plot  ? Command::plot
-                                   : Command::list;
+  line.command = *commands.run      ? Command::run
+                 : *commands.resume ? Command::resume
+                 : *commands.check  ? Command::check
+                 : *commands.study  ? Command::study
+                 : *commands.plot   ? Command::plot
+                                    : Command::list;
   line.scene = raw.scene;
   line.out = raw.out;
   line.topic = raw.topic;

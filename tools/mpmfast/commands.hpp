@@ -7,6 +7,7 @@
 namespace mpmfast {
 
 int run_command(const CommandLine& line);
+int resume_command(const CommandLine& line);
 int check_command(const CommandLine& line);
 int study_command(const CommandLine& line);
 int plot_command(const CommandLine& line);

@@ -20,6 +20,8 @@ int perform(const CommandLine& line) {
   switch (line.command) {
     case Command::run:
       return run_command(line);
+    case Command::resume:
+      return resume_command(line);
     case Command::check:
       return check_command(line);
     case Command::study:

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <optional>
 
 #include "commands.hpp"
 #include "engine/step/run.hpp"
@@ -66,10 +68,41 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
   fmt::print("energy error     {:.3g}\n", summary.energy_error);
   fmt::print("checksum         {}\n", summary.checksum);
   print_files(folder);
+  std::error_code error;
+  if (summary.status == "stopped" && fs::exists(folder / "checkpoint.h5", error))
+    fmt::print("to go on         mpmfast resume {}\n", folder.string());
 }
 
 fs::path output_folder(const CommandLine& line) {
   return line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
+}
+
+/// @param run  starts or resumes; nothing where there is nothing to do
+int run_and_report(const CommandLine& line, RunOptions& options,
+                   const std::function<std::optional<RunSummary>()>& run) {
+  catch_stop_signals();
+  ProgressDisplay display(line.progress);
+  options.threads = line.threads;
+  options.until = line.until;
+  options.command = line.text;
+  options.progress = [&](const Progress& progress) { display.show(progress); };
+  options.stop_signal = stop_signal();
+  std::optional<RunSummary> summary;
+  try {
+    summary = run();
+  } catch (...) {
+    display.finish();
+    throw;
+  }
+  display.finish();
+  if (!summary) {
+    fmt::print("the run in {} has come so far already; a later --until TIME lets it go on\n",
+               options.folder.string());
+    return 0;
+  }
+  print_summary(*summary, options.folder);
+  const int signal = *stop_signal();
+  return signal != 0 && summary->status == "stopped" ? kExitSignal + signal : 0;
 }
 
 }  // namespace
@@ -84,29 +117,19 @@ int run_command(const CommandLine& line) {
                folder.string());
     return kExitWrongInput;
   }
-  catch_stop_signals();
-  ProgressDisplay display(line.progress);
   RunOptions options;
   options.folder = folder;
   options.force = line.force;
-  options.threads = line.threads;
   options.max_steps = line.steps;
-  options.until = line.until;
-  options.command = line.text;
   options.overrides = line.set;
-  options.progress = [&](const Progress& progress) { display.show(progress); };
-  options.stop_signal = stop_signal();
-  RunSummary summary;
-  try {
-    summary = run_scene(scene, options);
-  } catch (...) {
-    display.finish();
-    throw;
-  }
-  display.finish();
-  print_summary(summary, folder);
-  const int signal = *stop_signal();
-  return signal != 0 && summary.status == "stopped" ? kExitSignal + signal : 0;
+  return run_and_report(line, options, [&] { return std::optional(run_scene(scene, options)); });
+}
+
+int resume_command(const CommandLine& line) {
+  RunOptions options;
+  options.folder = line.scene;
+  options.warn = [](const std::string& warning) { fmt::print(stderr, "mpmfast: {}\n", warning); };
+  return run_and_report(line, options, [&] { return resume_run(options); });
 }
 
 int check_command(const CommandLine& line) {

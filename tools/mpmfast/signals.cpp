@@ -20,6 +20,7 @@ void remember(int number) {
 }  // namespace
 
 void catch_stop_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, as a full disk is
   std::signal(SIGINT, remember);
   std::signal(SIGTERM, remember);
 }

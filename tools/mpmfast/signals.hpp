@@ -1,6 +1,7 @@
 #pragma once
 
-/// @file SIGINT and SIGTERM ask the run to stop after the step; a second one kills.
+/// @file SIGINT and SIGTERM ask the run to stop after the step; a second one kills. A limit on the size
+/// of files (SIGXFSZ) is left to the write that meets it.
 
 namespace mpmfast {
 

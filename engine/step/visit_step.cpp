@@ -1,0 +1,90 @@
+/// What lasts from one step to the next, all of it and nothing else: what a step computes before it reads it
+/// (nodes, contact nodes, speeds of boundaries and rigid bodies) is not here.
+
+#include <fmt/format.h>
+
+#include "engine/errors.hpp"
+#include "engine/step/step.hpp"
+#include "engine/step/visit_sums.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+template <int Dim>
+void visit_particles(Archive& archive, Particles<Dim>& particles) {
+  const std::size_t n = particles.size();
+  archive.column("particles/id", particles.id().data(), n);
+  archive.column("particles/body", particles.body().data(), n);
+  for (const Quantity q : particles.quantities()) {
+    const int components = Particles<Dim>::components(q);
+    for (int k = 0; k < components; ++k) {
+      const std::string_view name = kQuantityTable[static_cast<std::size_t>(q)].name;
+      archive.column(
+          components > 1 ? fmt::format("particles/{}_{}", name, k) : fmt::format("particles/{}", name),
+          particles.column(q, k), n);
+    }
+  }
+}
+
+void visit_counters(Archive& archive, ContactCounters& c) {
+  archive.number("contact/nodes_peak", c.nodes_peak);
+  archive.number("contact/regressions", c.regressions);
+  archive.number("contact/iterations", c.iterations);
+  archive.number("contact/fallbacks", c.fallbacks);
+  archive.number("contact/unconverged", c.unconverged);
+  archive.number("contact/pair_nodes", c.pair_nodes);
+  archive.number("contact/pair_fallbacks", c.pair_fallbacks);
+}
+
+}  // namespace
+
+/// The next step asks the last one's entries for their touch and their planes alone (remember).
+template <int Dim>
+void Contact<Dim>::visit(Archive& archive) {
+  visit_counters(archive, list_.counters);
+  if (!has_memory()) return;
+  archive.list("contact/keys", keys_);
+  list_.entries.resize(keys_.size());
+  std::vector<std::uint8_t> touching(keys_.size());
+  std::vector<double> planes((Dim + 1) * keys_.size());
+  const auto for_each_entry = [&](const auto& f) {
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+      f(list_.entries[k], touching[k], planes.data() + (Dim + 1) * k);
+  };
+  for_each_entry([](const auto& entry, std::uint8_t& touch, double* plane) {
+    touch = entry.touching;
+    std::copy(entry.plane, entry.plane + Dim + 1, plane);
+  });
+  archive.column("contact/touching", touching.data(), touching.size());
+  archive.column("contact/planes", planes.data(), planes.size());
+  for_each_entry([](auto& entry, std::uint8_t touch, const double* plane) {
+    entry.touching = touch != 0;
+    std::copy(plane, plane + Dim + 1, entry.plane);
+  });
+}
+
+template <int Dim>
+void Step<Dim>::visit(Archive& archive) {
+  archive.number("step/time", state_.time);
+  archive.number("step/number", state_.step);
+  archive.number("step/fastest", fastest_);
+  archive.number("step/travelled", travelled_);
+  archive.flag("step/sort_due", sort_due_);
+  archive.number("step/nodes_peak", nodes_peak_);
+  archive.column("step/seconds", clock_.seconds().data(), clock_.seconds().size());
+  visit_sums(archive, "sums", sums_);
+  contact_.visit(archive);
+  visit_particles(archive, state_.particles);
+  state_.tiling.visit(archive, state_.particles, state_.body_field);
+  if (!archive.reading()) return;
+  state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
+  conditions_.forget_nodes();
+}
+
+template void Contact<2>::visit(Archive&);
+template void Contact<3>::visit(Archive&);
+template void Step<2>::visit(Archive&);
+template void Step<3>::visit(Archive&);
+
+}  // namespace mpmfast

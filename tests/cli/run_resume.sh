@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# Checks how a run ends before its time, and goes on: signals, resume, a full disk, a folder that is removed.
+# usage: run_resume.sh MPMFAST SOURCE_DIR
+source "$(dirname "$0")/helpers.sh"
+
+check_signals() {
+  local signal code
+  for signal in INT TERM; do
+    "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' \
+      --out "stopped_$signal" --progress none >out 2>err &
+    local process=$!
+    for _ in $(seq 100); do  # the folder appears once the run has begun
+      [[ -d stopped_$signal ]] && break
+      sleep 0.1
+    done
+    sleep 0.3
+    kill -s "$signal" "$process"
+    wait "$process"
+    code=$?
+    checks=$((checks + 1))
+    [[ $code == $((128 + $(kill -l "$signal"))) ]] || fail "SIG$signal: exit $code"
+    grep -q '"stopped"' "stopped_$signal/run.json" || fail "SIG$signal: run.json does not say stopped"
+    says out "mpmfast resume stopped_$signal"
+    "$program" resume "stopped_$signal" --progress none >out 2>err &
+    process=$!
+    sleep 0.5
+    run 4 resume "stopped_$signal"
+    says err "stopped_$signal belongs to a run that goes on now"
+    kill -s "$signal" "$process"
+    wait "$process"
+    code=$?
+    [[ $code == $((128 + $(kill -l "$signal"))) ]] || fail "SIG$signal after resume: exit $code"
+    grep -q '"resumes": 1' "stopped_$signal/run.json" || fail "SIG$signal: no run that was resumed once"
+    rm -rf "stopped_$signal"
+  done
+}
+
+# The last frame and pictures of so many particles take longer than the second signal.
+check_second_interrupt() {
+  "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' --set 'grid.cell=0.01 mm' \
+    --out interrupted --progress none >out 2>err &
+  local process=$! code
+  for _ in $(seq 100); do
+    [[ -f interrupted/picture_first_pressure.png ]] && break
+    sleep 0.1
+  done
+  kill -s INT "$process"
+  sleep 0.05
+  kill -s INT "$process"
+  wait "$process"
+  code=$?
+  checks=$((checks + 1))
+  [[ $code == 130 && ! -f interrupted/run.json ]] || fail "two interrupts: exit $code, or the run ended in order"
+  rm -rf interrupted
+}
+
+check_resume() {
+  local whole
+  run 0 run scene.yaml --out whole --progress none
+  whole=$(grep '"checksum"' whole/run.json)
+  run 0 run scene.yaml --out parts --until '0.3 us' --progress none
+  run 0 resume parts --until '0.6 us' --progress none
+  cp parts/run.json run_before.json
+  run 0 resume parts --until '0.5 us'
+  says out 'the run in parts has come so far already'
+  cmp -s parts/run.json run_before.json || fail 'a resume with nothing to do wrote run.json'
+  run 0 resume parts --threads 2 --progress none
+  says out 'finished at 1 us'
+  run 0 resume parts
+  run 0 run scene.yaml --out stepped --steps 2 --progress none
+  run 0 resume stepped --progress none
+  [[ $(grep '"checksum"' stepped/run.json) == "$whole" ]] || fail 'a resumed run has another checksum'
+  cmp -s whole/history.csv stepped/history.csv || fail 'a resumed run has another history'
+  run 4 resume nowhere
+  says err 'nowhere holds no checkpoint'
+  run 0 run scene.yaml --out spoilt --steps 2 --progress none
+  cp spoilt/scene.yaml scene_before.yaml
+  sed -i 's/cfl: 0.5/cfl: 0.4/' spoilt/scene.yaml
+  run 4 resume spoilt
+  says err 'spoilt/scene.yaml was altered'
+  cp scene_before.yaml spoilt/scene.yaml
+  cp spoilt/checkpoint.h5 checkpoint_before.h5
+  truncate -s -1 spoilt/checkpoint.h5
+  run 4 resume spoilt
+  says err 'spoilt/checkpoint.h5 is truncated'
+  cp checkpoint_before.h5 spoilt/checkpoint.h5
+  printf x | dd of=spoilt/checkpoint.h5 bs=1 seek=3000 conv=notrunc status=none
+  run 4 resume spoilt
+  says err 'spoilt/checkpoint.h5 was altered'
+  rm -rf whole parts stepped spoilt run_before.json scene_before.yaml checkpoint_before.h5
+}
+
+# No file may grow beyond 40 KiB: the checkpoint does, after history and frames.
+check_full_disk() {
+  checks=$((checks + 1))
+  (
+    ulimit -f 40
+    "$program" run scene.yaml --out full --progress none --set grid.cell='0.1 mm' --set output.picture=body >out 2>err
+  )
+  local code=$?
+  [[ $code == 4 ]] || fail "a full disk: exit $code"
+  says err 'cannot write full/'
+  says err 'File too large'
+  [[ -z $(find full -name '*.tmp') && ! -e full/checkpoint.h5 ]] || fail 'a full disk leaves half a file'
+  [[ -z $(tail -c 1 full/history.csv) ]] || fail 'a full disk leaves half a row'
+  rm -rf full
+  # What was good before the disk was full goes on when it is not.
+  run 0 run scene.yaml --out whole --progress none
+  run 0 run scene.yaml --out filled --steps 2 --progress none
+  (
+    ulimit -f 16
+    "$program" resume filled --progress none >out 2>err
+  )
+  code=$?
+  [[ $code == 4 ]] || fail "a full disk after resume: exit $code"
+  run 0 resume filled --progress none
+  cmp -s whole/history.csv filled/history.csv || fail 'a run resumed after a full disk has another history'
+  rm -rf whole filled
+}
+
+check_removed_folder() {
+  "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' --set output.history=100000 \
+    --set output.frames=0 --out removed --progress none >out 2>err &
+  local process=$! code
+  for _ in $(seq 100); do
+    [[ -f removed/picture_first_pressure.png ]] && break
+    sleep 0.1
+  done
+  rm -rf removed
+  wait "$process"
+  code=$?
+  checks=$((checks + 1))
+  [[ $code == 4 && ! -e removed ]] || fail "a removed folder: exit $code"
+  says err 'removed/history.csv was removed while the run went on'
+}
+
+write_good_scene
+check_signals
+check_second_interrupt
+check_resume
+check_full_disk
+check_removed_folder
+printf '%d checks, %d failures\n' "$checks" "$failures"
+[[ $failures == 0 ]]
