@@ -138,6 +138,16 @@ struct RunSummary {
   std::uint64_t resumes = 0;           ///< how often the run went on from a checkpoint
   std::string resolved_yaml;           ///< Scene::resolved_yaml, of which run.json holds the hash
 };
+
+// Beyond these a run is worth a second look; the compaction of the ellipses stays below each by a factor of
+// four.
+inline constexpr double kMostUnconverged = 0.01;    ///< of the regressions
+inline constexpr double kMostFallbacks = 0.2;       ///< of the regressions
+inline constexpr double kMostPairFallbacks = 0.05;  ///< of the nodes that solve pairs
+inline constexpr double kMostDrift = 0.1;           ///< of the energy at work
+
+/// What the figures of a run give reason to doubt, a sentence each with the figure and a way out.
+std::vector<std::string> run_warnings(const RunSummary& summary);
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
 

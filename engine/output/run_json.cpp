@@ -78,6 +78,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
     json["inside_m2"] = summary.overlap->inside;
     json["particles_inside"] = summary.overlap->particles_inside;
   }
+  json["warnings"] = run_warnings(summary);
   json["checksum"] = summary.checksum;
   // A file name need not be UTF-8: what is not is replaced rather than losing the whole summary.
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

@@ -1,20 +1,9 @@
 #!/usr/bin/env bash
 # Checks bench/run with a benchmark program that says what it is told, and bench/compare with tiny sets of figures.
 # usage: run_bench.sh SOURCE_DIR
-set -u
 command -v python3 >/dev/null || { echo 'python3 is not installed'; exit 77; }
-source_dir=$(realpath "$1")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failures=0
-checks=0
-
-fail() {
-  failures=$((failures + 1))
-  printf 'FAILED: %s\n' "$1"
-  sed 's/^/    /' out err
-}
+root=$(realpath "$1")
+source "$root/tests/cli/helpers.sh" "$root/bench/run" "$root"
 
 # run EXPECTED_CODE PROGRAM WORDS…
 run() {
@@ -24,11 +13,6 @@ run() {
   "$source_dir/bench/$1" "${@:2}" >out 2>err
   code=$?
   [[ $code == "$expected" ]] || fail "bench/$*: exit $code, expected $expected"
-}
-
-says() {
-  checks=$((checks + 1))
-  grep -qF -- "$2" "$1" || fail "'$2' is missing from $1"
 }
 
 # A memory bound of 10 GB/s and an arithmetic one of 20 Gflop/s; the pass does 50 million particles a second with 100 bytes

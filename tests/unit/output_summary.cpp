@@ -127,3 +127,29 @@ TEST_CASE(
   CHECK_THROWS_AS(prepare_folder(file, scene, true), FileError);
   CHECK_THROWS_AS(prepare_folder(file / "below", scene, true), FileError);
 }
+
+TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing else") {
+  RunSummary good;
+  good.contact.regressions = 1000;
+  good.contact.unconverged = 10;
+  good.contact.fallbacks = 200;
+  good.contact.pair_nodes = 100;
+  good.contact.pair_fallbacks = 5;
+  good.energy_error = -0.1;
+  CHECK(run_warnings(good).empty());
+  CHECK(run_warnings(RunSummary{}).empty());
+  RunSummary doubtful = good;
+  doubtful.contact.unconverged = 11;
+  doubtful.contact.fallbacks = 250;
+  doubtful.contact.pair_fallbacks = 6;
+  doubtful.energy_error = -0.25;
+  const auto warnings = run_warnings(doubtful);
+  REQUIRE(warnings.size() == 4);
+  const char* const said[] = {"1.1 % of the contact normals did not converge",
+                              "25 % of the contact normals fell back", "on 6 % of the nodes",
+                              "the energy balance drifted by -25 %"};
+  for (std::size_t k = 0; k < 4; ++k) CHECK(warnings[k].find(said[k]) == 0);
+  const TemporaryFolder folder;
+  write_run_json(folder.path(), doubtful);
+  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 4);
+}

@@ -7,6 +7,7 @@
 #include "engine/errors.hpp"
 #include "mpmfast_version.hpp"
 #include "tests/unit/study_fixture.hpp"
+#include "tools/study/other_program.hpp"
 #include "tools/study/report.hpp"
 #include "tools/study/run_study.hpp"
 
@@ -151,8 +152,10 @@ TEST_CASE("another program can run a variant; its run counts until the program c
   const std::string study =
       "scene: scene.yaml\nvariants: [{name: a, program: other}]\n"
       "error: {quantity: block.vy, compare: final, expected: 0}\n";
-  CHECK(folder.faults(study).at(0).find("2: variants.0.program: no program '") == 0);
+  CHECK_THROWS_WITH_AS(check_programs(folder.study(study)),
+                       doctest::Contains("variants.0.program: no program '"), SceneError);
   make_program("0");
+  CHECK_NOTHROW(check_programs(folder.study(study)));
   const StudyRuns runs = expand_study(folder.study(study));
   StudyOptions options;
   options.folder = folder.path() / "out";

@@ -6,6 +6,7 @@
 #include "exit_codes.hpp"
 #include "progress_display.hpp"
 #include "signals.hpp"
+#include "tools/study/other_program.hpp"
 #include "tools/study/report.hpp"
 #include "tools/study/run_study.hpp"
 
@@ -47,6 +48,7 @@ int study_command(const CommandLine& line) {
                options.folder.string());
     return kExitWrongInput;
   }
+  check_programs(study);
   try_set_up(runs, options);
   catch_stop_signals();
   prepare_study_folder(study, options.folder);

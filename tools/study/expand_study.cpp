@@ -1,15 +1,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <set>
 #include <utility>
 
 #include "engine/output/output.hpp"
 #include "engine/scene/suggest.hpp"
+#include "other_program.hpp"
 #include "study.hpp"
 
 namespace mpmfast {
@@ -93,7 +92,7 @@ class Expansion {
       const Choice& chosen = study_.axes[k].choices[choice[k]];
       settings.insert(settings.end(), chosen.set.begin(), chosen.set.end());
       for (const auto& [constant, value] : chosen.let) run.let[constant] = value;
-      if (chosen.program) run.program = find_program(*chosen.program);
+      if (chosen.program) run.program = program_path(study_, *chosen.program);
       name += (name.empty() ? "" : ", ") + chosen.name;
     }
     settings.insert(settings.end(), more.begin(), more.end());
@@ -103,15 +102,6 @@ class Expansion {
     for (int n = 2; !folders_.insert(run.folder).second; ++n) run.folder = fmt::format("{}_{}", wanted, n);
     read(settings, run);
     return run;
-  }
-
-  /// Relative to the study, as its scene is.
-  std::filesystem::path find_program(const Setting& asked) {
-    const auto path = std::filesystem::absolute(study_.file.parent_path() / asked.override.second);
-    if (access(path.c_str(), X_OK) != 0 || std::filesystem::is_directory(path))
-      problems_.add(asked.place, asked.path,
-                    fmt::format("no program '{}' that could be run", path.lexically_normal().string()));
-    return path.lexically_normal();
   }
 
   void read(const std::vector<Setting>& settings, StudyRun& run) {

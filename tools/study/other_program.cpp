@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -13,6 +14,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/hash.hpp"
+#include "engine/scene/diagnostic.hpp"
 
 extern char** environ;
 
@@ -35,6 +37,23 @@ int wait_for(pid_t child) {
 }
 
 }  // namespace
+
+fs::path program_path(const Study& study, const Setting& asked) {
+  return fs::absolute(study.file.parent_path() / asked.override.second).lexically_normal();
+}
+
+void check_programs(const Study& study) {
+  Problems problems({study.file.string()});
+  for (const Axis& axis : study.axes)
+    for (const Choice& choice : axis.choices) {
+      if (!choice.program) continue;
+      const fs::path path = program_path(study, *choice.program);
+      if (access(path.c_str(), X_OK) != 0 || fs::is_directory(path))
+        problems.add(choice.program->place, choice.program->path,
+                     fmt::format("no program '{}' that could be run", path.string()));
+    }
+  if (problems.count() > 0) throw SceneError(problems.sorted());
+}
 
 std::string order_text(const StudyRun& run) {
   std::ifstream file(run.program, std::ios::binary);

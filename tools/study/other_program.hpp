@@ -9,6 +9,12 @@
 
 namespace mpmfast {
 
+/// Where a program lies that a study names: relative to the study, as its scene is.
+std::filesystem::path program_path(const Study& study, const Setting& asked);
+
+/// Throws SceneError if one of the study's programs is not there; a study can be read without them.
+void check_programs(const Study& study);
+
 /// What run.program is asked to run, and a hash of that program: an earlier run counts if neither has
 /// changed. Throws FileError when the program cannot be read.
 std::string order_text(const StudyRun& run);

@@ -1,0 +1,43 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/output/output.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+}  // namespace
+
+std::vector<std::string> run_warnings(const RunSummary& summary) {
+  std::vector<std::string> out;
+  const auto& contact = summary.contact;
+  if (const double part = share(contact.unconverged, contact.regressions); part > kMostUnconverged)
+    out.push_back(
+        fmt::format("{:.2g} % of the contact normals did not converge (usual: below {:g} %); a larger "
+                    "contact.tolerance or contact.max_iterations may help",
+                    100 * part, 100 * kMostUnconverged));
+  if (const double part = share(contact.fallbacks, contact.regressions); part > kMostFallbacks)
+    out.push_back(fmt::format(
+        "{:.2g} % of the contact normals fell back on a simpler method (usual: below {:g} %): the "
+        "clouds of touching bodies overlap, or hold too few particles",
+        100 * part, 100 * kMostFallbacks));
+  if (const double part = share(contact.pair_fallbacks, contact.pair_nodes); part > kMostPairFallbacks)
+    out.push_back(fmt::format(
+        "on {:.2g} % of the nodes of three and more fields the pairs were not solved for one by one "
+        "(usual: below {:g} %)",
+        100 * part, 100 * kMostPairFallbacks));
+  if (std::abs(summary.energy_error) > kMostDrift)
+    out.push_back(
+        fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "
+                    "time.cfl, or another method.update, may help",
+                    100 * summary.energy_error));
+  return out;
+}
+
+}  // namespace mpmfast
