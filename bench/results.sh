@@ -66,6 +66,7 @@ names="$*"
   echo "Speed against error of the methods on the reference cases. Made by \`bench/results.sh\`; the scenes and the studies"
   echo "are in \`configs/\`, the goals and the tests in \`tests/validation/\`."
   for study in "$root"/configs/studies/*.yaml; do
+    grep -q "^map:" "$study" && continue  # bench/stability.sh
     name=$(basename "$study" .yaml)
     if wanted "$name"; then new_section "$name"; else old_section "$name"; fi
   done

@@ -70,22 +70,29 @@ Hdf5Handle access() {
 
 }  // namespace
 
+Hdf5File::Lock Hdf5File::lock() {
+  static std::recursive_mutex one_at_a_time;
+  return Lock(one_at_a_time);
+}
+
 Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t room) {
+  Lock held = lock();
   quieten();
   const Hdf5Handle creation = properties(H5P_FILE_CREATE), how = access();
   H5Pset_userblock(creation.id(), room);
   H5Pset_obj_track_times(creation.id(), false);
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), how.id()), H5Fclose);
   if (!file.valid()) fail("write", path);
-  return {path, std::move(file)};
+  return {path, std::move(file), std::move(held)};
 }
 
 Hdf5File Hdf5File::open(const std::filesystem::path& path) {
+  Lock held = lock();
   quieten();
   const Hdf5Handle how = access();
   Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, how.id()), H5Fclose);
   if (!file.valid()) fail("read", path);
-  return {path, std::move(file)};
+  return {path, std::move(file), std::move(held)};
 }
 
 void Hdf5File::write(const std::string& name, NumberKind kind, const void* values, std::size_t n) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -51,10 +52,14 @@ class Hdf5File {
   void close();
 
  private:
-  Hdf5File(std::filesystem::path path, Hdf5Handle file) : path_(std::move(path)), file_(std::move(file)) {}
+  using Lock = std::unique_lock<std::recursive_mutex>;
+  static Lock lock();
+  Hdf5File(std::filesystem::path path, Hdf5Handle file, Lock lock)
+      : path_(std::move(path)), lock_(std::move(lock)), file_(std::move(file)) {}
   Hdf5Handle dataset(const std::string& name) const;
 
   std::filesystem::path path_;
+  Lock lock_;  ///< the library knows one thread at a time; held as long as the file is open
   Hdf5Handle file_;
 };
 

@@ -23,7 +23,7 @@ void plan_method(const MethodSpec& method, Plan& plan) {
   plan.strain_first = method.strain == StrainKind::first ? 1 : method.strain == StrainKind::last ? 0 : 0.5;
   plan.force_with_mass =
       plan.strain_first == 0 && plan.update != ParticleUpdate::apic && plan.depth != Depth::hoop;
-  static_assert(kAllTerms == MethodSpec::kAllTerms);
+  static_assert(kAllTerms == MethodSpec::kAllTerms && kInverse == MethodSpec::kInverse);
   plan.deformation_terms = method.deformation_terms;
 }
 

@@ -84,6 +84,19 @@ double sum_by_id(const State<Dim>& state, const F& density) {
   return sum;
 }
 
+/// Of a body that may spin.
+Vec3 velocity_at(const BodySpec& body, const Vec3& x) {
+  Vec3 out = body.velocity;
+  if (!body.rotation) return out;
+  const Vec3 &about = body.rotation->about, &axis = body.rotation->axis;
+  const double speed = body.rotation->speed.value.front();
+  for (std::size_t d = 0; d < 3; ++d) {
+    const std::size_t e = (d + 1) % 3, f = (d + 2) % 3;
+    out[d] += speed * (axis[e] * (x[f] - about[f]) - axis[f] * (x[e] - about[e]));
+  }
+  return out;
+}
+
 /// A domain that lies at an angle (about z) is a turned one: F = R.
 template <int Dim>
 void turn_domain(Particles<Dim>& particles, std::size_t p, double angle) {
@@ -152,7 +165,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
         particles.column(Quantity::position, d)[p] = x[static_cast<std::size_t>(d)];
         if (particles.has(Quantity::reference_position))
           particles.column(Quantity::reference_position, d)[p] = x[static_cast<std::size_t>(d)];
-        particles.column(Quantity::velocity, d)[p] = scene.bodies[b].velocity[static_cast<std::size_t>(d)];
+        particles.column(Quantity::velocity, d)[p] =
+            velocity_at(scene.bodies[b], x)[static_cast<std::size_t>(d)];
         particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
       }
       if (!seeds[b].angle.empty()) turn_domain(particles, p, seeds[b].angle[k]);

@@ -70,7 +70,7 @@ std::vector<CatalogueEntry> output_keys() {
           {"checkpoint",
            fmt::format("none or {{every: TIME of wall = {} min, steps: N}}", plain.checkpoint.every / 60),
            "when the state is written for `mpmfast resume`, beside at a signal and at the end"},
-          {"picture", "= " + plain.picture, "what the second picture shows (see pictures)"}};
+          {"picture", "= " + plain.picture, "what the second picture shows (see pictures); none: no pictures"}};
 }
 
 }  // namespace

@@ -62,9 +62,11 @@ inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
 }};
 
 /// What is kept of exp(Δt ∇v) after the identity.
-inline constexpr std::array<Word<int>, 3> kDeformationTerms{{
+inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
     {1, "1", "F advances by I + dt grad v"},
-    {2, "2", "the same with the square of dt grad v (default)"},
+    {2, "2", "the same with the square of dt grad v (default of strain last and average)"},
+    {MethodSpec::kInverse, "inverse",
+     "F advances by (I - dt grad v)^-1: exact for a gradient at the end of the motion (default of strain first)"},
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
@@ -139,9 +141,9 @@ inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
 }};
 
 /// Fields that output.picture can show.
-inline constexpr std::array<const char*, 10> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy",
+inline constexpr std::array<const char*, 11> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy",
                                                        "stress_zz", "stress_xy", "stress_yz", "stress_xz",
-                                                       "speed",     "body"};
+                                                       "speed",     "body",      "none"};
 
 struct FaceName {
   const char* name;

@@ -115,7 +115,7 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   }
 }
 
-/// Tables of velocities and rotations make sense only where the body obeys them.
+/// Tables make sense only where the body obeys them.
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {
   if (is_rigid(scene, body)) return;
   const auto refuse = [&](const char* key, const char* what) {
@@ -126,7 +126,7 @@ void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) 
   const auto& tables = body.rigid_velocity;
   if (std::any_of(tables.begin(), tables.end(), [](const auto& table) { return table.has_value(); }))
     refuse("velocity", "a table of velocities");
-  if (body.rotation) refuse("rotation", "a rotation");
+  if (body.rotation && body.rotation->speed.time.size() > 1) refuse("rotation", "a table of rotations");
 }
 
 /// One entry of the list: one body, or one for each grey level of a bitmap.

@@ -69,6 +69,8 @@ void read_method(MapReader& top, MethodSpec& method) {
   }
   map.boolean("contact_correction", method.contact_correction);
   map.boolean("own_filter", method.own_filter);
+  // A gradient taken after the particles have moved is that at the end of their motion.
+  if (method.strain == StrainKind::first) method.deformation_terms = MethodSpec::kInverse;
   map.word("deformation_terms", kDeformationTerms, method.deformation_terms);
   map.finish();
 }

@@ -84,9 +84,10 @@ struct MethodSpec {
   bool own_filter = false;
   StrainKind strain = StrainKind::average;
   PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
-  /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, or kAllTerms.
+  /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, kAllTerms or kInverse.
   int deformation_terms = 2;
   static constexpr int kAllTerms = 0;
+  static constexpr int kInverse = -1;  ///< (I − Δt ∇v)⁻¹
 };
 
 /// N20 Eq. 18.
@@ -163,7 +164,8 @@ struct BitmapShape {
 
 using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape>;
 
-/// Of a rigid body: about an axis through a point that moves with the body's velocity.
+/// About an axis through a point that moves with the body's velocity; the speed of a deformable body is that
+/// at the start.
 struct RotationSpec {
   Vec3 about{};        ///< m, at time 0
   Vec3 axis{0, 0, 1};  ///< unit; z in 2-D
@@ -187,7 +189,7 @@ struct BodySpec {
   SeedingSpec seeding;
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
-  std::optional<RotationSpec> rotation;                    ///< rigid bodies
+  std::optional<RotationSpec> rotation;
 };
 
 /// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.

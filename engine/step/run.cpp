@@ -246,6 +246,7 @@ class Run {
   }
 
   void draw(const std::string& which) {
+    if (scene_.output.picture == "none") return;
     for (const std::string& field : {std::string("body"), scene_.output.picture})
       draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field),
                      step_.state().particles, scene_, field, step_.state().time);

@@ -38,6 +38,7 @@ template <class V>
 inline V stretch_increment(V rate, double dt, int terms) {
   const V x = dt * rate;
   if (terms == kAllTerms) return exponential(x) - 1.0;
+  if (terms == kInverse) return x / (1.0 - x);
   return terms > 1 ? x + 0.5 * x * x : x;
 }
 

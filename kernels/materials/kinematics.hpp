@@ -87,6 +87,8 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
 
 /// As `terms`: the whole exponential.
 inline constexpr int kAllTerms = 0;
+/// As `terms`: (I − Δt L)⁻¹, exact where L is the gradient at the end of the motion.
+inline constexpr int kInverse = -1;
 
 /// The largest eigenvalue of B over directions in the plane (2-D: exact) or an upper bound of it (3-D): mean
 /// + 2p with 6p² = dev B : dev B.
@@ -102,8 +104,35 @@ inline V largest_stretch_squared(const V (&b)[kSymmetric<Dim>]) {
   }
 }
 
+/// a ← (I − a)⁻¹ − I; zero stays zero to the last bit.
+template <int Dim, class V>
+inline void invert_increment(V (&a)[Dim * Dim]) {
+  // (I − a)⁻¹ − I = a adj(I − a)/det(I − a), and a adj(I − a) = a − det(a) I in the plane.
+  if constexpr (Dim == 2) {
+    const V det = determinant<2>(a), scale = 1.0 / (1.0 - a[0] - a[3] + det);
+    a[0] = (a[0] - det) * scale;
+    a[3] = (a[3] - det) * scale;
+    a[1] = a[1] * scale;
+    a[2] = a[2] * scale;
+  } else {
+    V y[9], adjugate[9], out[9];
+    for (int i = 0; i < 9; ++i) y[i] = i % 4 == 0 ? 1.0 - a[i] : -a[i];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+        adjugate[3 * i + j] = y[3 * r + c] * y[3 * s + d] - y[3 * r + d] * y[3 * s + c];
+      }
+    const V scale = 1.0 / (y[0] * adjugate[0] + y[1] * adjugate[3] + y[2] * adjugate[6]);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        out[3 * i + j] =
+            a[3 * i] * adjugate[j] + a[3 * i + 1] * adjugate[3 + j] + a[3 * i + 2] * adjugate[6 + j];
+    for (int i = 0; i < 9; ++i) a[i] = out[i] * scale;
+  }
+}
+
 /// The increment a of F ← (I + a) F over a step: Δt L [+ ½ Δt² L²], the exponential of the velocity gradient
-/// to one or two terms, or all of it.
+/// to one or two terms, or all of it; or its inverse form, (I − Δt L)⁻¹ − I.
 /// @param l row-major velocity gradient, 1/s
 template <int Dim, class V>
 inline void deformation_increment(const V (&l)[Dim * Dim], double dt, int terms, V (&a)[Dim * Dim]) {
@@ -114,6 +143,7 @@ inline void deformation_increment(const V (&l)[Dim * Dim], double dt, int terms,
     return;
   }
   for (int i = 0; i < Dim * Dim; ++i) a[i] = dt * l[i];
+  if (terms == kInverse) return invert_increment<Dim>(a);
   if (terms > 1) {
     V square[Dim * Dim];
     for (int i = 0; i < Dim; ++i)
@@ -139,7 +169,7 @@ inline void deform(const V (&a)[Dim * Dim], V (&f)[Dim * Dim]) {
   for (int i = 0; i < Dim * Dim; ++i) f[i] = g[i];
 }
 
-/// F ← (I + Δt L [+ ½ Δt² L²]) F, or exp(Δt L) F.
+/// F ← (I + Δt L [+ ½ Δt² L²]) F, exp(Δt L) F or (I − Δt L)⁻¹ F.
 template <int Dim, class V>
 inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
   if (terms == kAllTerms) return advance_by_exponential<Dim>(l, dt, f);

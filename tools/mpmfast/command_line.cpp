@@ -22,7 +22,7 @@ constexpr int kMostThreads = 4096;
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, threads, steps, until, x = "time_s", progress = "auto";
+  std::string scene, out, topic, threads, jobs, steps, until, x = "time_s", progress = "auto";
   std::vector<std::string> set, columns;
   bool force = false;
 };
@@ -37,6 +37,12 @@ std::string check_threads(std::string& text) {
   int value = 0;
   if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
   return fmt::format("not a number of threads (1 to {}), got '{}'", kMostThreads, text);
+}
+
+std::string check_jobs(std::string& text) {
+  int value = 0;
+  if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
+  return fmt::format("not a number of runs (1 to {}), got '{}'", kMostThreads, text);
 }
 
 std::string check_steps(std::string& text) {
@@ -109,6 +115,11 @@ void add_study_options(CLI::App& command, RawOptions& raw) {
   add_out(command, raw, "Output folder; runs/<study> if not given. What has ended there is not run again");
   add_threads(command, raw);
   add_progress(command, raw);
+  command
+      .add_option("--jobs", raw.jobs,
+                  "Runs side by side, a thread each (default 1; more spoil the wall times of a chart)")
+      ->check(CLI::Validator(check_jobs, ""))
+      ->type_name("N");
   command.add_flag("--force", raw.force, "Run also what has ended already");
 }
 
@@ -213,6 +224,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.x = raw.x;
   line.force = raw.force;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
+  if (!raw.jobs.empty()) read_whole(raw.jobs, line.jobs);
   if (!raw.steps.empty()) read_whole(raw.steps, line.steps);
   if (!raw.until.empty()) line.until = std::get<double>(parse_quantity(raw.until, Measure::time));
   if (raw.progress == "plain") line.progress = ProgressStyle::plain;

@@ -22,6 +22,7 @@ struct CommandLine {
   std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
   std::vector<std::string> columns;  ///< of a plot, expressions
   int threads = 0;
+  int jobs = 1;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;

@@ -9,6 +9,7 @@
 #include "tools/study/other_program.hpp"
 #include "tools/study/report.hpp"
 #include "tools/study/run_study.hpp"
+#include "tools/study/stability_map.hpp"
 
 namespace mpmfast {
 
@@ -20,6 +21,7 @@ StudyOptions options_of(const CommandLine& line, ProgressDisplay& display) {
   StudyOptions options;
   options.folder = line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
   options.threads = line.threads;
+  options.jobs = line.jobs;
   options.force = line.force;
   options.command = line.text;
   options.stop_signal = stop_signal();
@@ -56,8 +58,8 @@ int study_command(const CommandLine& line) {
   const StudyResults results = collect_results(study, runs, options.folder);
   const std::vector<std::string> missing = write_report(study, runs, results, options.folder);
   fmt::print("{}\nruns             {} now, {} kept{}\noutput           {}\n",
-             study_table(study, runs, results), progress.ran, progress.kept,
-             progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
+             study.map ? map_overview(study, runs, results) : study_table(study, runs, results), progress.ran,
+             progress.kept, progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
   for (const std::string& why : missing) fmt::print(stderr, "mpmfast: {}\n", why);
   return progress.stopped ? kExitSignal + *stop_signal() : 0;
 }

@@ -41,8 +41,8 @@ int main(int argc, char** argv) {
   CLI::App app{
       "Fills a box with ellipses that do not overlap: a grey level for each of 20 materials, void white."};
   app.add_option("--seed", options.seed, "Number that chooses the packing")->capture_default_str();
-  app.add_option("--width", options.width, "Pixels")->check(CLI::Range(100, 10000))->capture_default_str();
-  app.add_option("--height", options.height, "Pixels")->check(CLI::Range(100, 10000))->capture_default_str();
+  app.add_option("--width", options.width, "Pixels")->check(CLI::Range(10, 10000))->capture_default_str();
+  app.add_option("--height", options.height, "Pixels")->check(CLI::Range(10, 10000))->capture_default_str();
   app.add_option("--fraction", options.fraction, "Share of the box that grains cover")
       ->check(CLI::Range(0.1, 0.9))
       ->capture_default_str();

@@ -100,7 +100,7 @@ std::string legend(const Study& study) {
 
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem) {
-  const double percent = study.error.rule.relative == Relative::absolute ? 1 : 100;
+  const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
   std::map<Look, Points> groups;
   std::vector<std::pair<double, double>> front;
   Range across, up;

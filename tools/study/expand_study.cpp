@@ -15,22 +15,6 @@ namespace mpmfast {
 
 namespace {
 
-/// "LR, xpic(5)" → "lr_xpic5": what every file system takes.
-std::string slug(const std::string& name) {
-  constexpr std::size_t kLongest = 100;
-  std::string out;
-  for (const char c : name) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || c == '-' || c == '.') {
-      out += static_cast<char>(std::tolower(byte));
-    } else if (c != '(' && c != ')' && !out.empty() && out.back() != '_') {
-      out += '_';
-    }
-  }
-  while (!out.empty() && (out.back() == '_' || out.back() == '.')) out.pop_back();
-  return out.substr(0, kLongest);
-}
-
 class Expansion {
  public:
   explicit Expansion(const Study& study) : study_(study), problems_({study.file.string()}) {}
@@ -97,8 +81,9 @@ class Expansion {
     }
     settings.insert(settings.end(), more.begin(), more.end());
     run.name = name;
-    const std::string wanted = slug(name).empty() ? "run" : slug(name);
+    const std::string wanted = file_name_of(name).empty() ? "run" : file_name_of(name);
     run.folder = wanted;
+    run.scene_file = scene_of(study_, choice);
     for (int n = 2; !folders_.insert(run.folder).second; ++n) run.folder = fmt::format("{}_{}", wanted, n);
     read(settings, run);
     return run;
@@ -108,7 +93,7 @@ class Expansion {
     std::vector<Override> overrides;
     for (const Setting& setting : settings) overrides.push_back(setting.override);
     try {
-      run.scene = read_scene(study_.scene, overrides);
+      run.scene = read_scene(run.scene_file, overrides);
     } catch (const SceneError& error) {
       for (const Diagnostic& diagnostic : error.diagnostics()) locate(diagnostic, settings, run.name);
     }
@@ -147,9 +132,7 @@ class Expansion {
           problems_.add(formula->place, formula->path,
                         fmt::format("the reference has no constant '{}': its axis is not in per", name));
     };
-    std::vector<ErrorSpec> specs = study_.more;
-    specs.push_back(study_.error);
-    for (const ErrorSpec& spec : specs)
+    for (const ErrorSpec& spec : error_specs(study_))
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
     for (const CurveSpec& curve : study_.curves)
       for (const auto& formula : {curve.x, curve.y}) check(formula);
@@ -167,9 +150,13 @@ class Expansion {
     const auto check_constant = [&](const std::optional<Formula>& formula) {
       if (formula) check_names(*formula, constants, "constant (let)");
     };
-    std::vector<ErrorSpec> specs = study_.more;
-    specs.push_back(study_.error);
-    for (const ErrorSpec& spec : specs) {
+    for (const Condition& condition : study_.conditions) {
+      if (!goes_with(study_.axes, run.choice, condition.only)) continue;
+      for (const auto& formula : {condition.quantity, condition.over}) check(formula);
+      for (const auto& formula : {condition.at_least, condition.at_most, condition.from, condition.to})
+        check_constant(formula);
+    }
+    for (const ErrorSpec& spec : error_specs(study_)) {
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
       for (const auto& formula : {spec.from, spec.to, spec.threshold, spec.expected}) check_constant(formula);
     }
@@ -187,8 +174,9 @@ class Expansion {
     if (study_.reference.kind != Reference::Kind::table) return;
     std::vector<std::string> known = study_.reference.table.names;
     for (const auto& [constant, value] : run.let) known.push_back(constant);
-    for (const auto& formula : {study_.reference.x ? study_.reference.x : study_.error.x,
-                                study_.reference.y ? study_.reference.y : study_.error.quantity})
+    const ErrorSpec& error = study_.error ? *study_.error : ErrorSpec{};
+    for (const auto& formula : {study_.reference.x ? study_.reference.x : error.x,
+                                study_.reference.y ? study_.reference.y : error.quantity})
       if (formula) check_names(*formula, known, "column of the table");
   }
 
@@ -217,6 +205,35 @@ bool goes_with(const std::vector<Axis>& axes, const std::vector<std::size_t>& ch
     if (std::find(values->second.begin(), values->second.end(), name) == values->second.end()) return false;
   }
   return true;
+}
+
+std::string file_name_of(const std::string& name) {
+  constexpr std::size_t kLongest = 100;
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalnum(byte) || c == '-' || c == '.') {
+      out += static_cast<char>(std::tolower(byte));
+    } else if (c != '(' && c != ')' && !out.empty() && out.back() != '_') {
+      out += '_';
+    }
+  }
+  while (!out.empty() && (out.back() == '_' || out.back() == '.')) out.pop_back();
+  return out.substr(0, kLongest);
+}
+
+std::vector<ErrorSpec> error_specs(const Study& study) {
+  std::vector<ErrorSpec> out;
+  if (study.error) out.push_back(*study.error);
+  out.insert(out.end(), study.more.begin(), study.more.end());
+  return out;
+}
+
+std::filesystem::path scene_of(const Study& study, const std::vector<std::size_t>& choice) {
+  std::filesystem::path out = study.scene;
+  for (std::size_t k = 0; k < choice.size(); ++k)
+    if (const auto& scene = study.axes[k].choices[choice[k]].scene) out = *scene;
+  return out;
 }
 
 StudyRuns expand_study(const Study& study) { return Expansion(study).all(); }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <system_error>
 #include <utility>
 
 #include "engine/scene/suggest.hpp"
@@ -143,15 +144,25 @@ Only read_only(MapReader& map, const std::vector<Axis>& axes) {
   return out;
 }
 
+std::optional<std::filesystem::path> read_scene_path(MapReader& map, const std::filesystem::path& folder) {
+  const auto scene = map.find("scene");
+  const auto text = scene ? scene->text() : std::nullopt;
+  if (!text) return std::nullopt;
+  const std::filesystem::path path = (folder / *text).lexically_normal();
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) scene->complain("no such scene");
+  return path;
+}
+
 /// The axes of `vary`: a list holds values of the scene's key, a map holds named choices.
-void read_axes(const Value& vary, std::vector<Axis>& axes) {
+void read_axes(const Value& vary, const std::filesystem::path& folder, std::vector<Axis>& axes) {
   if (!vary.is(Node::Kind::map)) return vary.complain("not a map of axes");
   for (std::size_t k = 0; k < vary.size(); ++k) {
     const Key& key = vary.node().keys[k];
     const Value value(vary.node().items[k], join(vary.path(), key.text), vary.problems());
     Axis axis{key.text, key.place, {}};
     if ((!value.is(Node::Kind::list) && !value.is(Node::Kind::map)) || value.size() == 0)
-      value.complain("not a list of values, or a map of names to {set, let}");
+      value.complain("not a list of values, or a map of names to {set, let, scene, only}");
     for (std::size_t n = 0; n < value.size(); ++n) {
       const Node& node = value.node().items[n];
       Choice choice;
@@ -161,9 +172,12 @@ void read_axes(const Value& vary, std::vector<Axis>& axes) {
         choice.set.push_back({{key.text, text}, node.place, join(value.path(), std::to_string(n))});
       } else {
         choice.name = value.node().keys[n].text;
-        MapReader map(Value(node, join(value.path(), choice.name), value.problems()), "a map {set, let}");
+        MapReader map(Value(node, join(value.path(), choice.name), value.problems()),
+                      "a map {set, let, scene, only}");
         choice.set = read_settings(map);
         choice.let = read_constants(map);
+        choice.scene = read_scene_path(map, folder);
+        map.find("only");  // read below, when all axes are known
         map.finish();
       }
       if (find_choice(axis, choice.name))
@@ -171,6 +185,15 @@ void read_axes(const Value& vary, std::vector<Axis>& axes) {
       axis.choices.push_back(std::move(choice));
     }
     axes.push_back(std::move(axis));
+  }
+  for (std::size_t k = 0; k < vary.size(); ++k) {
+    const Value value(vary.node().items[k], join(vary.path(), axes[k].name), vary.problems());
+    for (std::size_t n = 0; value.is(Node::Kind::map) && n < value.size(); ++n) {
+      const std::string path = join(value.path(), axes[k].choices[n].name);
+      if (value.node().items[n].kind != Node::Kind::map) continue;
+      MapReader map(Value(value.node().items[n], path, value.problems()));
+      axes[k].choices[n].only = read_only(map, axes);
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -44,15 +45,6 @@ Reference read_reference(const Value& value, const Study& study) {
   }
   map.finish();
   return out;
-}
-
-void read_window(MapReader& map, std::optional<Formula>& from, std::optional<Formula>& to) {
-  const auto window = map.find("window");
-  if (!window) return;
-  if (!window->is(Node::Kind::list) || window->size() != 2)
-    return window->complain("not a list [from, to] of values of x");
-  from = read_formula(window->item(0));
-  to = read_formula(window->item(1));
 }
 
 /// What `spec` holds already is the default.
@@ -142,33 +134,48 @@ void read_costs(MapReader& top, std::vector<Cost>& costs) {
   if (list && found->size() == 0) found->complain("one cost at least was expected");
 }
 
+Formula time_column(Place place, const std::string& path) {
+  return {std::get<Expression>(Expression::parse("time_s")), place, path};
+}
+
+bool names_every_scene(const Axis& axis) {
+  return std::all_of(axis.choices.begin(), axis.choices.end(),
+                     [](const Choice& choice) { return choice.scene.has_value(); });
+}
+
 void read_top(const Node& root, Study& study, Problems& problems) {
   MapReader top(Value(root, "", problems), "a map {title, scene, set, variants, vary, reference, error, …}");
   if (!top.valid()) return;
   study.title = study.file.stem().string();
   if (const auto title = top.find("title")) study.title = title->text().value_or("");
-  if (const auto scene = top.need("scene", "the path of a scene, from this file")) {
-    const std::filesystem::path path = scene->text().value_or("");
-    study.scene = path.is_absolute() ? path : (study.file.parent_path() / path).lexically_normal();
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(study.scene, error)) scene->complain("no such scene");
-  }
+  const std::filesystem::path folder = study.file.parent_path();
+  study.scene = read_scene_path(top, folder).value_or("");
   study.common = read_settings(top);
   const auto variants = top.find("variants"), vary = top.find("vary");
-  if (vary) read_axes(*vary, study.axes);
+  if (vary) read_axes(*vary, folder, study.axes);
+  if (std::none_of(study.axes.begin(), study.axes.end(), names_every_scene))
+    top.need("scene", "the path of a scene, from this file");
   if (variants) study.axes.insert(study.axes.begin(), read_variants(*variants, study.axes));
   if (!variants && !vary) top.need("variants", "a list of variants, or vary with axes");
   if (const auto reference = top.find("reference")) study.reference = read_reference(*reference, study);
   const bool has_reference = index_of(root, "reference") >= 0;
   const std::size_t before = problems.count();
-  if (const auto error = top.need("error", "a map {quantity, compare, …}")) {
-    study.error.x =
-        Formula{std::get<Expression>(Expression::parse("time_s")), error->node().place, "error.x"};
-    study.error = read_error(*error, study.error, has_reference);
+  if (const auto holds = top.find("holds")) study.conditions = read_conditions(*holds, study.axes);
+  if (const auto map = top.find("map")) study.map = read_map(*map, study.axes);
+  const auto error = study.conditions.empty() ? top.need("error", "a map {quantity, compare, …}, or holds")
+                                              : top.find("error");
+  if (error) {
+    ErrorSpec spec;
+    spec.x = time_column(error->node().place, "error.x");
+    study.error = read_error(*error, spec, has_reference);
   }
   const auto more = top.find("more");
-  if (more && problems.count() == before) study.more = read_more(*more, study.error, has_reference);
+  if (more && !study.error) more->report("error is missing, from which these differ");
+  if (more && study.error && problems.count() == before)
+    study.more = read_more(*more, *study.error, has_reference);
   if (const auto curves = top.find("curves")) study.curves = read_curves(*curves, study.axes);
+  for (CurveSpec& curve : study.curves)
+    if (!curve.x) curve.x = study.error ? study.error->x : time_column({0, 0, 0}, "");
   read_costs(top, study.costs);
   top.finish();
 }

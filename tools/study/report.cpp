@@ -8,6 +8,7 @@
 
 #include "engine/output/files.hpp"
 #include "line_chart.hpp"
+#include "stability_map.hpp"
 
 namespace mpmfast {
 
@@ -35,15 +36,14 @@ std::string percent(double error, Relative relative) {
 }
 
 bool looks_for_value(const Study& study) {
-  return study.error.rule.compare == Compare::final_value || study.error.rule.compare == Compare::crossing;
+  return study.error && (study.error->rule.compare == Compare::final_value ||
+                         study.error->rule.compare == Compare::crossing);
 }
 
-ChartCurve curve_of(const StudyRun& run, const std::filesystem::path& folder, const CurveSpec& spec,
-                    const Study& study) {
-  const Formula& x = spec.x ? *spec.x : *study.error.x;
+ChartCurve curve_of(const StudyRun& run, const std::filesystem::path& folder, const CurveSpec& spec) {
   const double from = spec.from ? evaluate(spec.from->expression, run.let) : -INFINITY;
   const double to = spec.to ? evaluate(spec.to->expression, run.let) : INFINITY;
-  const Curve whole = history_curve(run, folder, x.expression, spec.y->expression);
+  const Curve whole = history_curve(run, folder, spec.x->expression, spec.y->expression);
   ChartCurve out{run.name, {}, 0, false};
   for (std::size_t k = 0; k < whole.x.size(); ++k) {
     if (whole.x[k] < from || whole.x[k] > to) continue;
@@ -71,8 +71,7 @@ class CurveChart {
 
   std::string draw() {
     chart_.title = spec_.title.empty() ? study_.title : spec_.title;
-    const Formula& x = spec_.x ? *spec_.x : *study_.error.x;
-    chart_.x_label = spec_.x_label.empty() ? x.expression.text() : spec_.x_label;
+    chart_.x_label = spec_.x_label.empty() ? spec_.x->expression.text() : spec_.x_label;
     chart_.y_label = spec_.y_label.empty() ? spec_.y->expression.text() : spec_.y_label;
     const std::size_t panels = spec_.panels ? study_.axes[*spec_.panels].choices.size() : 1;
     for (const StudyRun& run : runs_.variants)  // the colours in the order of the study
@@ -90,7 +89,7 @@ class CurveChart {
       const StudyRun& run = runs_.variants[k];
       if (spec_.panels && run.choice[*spec_.panels] != panel) continue;
       if (results_.variants[k].status.empty() || !goes_with(study_.axes, run.choice, spec_.only)) continue;
-      ChartCurve curve = curve_of(run, folder_, spec_, study_);
+      ChartCurve curve = curve_of(run, folder_, spec_);
       curve.title = name_in_panel(study_, run, spec_);
       curve.colour = colour_of(curve.title);
       out.curves.push_back(std::move(curve));
@@ -99,7 +98,7 @@ class CurveChart {
         references.push_back(run.reference);
     }
     for (const std::size_t k : references) {
-      ChartCurve curve = curve_of(runs_.references[k], folder_, spec_, study_);
+      ChartCurve curve = curve_of(runs_.references[k], folder_, spec_);
       if (spec_.panels) curve.title = "reference";
       curve.dashed = true;
       out.curves.push_back(std::move(curve));
@@ -133,6 +132,8 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
                            "energy_error", "reason"})
     head.emplace_back(name);
   for (const ErrorSpec& spec : study.more) head.push_back(csv_text(spec.name));
+  if (!study.conditions.empty()) head.emplace_back("holds");
+  for (const Condition& condition : study.conditions) head.push_back(csv_text(condition.name));
   std::string out = fmt::format("{}\n", fmt::join(head, ","));
   for (std::size_t k = 0; k < runs.variants.size(); ++k) {
     const StudyRun& run = runs.variants[k];
@@ -151,6 +152,9 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
     cells.push_back(csv_number(r.energy_error));
     cells.push_back(csv_text(r.reason));
     for (std::size_t n = 0; n < study.more.size(); ++n) cells.push_back(error(n + 1));
+    if (!study.conditions.empty()) cells.emplace_back(holds(r) ? "1" : "0");
+    for (const std::optional<Judgement>& judged : r.judged)
+      cells.push_back(judged ? csv_number(judged->value) : "");
     out += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return out;
@@ -182,7 +186,7 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
     };
     for (std::size_t n = 0; n < study.more.size(); ++n)
       cells.push_back(error(n + 1, study.more[n].rule.relative));
-    cells.push_back(error(0, study.error.rule.relative));
+    cells.push_back(error(0, study.error ? study.error->rule.relative : Relative::absolute));
     if (looks_for_value(study)) cells.push_back(fmt::format("{:.6g}", r.value));
     cells.push_back(fmt::format("{:.4g}{}", r.reached, r.status == "failed" ? ", failed" : ""));
     cells.push_back(fmt::format("{:.2f}", r.wall));
@@ -206,11 +210,16 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
 std::vector<std::string> write_report(const Study& study, const StudyRuns& runs, const StudyResults& results,
                                       const std::filesystem::path& folder) {
   write_aside(folder / "study.csv", study_csv(study, runs, results));
-  write_aside(folder / "study.md", study_table(study, runs, results));
+  write_aside(folder / "study.md",
+              study.map ? map_page(study, runs, results) : study_table(study, runs, results));
   std::vector<std::string> missing;
   const auto note = [&](const std::string& why) {
     if (!why.empty()) missing.push_back(why);
   };
+  if (study.map) {
+    for (const std::string& why : draw_maps(study, runs, results, folder)) note(why);
+    return missing;
+  }
   for (const Cost cost : study.costs) {
     const std::string stem =
         cost == study.costs.front() ? "study" : fmt::format("study_{}", name_of(kCosts, cost));

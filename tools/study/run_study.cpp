@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <mutex>
+#include <optional>
 #include <system_error>
+#include <thread>
 #include <vector>
 
 #include "engine/errors.hpp"
@@ -24,16 +28,91 @@ std::vector<const StudyRun*> all_of(const StudyRuns& runs) {
   return out;
 }
 
+int threads_of(const StudyOptions& options) { return options.jobs > 1 ? 1 : options.threads; }
+
 RunOptions options_of(const StudyRun& run, const StudyOptions& options) {
   RunOptions out;
   out.folder = options.folder / run.folder;
   out.force = true;  // what an unfinished run left is replaced
-  out.threads = options.threads;
+  out.threads = threads_of(options);
   out.command = options.command;
-  out.progress = options.progress;
+  if (options.jobs <= 1) out.progress = options.progress;
   out.stop_signal = options.stop_signal;
   return out;
 }
+
+/// The runs in their order, taken by one worker or several.
+class StudyQueue {
+ public:
+  StudyQueue(const StudyRuns& runs, const StudyOptions& options) : runs_(all_of(runs)), options_(options) {}
+
+  StudyProgress run() {
+    std::vector<std::thread> others;
+    for (int k = 1; k < options_.jobs; ++k) others.emplace_back([this] { work(); });
+    work();
+    for (std::thread& other : others) other.join();
+    if (failure_) std::rethrow_exception(failure_);
+    return progress_;
+  }
+
+ private:
+  void work() {
+    while (const StudyRun* run = next()) {
+      try {
+        execute(*run);
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!failure_) failure_ = std::current_exception();
+      }
+    }
+  }
+
+  /// Nothing when all are taken, one could not be written, or a signal came.
+  const StudyRun* next() {
+    const std::lock_guard lock(mutex_);
+    if (options_.stop_signal && *options_.stop_signal) progress_.stopped = true;
+    if (progress_.stopped || failure_ || next_ == runs_.size()) return nullptr;
+    const StudyRun* run = runs_[next_++];
+    if (options_.starting && options_.jobs <= 1) options_.starting(*run, next_, runs_.size());
+    return run;
+  }
+
+  void execute(const StudyRun& run) {
+    const EarlierRun earlier = earlier_run(run, options_.folder, threads_of(options_));
+    const bool kept = earlier.ended && !options_.force;
+    const std::string again =
+        options_.force || earlier.note.empty() ? "" : fmt::format(" (again: {})", earlier.note);
+    const std::string status = kept ? "" : status_of(run, earlier.stopped && !options_.force);
+    const std::lock_guard lock(mutex_);
+    ++(kept ? progress_.kept : progress_.ran);
+    ++ended_;
+    if (status == "stopped") progress_.stopped = true;
+    if (options_.starting && options_.jobs > 1) options_.starting(run, ended_, runs_.size());
+    if (options_.ended) options_.ended(run, kept ? "kept: " + earlier.note : status + again);
+  }
+
+  /// Runs it: "finished, 0.25 s", "failed: why".
+  std::string status_of(const StudyRun& run, bool go_on) const {
+    if (!run.program.empty()) return run_by_program(run, options_.folder, threads_of(options_));
+    const RunOptions how = options_of(run, options_);
+    try {
+      const bool saved = std::filesystem::exists(how.folder / "checkpoint.h5");
+      const std::optional<RunSummary> resumed = go_on && saved ? resume_run(how) : std::nullopt;
+      const RunSummary summary = resumed ? *resumed : run_scene(run.scene, how);
+      return summary.status == "stopped" ? summary.status
+                                         : fmt::format("{}, {:.2f} s", summary.status, summary.wall);
+    } catch (const RunFailure& failure) {
+      return fmt::format("failed: {}", failure.what());
+    }
+  }
+
+  std::vector<const StudyRun*> runs_;
+  const StudyOptions& options_;
+  std::mutex mutex_;  ///< over what follows, and the callbacks
+  std::size_t next_ = 0, ended_ = 0;
+  StudyProgress progress_;
+  std::exception_ptr failure_;
+};
 
 }  // namespace
 
@@ -52,7 +131,7 @@ void prepare_study_folder(const Study& study, const fs::path& folder) {
 void try_set_up(const StudyRuns& runs, const StudyOptions& options) {
   for (const StudyRun* run : all_of(runs)) {
     if (!run->program.empty()) continue;  // that program sees for itself
-    if (!options.force && earlier_run(*run, options.folder, options.threads).ended) continue;
+    if (!options.force && earlier_run(*run, options.folder, threads_of(options)).ended) continue;
     if (run->scene.dimension() == 3) {
       Step<3> step(run->scene);
     } else {
@@ -62,39 +141,7 @@ void try_set_up(const StudyRuns& runs, const StudyOptions& options) {
 }
 
 StudyProgress run_study(const StudyRuns& runs, const StudyOptions& options) {
-  const std::vector<const StudyRun*> all = all_of(runs);
-  StudyProgress progress;
-  for (std::size_t k = 0; k < all.size() && !progress.stopped; ++k) {
-    const StudyRun& run = *all[k];
-    const auto ended = [&](const std::string& note) {
-      if (options.ended) options.ended(run, note);
-    };
-    if (options.starting) options.starting(run, k + 1, all.size());
-    const EarlierRun earlier = earlier_run(run, options.folder, options.threads);
-    if (earlier.ended && !options.force) {
-      ++progress.kept;
-      ended("kept: " + earlier.note);
-      continue;
-    }
-    const std::string again =
-        options.force || earlier.note.empty() ? "" : fmt::format(" (again: {})", earlier.note);
-    ++progress.ran;
-    try {
-      if (!run.program.empty()) {
-        const std::string status = run_by_program(run, options.folder, options.threads);
-        ended(status + again);
-        progress.stopped = status == "stopped";
-        continue;
-      }
-      const RunSummary summary = run_scene(run.scene, options_of(run, options));
-      ended(fmt::format("{}, {:.2f} s{}", summary.status, summary.wall, again));
-      progress.stopped = summary.status == "stopped";
-    } catch (const RunFailure& failure) {
-      ended(fmt::format("failed: {}{}", failure.what(), again));
-    }
-    progress.stopped = progress.stopped || (options.stop_signal && *options.stop_signal);
-  }
-  return progress;
+  return StudyQueue(runs, options).run();
 }
 
 }  // namespace mpmfast

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file Runs the variants of a study, one after another, each in a folder of its own.
+/// @file Runs the variants of a study, one after another or side by side, each in a folder of its own.
 
 #include <filesystem>
 #include <functional>
@@ -13,11 +13,13 @@ namespace mpmfast {
 
 struct StudyOptions {
   std::filesystem::path folder;
-  int threads = 0;     ///< 0: as a single run
+  int threads = 0;     ///< 0: as a single run; 1 when there are several jobs
+  int jobs = 1;        ///< runs side by side; their wall times are then of a busy machine
   bool force = false;  ///< also what has ended already
   std::string command;
   const volatile int* stop_signal = nullptr;
-  /// All may be empty. `note` says how a run ended.
+  /// All may be empty; called by one run at a time. With several jobs `progress` is not called. `note` says
+  /// how a run ended.
   std::function<void(const StudyRun&, std::size_t index, std::size_t count)> starting;
   std::function<void(const Progress&)> progress;
   std::function<void(const StudyRun&, const std::string& note)> ended;

@@ -36,9 +36,10 @@ using Only = std::map<std::string, std::vector<std::string>>;
 struct Choice {
   std::string name;
   std::vector<Setting> set;
-  Constants let;                   ///< names for the study's expressions
-  Only only;                       ///< what this one goes with
-  std::optional<Setting> program;  ///< what runs it instead; the value is the path as written
+  Constants let;                               ///< names for the study's expressions
+  Only only;                                   ///< what this one goes with
+  std::optional<std::filesystem::path> scene;  ///< instead of the study's
+  std::optional<Setting> program;              ///< what runs it instead; the value is the path as written
 };
 
 /// The runs are the product of all axes. `variants:` is the first axis.
@@ -64,6 +65,22 @@ struct ErrorSpec {
   ErrorRule rule;  ///< without its numbers
 };
 
+/// What must hold in a run, row by row of its history.
+struct Condition {
+  std::string name;  ///< what is wrong where it does not hold: a word or two for a cell of a map
+  std::optional<Formula> quantity, over, at_least, at_most;
+  std::optional<Formula> from, to;  ///< the window of time_s in which it must hold
+  bool change = false;              ///< the quantity less its first value
+  bool at_end = false;              ///< judged in the last row alone
+  Only only;
+};
+
+/// A chart and a list of what holds: a map for each value of one axis.
+struct MapSpec {
+  std::size_t panels = 0, columns = 0;  ///< axes
+  std::optional<std::size_t> judged;    ///< the column up to which the first row must hold
+};
+
 enum class Cost { wall, particle_steps };
 inline constexpr std::array<Word<Cost>, 2> kCosts{{
     {Cost::wall, "wall_s", "wall time of the run"},
@@ -85,8 +102,10 @@ struct Study {
   std::vector<Setting> common;
   std::vector<Axis> axes;
   Reference reference;
-  ErrorSpec error;
+  std::optional<ErrorSpec> error;  ///< without one, the error is the largest share of a condition's bound
   std::vector<ErrorSpec> more;
+  std::vector<Condition> conditions;
+  std::optional<MapSpec> map;
   std::vector<Cost> costs{Cost::wall};
   std::vector<CurveSpec> curves;
 };
@@ -100,6 +119,7 @@ struct StudyRun {
   std::string name, folder;
   std::vector<std::size_t> choice;  ///< of each axis; of a reference, 0 where the axis does not matter
   Constants let;
+  std::filesystem::path scene_file;
   Scene scene;
   std::filesystem::path program;  ///< that runs it; empty: this one
   std::size_t reference = 0;      ///< index among the references
@@ -112,6 +132,15 @@ struct StudyRuns {
 /// Reads the scene of every run and checks all expressions against the columns of its history. Throws
 /// SceneError: an override that the scene refuses is reported where the study gives it.
 StudyRuns expand_study(const Study& study);
+
+/// "LR, xpic(5)" → "lr_xpic5": what every file system takes.
+std::string file_name_of(const std::string& name);
+
+/// Study::error where there is one, then Study::more.
+std::vector<ErrorSpec> error_specs(const Study& study);
+
+/// The scene that a combination of choices runs: that of the last axis that names one, or the study's.
+std::filesystem::path scene_of(const Study& study, const std::vector<std::size_t>& choice);
 
 /// Is the combination of choices allowed by `only`?
 bool goes_with(const std::vector<Axis>& axes, const std::vector<std::size_t>& choice, const Only& only);

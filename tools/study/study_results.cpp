@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -91,9 +92,7 @@ Curve reference_curve(const Study& study, const StudyRuns& runs, const StudyRun&
 
 void measure(const Study& study, const StudyRuns& runs, const StudyRun& run, const fs::path& folder,
              StudyResult& result) {
-  std::vector<ErrorSpec> specs{study.error};
-  specs.insert(specs.end(), study.more.begin(), study.more.end());
-  for (const ErrorSpec& spec : specs) {
+  for (const ErrorSpec& spec : error_specs(study)) {
     const Curve curve = history_curve(run, folder, spec.x->expression, spec.quantity->expression);
     const Measured measured =
         measure_error(rule_of(spec, run.let), curve, reference_curve(study, runs, run, folder, spec));
@@ -103,6 +102,22 @@ void measure(const Study& study, const StudyRuns& runs, const StudyRun& run, con
     }
     result.errors.push_back(measured.error);
   }
+}
+
+void judge(const Study& study, const StudyRun& run, const fs::path& folder, StudyResult& result) {
+  if (study.conditions.empty()) return;
+  const Table history = read_table(folder / run.folder / "history.csv");
+  double share = 0;
+  for (const Condition& condition : study.conditions) {
+    result.judged.emplace_back();
+    if (!goes_with(study.axes, run.choice, condition.only)) continue;
+    result.judged.back() = judge(condition, history, run.let);
+    share = std::fmax(share, result.judged.back()->share);
+  }
+  if (study.error) return;
+  result.errors.assign(1, share);
+  const std::vector<double>* time = history.find("time_s");
+  result.reached = time && !time->empty() ? time->back() : 0;
 }
 
 void mark_front(Cost cost, std::vector<StudyResult>& results) {
@@ -134,16 +149,23 @@ EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads)
   const auto json = read_summary(folder / run.folder);
   if (!json) return {};
   const std::string status = json->value("status", "");
-  if (status != "finished" && status != "failed") return {false, "it was stopped before"};
+  if (status != "finished" && status != "failed")
+    return {false, run.program.empty() && what_differs(run, folder, *json).empty(), "it was stopped before"};
   if (!run.program.empty()) {
     if (read_text(order_file(run, folder)) != order_text(run))
-      return {false, "the scene or the program was another"};
+      return {false, false, "the scene or the program was another"};
   } else if (const std::string other = what_differs(run, folder, *json); !other.empty()) {
-    return {false, other};
+    return {false, false, other};
   }
-  if (threads > 0 && json->value("threads", 0) != threads) return {false, "the threads were others"};
-  if (status == "failed") return {true, fmt::format("failed: {}", json->value("reason", ""))};
-  return {true, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
+  if (threads > 0 && json->value("threads", 0) != threads) return {false, false, "the threads were others"};
+  if (status == "failed") return {true, false, fmt::format("failed: {}", json->value("reason", ""))};
+  return {true, false, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
+}
+
+bool holds(const StudyResult& result) {
+  return result.status == "finished" &&
+         std::all_of(result.judged.begin(), result.judged.end(),
+                     [](const std::optional<Judgement>& judged) { return !judged || judged->holds; });
 }
 
 Curve history_curve(const StudyRun& run, const fs::path& folder, const Expression& x, const Expression& y) {
@@ -173,6 +195,7 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
         out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));
       out.machine.threads = json->value("threads", 0);
       if (references_ended) measure(study, runs, run, folder, result);
+      judge(study, run, folder, result);
     }
     out.variants.push_back(std::move(result));
   }

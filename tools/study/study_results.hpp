@@ -5,21 +5,28 @@
 #include <string>
 #include <vector>
 
+#include "conditions.hpp"
 #include "study.hpp"
 
 namespace mpmfast {
 
 struct StudyResult {
-  std::string status;          ///< of run.json: finished, failed; empty when not run yet
-  std::string reason;          ///< of run.json: why it failed
-  std::vector<double> errors;  ///< Study::error, then Study::more; not a number where nothing can be compared
-  double value = 0;            ///< of Study::error, where it looks for one
-  double reached = 0;          ///< x of the last row of the history
+  std::string status;  ///< of run.json: finished, failed; empty when not run yet
+  std::string reason;  ///< of run.json: why it failed
+  /// Of error_specs(), or the largest share of a condition's bound; not a number where nothing can be
+  /// compared.
+  std::vector<double> errors;
+  std::vector<std::optional<Judgement>> judged;    ///< of Study::conditions; nothing where one does not apply
+  double value = 0;                                ///< of Study::error, where it looks for one
+  double reached = 0;                              ///< x of the last row of the history
   double particle_steps = 0, wall = 0, speed = 0;  ///< speed: particle-steps per second of stepping
   double mean_iterations = 0, energy_error = 0;
   std::uint64_t fallbacks = 0, unconverged = 0;
   bool pareto = false;
 };
+
+/// Has the run finished, and does every condition hold that applies?
+bool holds(const StudyResult& result);
 
 /// The machine and the program, as the first run tells.
 struct StudyMachine {
@@ -39,8 +46,9 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const st
 
 /// What an earlier start of the study left of a run.
 struct EarlierRun {
-  bool ended = false;  ///< finished or failed, with this scene and by this program: nothing to do
-  std::string note;    ///< how it ended, or why it does not count; empty when there is nothing
+  bool ended = false;    ///< finished or failed, with this scene and by this program: nothing to do
+  bool stopped = false;  ///< by a signal, with this scene and by this program: its checkpoint serves
+  std::string note;      ///< how it ended, or why it does not count; empty when there is nothing
 };
 
 /// @param threads  the earlier run must have had as many, unless 0
