@@ -205,10 +205,10 @@ void Step<Dim>::start_velocities() {
 
 template <int Dim>
 void Step<Dim>::strain_and_force(double dt) {
-  const double smallest_j = clock_.time(Pass::strain_force, [&] {
+  const bool sound = clock_.time(Pass::strain_force, [&] {
     return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
   });
-  if (!(smallest_j > 0)) fail("a volume became zero or negative (J <= 0)");
+  if (!sound) fail("a volume became zero or negative (J <= 0)");
 }
 
 template <int Dim>
@@ -328,7 +328,7 @@ void Step<Dim>::update_particles(double dt) {
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;
   travelled_ += report.speed * dt;
-  if (!(report.smallest_j > 0)) fail("a volume became zero or negative (J <= 0)");
+  if (report.inverted) fail("a volume became zero or negative (J <= 0)");
   lost_ = report.lost;
 }
 
