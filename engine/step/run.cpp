@@ -150,6 +150,7 @@ class Run {
       counters_.first_dt = std::max(counters_.first_dt, state.step == 0 ? stable : 0);
       if (!(stable >= scene_.time.collapse * counters_.first_dt) || (!(dt > 1e-12 * end) && dt < left))
         step_.fail_collapsed(stable, stable / counters_.first_dt);
+      counters_.particle_steps += static_cast<double>(state.particles.size());
       const auto begin = Clock::now();
       step_.advance(dt);
       counters_.stepping += seconds_since(begin);
@@ -260,9 +261,7 @@ class Run {
   }
 
   double throughput() const {
-    const auto work =
-        static_cast<double>(step_.state().particles.size()) * static_cast<double>(step_.state().step);
-    return counters_.stepping > 0 ? work / counters_.stepping : 0;
+    return counters_.stepping > 0 ? counters_.particle_steps / counters_.stepping : 0;
   }
 
   void report() {

@@ -82,6 +82,7 @@ struct RunCounters {
   std::uint64_t rows = 0;           ///< of history.csv
   std::vector<double> frame_times;  ///< s
   double last_row_time = 0;         ///< s
+  double particle_steps = 0;        ///< particles of each step, which may become fewer
   double first_dt = 0;              ///< the stable time step at the start, s
   double dt = 0, dt_min = std::numeric_limits<double>::infinity(), dt_max = 0;
   double stepping = 0, wall = 0;  ///< s of wall time: in the steps alone, and of the whole run

@@ -152,6 +152,7 @@ bodies:
     CHECK(outcome.failure == "");
     CHECK(outcome.summary.status == "finished");
     CHECK(outcome.summary.particles == 0);
+    CHECK(outcome.summary.particle_steps_per_second > 0);
     CHECK(outcome.summary.time == doctest::Approx(scene.time.end));
     CHECK(outcome.history.at("b.mass_kg").back() == 0);
     // The rigid body moved as it was told: it took no free mass along.
