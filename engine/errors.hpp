@@ -2,6 +2,8 @@
 
 /// @file The two ways a run ends badly besides a bad scene (SceneError).
 
+#include <array>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -16,7 +18,14 @@ class FileError : public std::runtime_error {
 /// The run failed physically (exit 3). what() says step, time, particle, body, position and cause.
 class RunFailure : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  using Place = std::array<double, 3>;  ///< m
+  /// @param place  where it failed, if that is known
+  explicit RunFailure(const std::string& what, std::optional<Place> place = std::nullopt)
+      : std::runtime_error(what), place_(place) {}
+  const std::optional<Place>& place() const { return place_; }
+
+ private:
+  std::optional<Place> place_;
 };
 
 }  // namespace mpmfast

@@ -60,7 +60,9 @@ void remove_earlier_run(const std::filesystem::path& folder) {
 
 void reopen_folder(const std::filesystem::path& folder) {
   const auto half_written = [](const std::string& name) { return ends_with(name, ".tmp") && is_ours(name); };
-  remove_files(folder, [&](const std::string& name) { return name == "run.json" || half_written(name); });
+  remove_files(folder, [&](const std::string& name) {
+    return name == "run.json" || name == "failed.vtu" || half_written(name);
+  });
   std::error_code error;
   if (std::filesystem::is_directory(folder / "particles", error))
     remove_files(folder / "particles",

@@ -75,6 +75,10 @@ std::vector<std::string> column_names(const Scene& scene) {
   }
   names.push_back("dissipated_J");
   if (scene.output.overlap) names.insert(names.end(), {"overlap_m2", "inside_m2"});
+  if (scene.grid.leaving == LeavingKind::outflow) {
+    names.insert(names.end(), {"outflow_kg", "outflow_J"});
+    for (std::size_t k = 0; k < dim; ++k) names.push_back(fmt::format("outflow_momentum_{}", kAxisNames[k]));
+  }
   return names;
 }
 
@@ -210,6 +214,12 @@ void HistoryFile::append(const HistoryRow& row) {
     const Overlap overlap = row.overlap.value_or(Overlap{});
     line.add(overlap.area);
     line.add(overlap.inside);
+  }
+  if (scene_->grid.leaving == LeavingKind::outflow) {
+    const Outflow outflow = row.outflow.value_or(Outflow{});
+    line.add(outflow.mass);
+    line.add(outflow.energy);
+    line.add(outflow.momentum, dim);
   }
   append_line(line.end());
   ++rows_;

@@ -14,6 +14,7 @@
 #include "engine/output/descriptor.hpp"
 #include "engine/output/overlap.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/outflow.hpp"
 #include "engine/state/particles.hpp"
 
 namespace mpmfast {
@@ -47,6 +48,7 @@ struct HistoryRow {
   std::vector<Vec3> pair_force;       ///< N, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
   std::optional<Overlap> overlap;     ///< with output.overlap
+  std::optional<Outflow> outflow;     ///< with grid.leaving: outflow; up to now
 };
 
 /// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise
@@ -98,6 +100,14 @@ class ParticleSeries {
   std::vector<double> times_;  ///< s, of each frame
 };
 
+/// One VTU file with all that a frame has of the particles around a place. Written aside and renamed.
+/// @param places  of the particles, in their order, m: finite, also where a position is not
+/// @param reach   m, along each axis
+template <int Dim>
+void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>& particles,
+                         const Scene& scene, const std::vector<Vec<Dim>>& places, const Vec<Dim>& centre,
+                         double reach, double time);
+
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
 /// by `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and
 /// a colour bar with units. Throws std::invalid_argument for a field that there is not.
@@ -129,9 +139,11 @@ struct RunSummary {
     std::uint64_t nodes_peak = 0, regressions = 0, fallbacks = 0, unconverged = 0;
     double mean_iterations = 0;
     std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< with fields: pairs
+    std::uint64_t meetings = 0, screened = 0;          ///< as ContactCounters
   } contact;
   double energy_error = 0;
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
+  std::optional<Outflow> outflow;  ///< with grid.leaving: outflow
   std::string checksum;
   std::string command;                 ///< the command line
   std::vector<std::string> overrides;  ///< --set arguments
@@ -144,6 +156,7 @@ struct RunSummary {
 inline constexpr double kMostUnconverged = 0.01;    ///< of the regressions
 inline constexpr double kMostFallbacks = 0.2;       ///< of the regressions
 inline constexpr double kMostPairFallbacks = 0.05;  ///< of the nodes that solve pairs
+inline constexpr double kMostScreened = 0.2;        ///< of the nodes where fields meet
 inline constexpr double kMostDrift = 0.1;           ///< of the energy at work
 
 /// What the figures of a run give reason to doubt, a sentence each with the figure and a way out.

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <system_error>
 
 #include "engine/output/files.hpp"
@@ -96,6 +97,22 @@ void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>
   }
 }
 
+/// The particles in `order` at these points (three coordinates each).
+template <int Dim>
+void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& particles, const Scene& scene,
+                     const std::vector<std::uint32_t>& order, const std::vector<double>& points,
+                     double time) {
+  VtuFile file(points);
+  add_identity(particles, scene, order, file);
+  if (particles.has(Quantity::velocity))
+    file.add_point_data("velocity", gather_vector<float>(particles, order, Quantity::velocity), kVectorNames);
+  if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
+  if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
+  if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
+  add_state(particles, order, file);
+  file.write(vtu, time);
+}
+
 std::string frame_name(std::size_t number) { return fmt::format("particles/{:06}.vtu", number); }
 
 std::string pvd_text(const std::vector<double>& times) {
@@ -130,19 +147,30 @@ ParticleSeries<Dim>::ParticleSeries(const std::filesystem::path& folder, const S
 template <int Dim>
 void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
   const std::vector<std::uint32_t> order = order_by_id(particles);
-  VtuFile file(gather_vector<double>(particles, order, Quantity::position));
-  add_identity(particles, *scene_, order, file);
-  if (particles.has(Quantity::velocity))
-    file.add_point_data("velocity", gather_vector<float>(particles, order, Quantity::velocity), kVectorNames);
-  if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
-  if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
-  if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
-  add_state(particles, order, file);
-  file.write(folder_ / frame_name(times_.size()), time);
+  write_particles(folder_ / frame_name(times_.size()), particles, *scene_, order,
+                  gather_vector<double>(particles, order, Quantity::position), time);
   times_.push_back(time);
   write_aside(folder_ / "particles.pvd", pvd_text(times_));
 }
 
+template <int Dim>
+void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>& particles,
+                         const Scene& scene, const std::vector<Vec<Dim>>& places, const Vec<Dim>& centre,
+                         double reach, double time) {
+  std::vector<std::uint32_t> order;
+  std::vector<double> points;
+  for (const std::uint32_t p : order_by_id(particles)) {
+    if (!((places[p] - centre).template lpNorm<Eigen::Infinity>() <= reach)) continue;
+    order.push_back(p);
+    for (int d = 0; d < 3; ++d) points.push_back(d < Dim ? places[p][std::min(d, Dim - 1)] : 0);
+  }
+  write_particles(vtu, particles, scene, order, points, time);
+}
+
+template void write_neighbourhood(const std::filesystem::path&, const Particles<2>&, const Scene&,
+                                  const std::vector<Vec<2>>&, const Vec<2>&, double, double);
+template void write_neighbourhood(const std::filesystem::path&, const Particles<3>&, const Scene&,
+                                  const std::vector<Vec<3>>&, const Vec<3>&, double, double);
 template class ParticleSeries<2>;
 template class ParticleSeries<3>;
 

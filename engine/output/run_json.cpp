@@ -23,10 +23,15 @@ std::string processor_name() {
 }
 
 nlohmann::ordered_json contact_json(const RunSummary::Contact& contact) {
-  return {{"nodes_peak", contact.nodes_peak},           {"regressions", contact.regressions},
-          {"mean_iterations", contact.mean_iterations}, {"fallbacks", contact.fallbacks},
-          {"unconverged", contact.unconverged},         {"pair_nodes", contact.pair_nodes},
-          {"pair_fallbacks", contact.pair_fallbacks}};
+  return {{"nodes_peak", contact.nodes_peak},
+          {"regressions", contact.regressions},
+          {"mean_iterations", contact.mean_iterations},
+          {"fallbacks", contact.fallbacks},
+          {"unconverged", contact.unconverged},
+          {"pair_nodes", contact.pair_nodes},
+          {"pair_fallbacks", contact.pair_fallbacks},
+          {"meetings", contact.meetings},
+          {"screened", contact.screened}};
 }
 
 }  // namespace
@@ -78,6 +83,10 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
     json["inside_m2"] = summary.overlap->inside;
     json["particles_inside"] = summary.overlap->particles_inside;
   }
+  if (summary.outflow)
+    json["outflow"] = {{"particles", summary.outflow->particles},
+                       {"kg", summary.outflow->mass},
+                       {"J", summary.outflow->energy}};
   json["warnings"] = run_warnings(summary);
   json["checksum"] = summary.checksum;
   // A file name need not be UTF-8: what is not is replaced rather than losing the whole summary.

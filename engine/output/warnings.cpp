@@ -32,6 +32,11 @@ std::vector<std::string> run_warnings(const RunSummary& summary) {
         "on {:.2g} % of the nodes of three and more fields the pairs were not solved for one by one "
         "(usual: below {:g} %)",
         100 * part, 100 * kMostPairFallbacks));
+  if (const double part = share(contact.screened, contact.meetings); part > kMostScreened)
+    out.push_back(fmt::format(
+        "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
+        "contact.volume_screen or contact.mass_screen",
+        100 * part, 100 * kMostScreened));
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back(
         fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "

@@ -19,18 +19,21 @@ namespace {
                                std::move(message), ""}});
 }
 
-/// Calls f(law, first particle, F by lanes) for the whole state, particle by particle.
+/// Calls f(p, law, F), unless particle p is rigid.
+template <int Dim, class F>
+void with_law(const State<Dim>& state, std::size_t p, const F& f) {
+  const auto& body = state.bodies[state.particles.body()[p]];
+  if (body.rigid) return;
+  double deformation[Dim * Dim];
+  for (int e = 0; e < Dim * Dim; ++e)
+    deformation[e] = state.particles.column(Quantity::deformation_gradient, e)[p];
+  std::visit([&](const auto& law) { f(p, law, deformation); },
+             state.materials[static_cast<std::size_t>(body.material)]);
+}
+
 template <int Dim, class F>
 void for_each_deformable(const State<Dim>& state, const F& f) {
-  for (std::size_t p = 0; p < state.particles.size(); ++p) {
-    const auto& body = state.bodies[state.particles.body()[p]];
-    if (body.rigid) continue;
-    double deformation[Dim * Dim];
-    for (int e = 0; e < Dim * Dim; ++e)
-      deformation[e] = state.particles.column(Quantity::deformation_gradient, e)[p];
-    std::visit([&](const auto& law) { f(p, law, deformation); },
-               state.materials[static_cast<std::size_t>(body.material)]);
-  }
+  for (std::size_t p = 0; p < state.particles.size(); ++p) with_law(state, p, f);
 }
 
 /// The evolving state of particle p, as far as its law has columns.
@@ -75,7 +78,10 @@ void start_history(State<Dim>& state) {
 /// Σ V0 density over all particles in order of their ids; density as for_each_deformable calls it.
 template <int Dim, class F>
 double sum_by_id(const State<Dim>& state, const F& density) {
-  std::vector<double> by_id(state.particles.size(), 0.0);
+  const auto& id = state.particles.id();  // not 0 … n − 1 where particles have left
+  std::uint32_t most = 0;
+  for (std::size_t p = 0; p < state.particles.size(); ++p) most = std::max(most, id[p]);
+  std::vector<double> by_id(std::size_t{most} + 1, 0.0);
   for_each_deformable(state, [&](std::size_t p, const auto& law, const double(&f)[Dim * Dim]) {
     by_id[state.particles.id()[p]] = state.particles.column(Quantity::initial_volume)[p] * density(p, law, f);
   });
@@ -207,17 +213,39 @@ void refresh_stress(State<Dim>& state) {
   });
 }
 
+namespace {
+
+/// W of a particle, J/m³ of its undeformed volume.
 template <int Dim>
-double stored_energy(State<Dim>& state) {
-  const StateView<Dim> columns = state.view().state;
-  return sum_by_id(state, [&]<class Law>(std::size_t p, const Law& law, const double(&f)[Dim * Dim]) {
+auto stored_density(State<Dim>& state) {
+  return [&state, columns = state.view().state]<class Law>(std::size_t p, const Law& law,
+                                                           const double(&f)[Dim * Dim]) {
     return as_law_sees<Law>(state, columns, p, f, [&]<int N>(const double(&g)[N * N], const auto& evolving) {
       if constexpr (Evolving<Law>)
         return law.template energy<N>(g, evolving);
       else
         return law.template energy<N>(g);
     });
-  });
+  };
+}
+
+}  // namespace
+
+template <int Dim>
+double stored_energy(State<Dim>& state) {
+  return sum_by_id(state, stored_density(state));
+}
+
+template <int Dim>
+double inner_energy(State<Dim>& state, std::size_t p) {
+  const auto& particles = state.particles;
+  double density =
+      particles.has(Quantity::dissipated_energy) ? particles.column(Quantity::dissipated_energy)[p] : 0;
+  with_law(state, p,
+           [&, stored = stored_density(state)](std::size_t, const auto& law, const double(&f)[Dim * Dim]) {
+             density += stored(p, law, f);
+           });
+  return particles.column(Quantity::initial_volume)[p] * density;
 }
 
 template <int Dim>
@@ -234,6 +262,8 @@ template void refresh_stress<2>(State<2>&);
 template void refresh_stress<3>(State<3>&);
 template double stored_energy<2>(State<2>&);
 template double stored_energy<3>(State<3>&);
+template double inner_energy<2>(State<2>&, std::size_t);
+template double inner_energy<3>(State<3>&, std::size_t);
 template double dissipated_energy<2>(State<2>&);
 template double dissipated_energy<3>(State<3>&);
 

@@ -21,6 +21,10 @@ void refresh_stress(State<Dim>& state);
 template <int Dim>
 double stored_energy(State<Dim>& state);
 
+/// The share of particle p in stored_energy and dissipated_energy, J.
+template <int Dim>
+double inner_energy(State<Dim>& state, std::size_t p);
+
 /// Plastic work and viscous heat of all particles so far, J.
 template <int Dim>
 double dissipated_energy(State<Dim>& state);

@@ -78,7 +78,8 @@ std::vector<CatalogueEntry> output_keys() {
 std::vector<std::string> catalogue_topics() {
   return {"spaces",    "materials", "bases",       "updates",    "strains", "deformation_terms",
           "positions", "normals",   "separations", "detections", "laws",    "areas",
-          "fields",    "shapes",    "seedings",    "boundaries", "output",  "pictures"};
+          "fields",    "shapes",    "seedings",    "boundaries", "leaving", "output",
+          "pictures"};
 }
 
 std::vector<CatalogueEntry> catalogue(const std::string& topic) {
@@ -98,6 +99,7 @@ std::vector<CatalogueEntry> catalogue(const std::string& topic) {
   if (topic == "shapes") return kinds_of(shape_kinds());
   if (topic == "seedings") return seedings();
   if (topic == "boundaries") return boundaries();
+  if (topic == "leaving") return words_of(kLeaving);
   if (topic == "output") return output_keys();
   std::vector<CatalogueEntry> out;
   if (topic != "pictures") return out;

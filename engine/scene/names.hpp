@@ -24,6 +24,13 @@ inline constexpr std::array<Word<Space>, 4> kSpaces{{
     {Space::three_dimensional, "3d", "three dimensions"},
 }};
 
+inline constexpr std::array<Word<LeavingKind>, 3> kLeaving{{
+    {LeavingKind::stop, "stop", "the run ends as failed when a particle is a cell beyond the grid (default)"},
+    {LeavingKind::outflow, "outflow",
+     "the run goes on without it; history.csv and run.json book what left: mass, energy, momentum"},
+    {LeavingKind::wall, "wall", "each face that boundaries say nothing of is a wall without friction"},
+}};
+
 inline constexpr std::array<Word<BasisKind>, 6> kBases{{
     {BasisKind::linear, "linear", "classic: linear functions at the particle's point; a baseline"},
     {BasisKind::ugimp, "ugimp", "generalised interpolation over the undeformed particle domain (default)"},

@@ -17,6 +17,17 @@ const FaceName* face_named(const std::string& name) {
   return nullptr;
 }
 
+/// The wall without friction on a face of the grid.
+WallSpec wall_on(const FaceName& face, const GridSpec& grid) {
+  WallSpec wall;
+  const auto axis = static_cast<std::size_t>(face.axis);
+  wall.axis = face.axis;
+  wall.upper = face.upper;
+  wall.position = grid.origin[axis] + (face.upper ? grid.size[axis] : 0);
+  wall.speed = TimeTable{{0}, {0}};
+  return wall;
+}
+
 /// Reads `boundaries`, one entry at a time.
 class BoundaryReader {
  public:
@@ -37,16 +48,6 @@ class BoundaryReader {
   }
 
  private:
-  WallSpec wall_at(const FaceName& face) const {
-    WallSpec wall;
-    const auto axis = static_cast<std::size_t>(face.axis);
-    wall.axis = face.axis;
-    wall.upper = face.upper;
-    wall.position = scene_.grid.origin[axis] + (face.upper ? scene_.grid.size[axis] : 0);
-    wall.speed = TimeTable{{0}, {0}};
-    return wall;
-  }
-
   void add(const std::string& name, const Value& value, std::variant<WallSpec, VelocityBoxSpec> condition) {
     for (const BodySpec& body : scene_.bodies) {
       if (body.name == name && is_rigid(scene_, body)) {
@@ -58,7 +59,7 @@ class BoundaryReader {
   }
 
   void read_face(const FaceName& face, const Value& value) {
-    WallSpec wall = wall_at(face);
+    WallSpec wall = wall_on(face, scene_.grid);
     if (value.is(Node::Kind::map)) return read_wall_map(face, value, wall);
     static const std::vector<std::string> kWords{"wall", "symmetry", "fixed", "free"};
     if (!value.is(Node::Kind::scalar)) {
@@ -169,6 +170,24 @@ class BoundaryReader {
 };
 
 }  // namespace
+
+void close_faces(MapReader& top, Scene& scene) {
+  const auto section = top.find("boundaries");
+  for (const FaceName& face : kFaces) {
+    if (face.axis >= scene.dimension()) continue;
+    const auto has_its_name = [&](const auto& named) { return named.name == face.name; };
+    const bool stated = section && std::any_of(section->node().keys.begin(), section->node().keys.end(),
+                                               [&](const Key& key) { return key.text == face.name; });
+    if (stated || std::any_of(scene.boundaries.begin(), scene.boundaries.end(), has_its_name)) continue;
+    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), has_its_name);
+    if (body != scene.bodies.end() && is_rigid(scene, *body))
+      MapReader(*top.find("grid"))
+          .find("leaving")
+          ->report(fmt::format(
+              "a rigid body is called '{}' as a wall here: their forces would share a column", face.name));
+    scene.boundaries.push_back({face.name, wall_on(face, scene.grid)});
+  }
+}
 
 void read_boundaries(MapReader& top, bool grid_known, Scene& scene) {
   const auto section = top.find("boundaries");

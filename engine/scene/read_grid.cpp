@@ -33,9 +33,9 @@ bool check_cells(const Value& size, int dimension, const GridSpec& grid) {
 }  // namespace
 
 bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
-  const auto section = top.need("grid", "{origin, size, cell}");
+  const auto section = top.need("grid", "{origin, size, cell, leaving}");
   if (!section) return false;
-  MapReader map(*section, "a map {origin, size, cell}");
+  MapReader map(*section, "a map {origin, size, cell, leaving}");
   if (!map.valid()) return false;
   bool good = true;
   if (const auto value = map.find("origin")) {
@@ -46,6 +46,7 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
   const auto size_value = map.need("size", fmt::format("a list of {} lengths", dimension));
   const auto size = size_value ? size_value->vector(Measure::length, dimension, kPositive) : std::nullopt;
   map.need_quantity("cell", Measure::length, kPositive, grid.cell);
+  map.word("leaving", kLeaving, grid.leaving);
   map.finish();
   if (!good || !size || grid.cell <= 0) return false;
   grid.size = *size;
@@ -60,12 +61,13 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
 }
 
 void read_time(MapReader& top, TimeSpec& time) {
-  const auto section = top.need("time", "{end, cfl, max_step}");
+  const auto section = top.need("time", "{end, cfl, max_step, collapse}");
   if (!section) return;
-  MapReader map(*section, "a map {end, cfl, max_step}");
-  constexpr Limit kCourant{"in (0, 1]", 0, 1, true};
+  MapReader map(*section, "a map {end, cfl, max_step, collapse}");
+  constexpr Limit kCourant{"in (0, 1]", 0, 1, true}, kShare{"in [0, 1)", 0, 1, false, true};
   map.need_quantity("end", Measure::time, kPositive, time.end);
   map.quantity("cfl", Measure::number, kCourant, time.cfl);
+  map.quantity("collapse", Measure::number, kShare, time.collapse);
   const auto longest = map.find("max_step");
   if (longest && !longest->is_word("none")) {
     time.max_step = longest->quantity(Measure::time, kPositive).value_or(time.max_step);

@@ -63,6 +63,7 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
   read_boundaries(top, grid_known, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
+  if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
   top.finish();
 }
 

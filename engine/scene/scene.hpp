@@ -57,6 +57,10 @@ enum class AreaKind { volume_gradient, nodal_volume };
 /// (N20 §3.4), or all pairs that touch at once.
 enum class ManyFields { lump, pairs, simultaneous };
 
+/// What becomes of a particle a cell beyond the grid: the run stops as failed, or goes on without it; or
+/// walls let none come there.
+enum class LeavingKind { stop, outflow, wall };
+
 /// A quantity tabulated in time: linear between the points, constant before the first and after the last.
 struct TimeTable {
   std::vector<double> time;   ///< s, strictly increasing, at least one entry
@@ -67,12 +71,14 @@ struct GridSpec {
   Vec3 origin{0, 0, 0};  ///< m, lower corner of the domain that particles may occupy; a node lies there
   Vec3 size{0, 0, 0};    ///< m
   double cell = 0;       ///< m, edge of a (cubic) cell
+  LeavingKind leaving = LeavingKind::stop;
 };
 
 struct TimeSpec {
   double end = 0;                                             ///< s
   double cfl = 0.5;                                           ///< Δt = cfl Δx / max_p(c_p + |v_p|)
   double max_step = std::numeric_limits<double>::infinity();  ///< s
+  double collapse = 1e-3;  ///< a time step below this share of the first ends the run as failed; 0: never
 };
 
 struct MethodSpec {

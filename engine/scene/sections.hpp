@@ -32,6 +32,8 @@ void read_materials(MapReader& top, std::vector<MaterialSpec>& materials);
 void read_bodies(MapReader& top, bool grid_known, Scene& scene);
 /// Needs the grid and the bodies.
 void read_boundaries(MapReader& top, bool grid_known, Scene& scene);
+/// `grid.leaving: wall`: a wall on each face that `boundaries` says nothing of. Needs everything else.
+void close_faces(MapReader& top, Scene& scene);
 
 /// Refuses laws that plane stress cannot have.
 void check_plane_stress(MapReader& top, const Scene& scene);

@@ -70,13 +70,15 @@ std::string head_text(const Scene& scene) {
   const int d = scene.dimension();
   if (d == 2 && scene.space != Space::axisymmetric)
     out += fmt::format("thickness: {}\n", quantity_text(scene.thickness, Measure::length));
+  out += fmt::format("grid:\n  origin: {}\n  size: {}\n  cell: {}\n  leaving: {}\n",
+                     vector_text(scene.grid.origin, Measure::length, d),
+                     vector_text(scene.grid.size, Measure::length, d),
+                     quantity_text(scene.grid.cell, Measure::length), name_of(kLeaving, scene.grid.leaving));
   out += fmt::format(
-      "grid:\n  origin: {}\n  size: {}\n  cell: {}\n", vector_text(scene.grid.origin, Measure::length, d),
-      vector_text(scene.grid.size, Measure::length, d), quantity_text(scene.grid.cell, Measure::length));
-  out += fmt::format(
-      "time:\n  end: {}\n  cfl: {}\n  max_step: {}\n", quantity_text(scene.time.end, Measure::time),
-      scene.time.cfl,
-      std::isinf(scene.time.max_step) ? "none" : quantity_text(scene.time.max_step, Measure::time));
+      "time:\n  end: {}\n  cfl: {}\n  max_step: {}\n  collapse: {}\n",
+      quantity_text(scene.time.end, Measure::time), scene.time.cfl,
+      std::isinf(scene.time.max_step) ? "none" : quantity_text(scene.time.max_step, Measure::time),
+      scene.time.collapse);
   return out;
 }
 

@@ -3,6 +3,7 @@
 /// @file The particles: a structure of arrays, one column per component.
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -86,6 +87,9 @@ class Particles {
     id_.resize_discard(n);
     body_.resize_discard(n);
   }
+
+  /// Forgets the particles from the n-th on; the memory stays.
+  void keep_first(std::size_t n) { count_ = std::min(n, count_); }
 
   std::size_t size() const { return count_; }
   bool has(Quantity q) const { return !columns_[static_cast<std::size_t>(q)].empty(); }

@@ -125,6 +125,38 @@ void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::
   if (archive.reading() && !buffers_.key.empty()) build(particles, body_field);
 }
 
+/// Keeps the particles whose rising numbers are in buffers_.order, with their keys.
+template <int Dim>
+void Tiling<Dim>::keep_ordered(Particles<Dim>& particles) {
+  const std::vector<std::uint32_t>& kept = buffers_.order;
+  const auto close_up = [&](auto* values) {
+    for (std::size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+  };
+  for (Quantity q : particles.quantities())
+    for (int k = 0; k < Particles<Dim>::components(q); ++k) close_up(particles.column(q, k));
+  close_up(particles.id().data());
+  close_up(particles.body().data());
+  close_up(buffers_.key.data());
+  buffers_.key.resize(kept.size());
+  particles.keep_first(kept.size());
+}
+
+template <int Dim>
+NodeIndex<Dim> Tiling<Dim>::sorted_node(std::size_t p) const {
+  NodeIndex<Dim> node = NodeIndex<Dim>::Zero();
+  const auto at = static_cast<std::uint32_t>(p);
+  for (const auto& tile : tiles)
+    for (int r = tile.run_begin; r < tile.run_end; ++r) {
+      const auto& run = runs[static_cast<std::size_t>(r)];
+      if (at < run.begin || at >= run.end) continue;
+      int cell = 0;
+      while (at >= run.cell_begin[cell + 1]) ++cell;
+      for (int d = 0; d < Dim; ++d, cell /= kTileSide) node[d] = tile.window[d] + 1 + cell % kTileSide;
+      return node;
+    }
+  return node;
+}
+
 template <int Dim>
 void Tiling<Dim>::sort(Particles<Dim>& particles) {
   if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;

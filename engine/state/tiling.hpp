@@ -76,6 +76,21 @@ class Tiling {
   /// @param body_field  velocity field of each body
   void build(Particles<Dim>& particles, const std::vector<int>& body_field);
 
+  /// Takes the particles out for which `leaves(index)`, calling it once for each in their order. The others
+  /// keep theirs; tiles and slots are void until the next build. No memory is asked for after a sort.
+  template <class Leaves>
+  void take_out(Particles<Dim>& particles, const Leaves& leaves) {
+    buffers_.order.clear();
+    buffers_.order.reserve(particles.size());
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      if (!leaves(p)) buffers_.order.push_back(static_cast<std::uint32_t>(p));
+    keep_ordered(particles);
+  }
+
+  /// The first support node that particle p had when last sorted, to within a node on each side: by its index
+  /// now; that of no node where it was not sorted yet.
+  NodeIndex<Dim> sorted_node(std::size_t p) const;
+
   /// The keys of the last sort, from which all the rest follows: sums depend on when that was.
   /// @param particles  as they were sorted, in the order that they have now
   void visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field);
@@ -111,6 +126,7 @@ class Tiling {
     return places;
   }
   void sort(Particles<Dim>& particles);
+  void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
   void number_slots();
   void stack_up();

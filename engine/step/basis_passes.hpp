@@ -6,7 +6,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -89,16 +88,15 @@ class BasisPasses final : public Passes<Dim> {
     });
   }
 
-  double strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
+  bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
     const auto velocity = state.nodes.columns(Nodal::velocity), force = state.nodes.columns(Nodal::force);
-    smallest_.assign(rooms_.size(), std::numeric_limits<double>::infinity());
+    inverted_.assign(rooms_.size(), 0);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
-      const double j = strain_force(c, room, velocity, dt_strain, terms, state, force);
-      double& smallest = smallest_[static_cast<std::size_t>(omp_get_thread_num())];
-      smallest = std::min(smallest, j);
+      if (!strain_force(c, room, velocity, dt_strain, terms, state, force))
+        inverted_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
     });
-    return *std::min_element(smallest_.begin(), smallest_.end());
+    return *std::max_element(inverted_.begin(), inverted_.end()) == 0;
   }
 
   void xpic(State<Dim>& state, bool paired) override {
@@ -156,9 +154,9 @@ class BasisPasses final : public Passes<Dim> {
     }
   }
 
-  static double strain_force(const TileContext<Dim>& c, Room& room, const NodeColumns<Dim>& velocity,
-                             double dt_strain, int terms, const State<Dim>& state,
-                             const NodeColumns<Dim>& force) {
+  static bool strain_force(const TileContext<Dim>& c, Room& room, const NodeColumns<Dim>& velocity,
+                           double dt_strain, int terms, const State<Dim>& state,
+                           const NodeColumns<Dim>& force) {
     if constexpr (Dim == 2) {
       if (state.depth == Depth::hoop)
         return strain_force_tile<Dim, Basis, Depth::hoop>(c, room.update, velocity, dt_strain, terms,
@@ -217,7 +215,7 @@ class BasisPasses final : public Passes<Dim> {
   static void merge(const TileReport& r, TileReport& sum) {
     sum.fastest = std::max(sum.fastest, r.fastest);
     sum.speed = std::max(sum.speed, r.speed);
-    sum.smallest_j = std::min(sum.smallest_j, r.smallest_j);
+    sum.inverted |= r.inverted;
     sum.lost |= r.lost;
   }
 
@@ -226,8 +224,7 @@ class BasisPasses final : public Passes<Dim> {
   };
   std::vector<std::unique_ptr<Room>> rooms_;
   std::vector<ThreadReport> reports_;
-  std::vector<double> smallest_;
-  std::vector<int> outside_;
+  std::vector<int> inverted_, outside_;
   ContactFit<Dim, Basis> fit_;
 };
 

@@ -82,7 +82,11 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   // Tied fields must move as one to the last node (the perfect interface is exact).
   const double screen = exact_fields_ ? 0 : spec_.mass_screen;
   const bool own_normals = spec_.normal == NormalKind::own_gradient;
-  if (is_screened(state, node)) return;
+  ++list_.counters.meetings;
+  if (is_screened(state, node)) {
+    ++list_.counters.screened;
+    return;
+  }
   double total = 0;
   for (int k = 0; k < fields; ++k) {
     total += mass_of(k);
@@ -91,6 +95,7 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   ContactEntry<Dim> entry;
   entry.normal = entry.impulse = Vec<Dim>::Zero();
   const bool together = spec_.fields == ManyFields::simultaneous && fields > 2 && !own_normals;
+  bool dropped = false;
   for (int k = 0; k < fields; ++k) {
     if (is_rigid(k)) continue;
     if (together) {
@@ -99,12 +104,16 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
         if (entry.b == node.rigid || (entry.b > k && !is_rigid(entry.b))) list_.entries.push_back(entry);
       continue;
     }
-    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) continue;
+    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) {
+      dropped = true;
+      continue;
+    }
     entry.a = k;
     entry.b = fields == 2 && !own_normals ? 1 - k : -1;
     list_.entries.push_back(entry);
     if (entry.b >= 0) return;
   }
+  list_.counters.screened += dropped;
 }
 
 /// What the next step wants to know of this one's entries.

@@ -28,8 +28,8 @@ class Passes {
   /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
   virtual void project_geometry(State<Dim>& state) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
-  /// @return smallest J that was met
-  virtual double strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;
+  /// @return whether each J is a positive number
+  virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;
   /// One order of XPIC: next += Σ_p S_pi M_p S_p star. @param paired carries Δv* beside v*
   virtual void xpic(State<Dim>& state, bool paired) = 0;
   /// New particle velocities, positions, (strain last) strains, domains.

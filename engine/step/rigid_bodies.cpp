@@ -136,7 +136,8 @@ void RigidBodies<Dim>::set_nodes(State<Dim>& state) const {
 }
 
 template <int Dim>
-double RigidBodies<Dim>::end(State<Dim>& state, double dt, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+RigidReport RigidBodies<Dim>::end(State<Dim>& state, double dt, const Vec<Dim>& lower,
+                                  const Vec<Dim>& upper) {
   std::vector<Mat<Dim>> turn(bodies_.size(), Mat<Dim>::Identity());
   std::vector<Vec<Dim>> pivot(bodies_.size());
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -148,24 +149,22 @@ double RigidBodies<Dim>::end(State<Dim>& state, double dt, const Vec<Dim>& lower
     const Mat<3> full = Eigen::AngleAxisd(angle, axis_of(rotation)).toRotationMatrix();
     turn[k] = full.topLeftCorner<Dim, Dim>();
   }
-  double fastest = 0;
+  RigidReport report;
   auto& particles = state.particles;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const int at = body_at_[particles.body()[p]];
     if (at < 0) continue;
     const auto k = static_cast<std::size_t>(at);
     const Vec<Dim> v = particles.vector(Quantity::velocity, p);
-    fastest = std::max(fastest, v.norm());
+    report.fastest = std::max(report.fastest, v.norm());
     Vec<Dim> x = particles.vector(Quantity::position, p) + dt * v;
     if (bodies_[k].turns) x = pivot[k] + turn[k] * bodies_[k].arm[particles.id()[p] - bodies_[k].first_id];
-    bool inside = true;
     for (int d = 0; d < Dim; ++d) {
       particles.column(Quantity::position, d)[p] = x[d];
-      inside &= x[d] > lower[d] && x[d] < upper[d];
+      report.lost |= !(x[d] > lower[d] && x[d] < upper[d]);
     }
-    if (!inside) return -1;
   }
-  return fastest;
+  return report;
 }
 
 template class RigidBodies<2>;

@@ -10,6 +10,12 @@
 
 namespace mpmfast {
 
+/// Of the rigid particles in a step.
+struct RigidReport {
+  double fastest = 0;  ///< m/s
+  bool lost = false;   ///< one is outside the allowed box
+};
+
 /// A rigid body moves with v(t) and turns with ω(t) about a pivot that moves with it: its particles are at
 /// x = c(t) + R(θ(t)) (X − c(0)) with c = c(0) + ∫v and θ = ∫ω. Positions of a turning body come from those
 /// of time 0, so that no particle leaves its orbit however many steps there are.
@@ -28,8 +34,8 @@ class RigidBodies {
   /// After the projection: the nodes of turning bodies get v + ω × (x_i − c), exact at the node itself (the
   /// projected velocity is that of the particles' mean place, which lies inside the body).
   void set_nodes(State<Dim>& state) const;
-  /// After a step: new positions. @return the largest speed, m/s; negative when a particle left the box
-  double end(State<Dim>& state, double dt, const Vec<Dim>& lower, const Vec<Dim>& upper);
+  /// After a step: new positions.
+  RigidReport end(State<Dim>& state, double dt, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
   /// Points that moments count about, m, at the start of the step; by velocity field.
   const std::vector<Vec<Dim>>& pivots() const { return pivots_; }

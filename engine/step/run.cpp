@@ -21,6 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kCheckpointName = "checkpoint.h5";
+constexpr double kFailureReach = 4;  ///< cells around a failure of which failed.vtu shows the particles
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -104,7 +105,8 @@ class Run {
     try {
       loop();
     } catch (const std::exception& failure) {
-      keep_what_there_is(failure.what());
+      const auto* physical = dynamic_cast<const RunFailure*>(&failure);
+      keep_what_there_is(failure.what(), physical ? physical->place() : std::nullopt);
       throw;
     }
     // Before the last row and frame, which a run that went on would not have written; they are written even
@@ -145,9 +147,10 @@ class Run {
       const double left = end - state.time;
       // Two even steps rather than a last sliver.
       const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
-      if (!(dt > 1e-12 * end) && dt < left)
-        throw RunFailure(fmt::format("step {}, time {:.9g} s: the time step collapsed to {:.3g} s",
-                                     state.step, state.time, dt));
+      counters_.first_dt = std::max(counters_.first_dt, state.step == 0 ? stable : 0);
+      if (!(stable >= scene_.time.collapse * counters_.first_dt) || (!(dt > 1e-12 * end) && dt < left))
+        step_.fail_collapsed(stable, stable / counters_.first_dt);
+      counters_.particle_steps += static_cast<double>(state.particles.size());
       const auto begin = Clock::now();
       step_.advance(dt);
       counters_.stepping += seconds_since(begin);
@@ -225,11 +228,17 @@ class Run {
     row.pair_friction = sums.pair_friction_work;
     measure_overlap_of_fields();
     row.overlap = counters_.overlap;
+    row.outflow = outflow();
     counters_.last_sums = sums;
     counters_.last_row_time = state.time;
     counters_.last_row_step = state.step;
     counters_.balance.add(row);
     history_->append(row);
+  }
+
+  std::optional<Outflow> outflow() const {
+    if (scene_.grid.leaving != LeavingKind::outflow) return std::nullopt;
+    return step_.sums().outflow;
   }
 
   void measure_overlap_of_fields() {
@@ -253,9 +262,7 @@ class Run {
   }
 
   double throughput() const {
-    const auto work =
-        static_cast<double>(step_.state().particles.size()) * static_cast<double>(step_.state().step);
-    return counters_.stepping > 0 ? work / counters_.stepping : 0;
+    return counters_.stepping > 0 ? counters_.particle_steps / counters_.stepping : 0;
   }
 
   void report() {
@@ -275,9 +282,9 @@ class Run {
     options_.progress(p);
   }
 
-  /// After a failure: run.json first, then a last frame and pictures of the half-made step, if they can be
-  /// made. The history ends with the last whole row.
-  void keep_what_there_is(const std::string& reason) {
+  /// After a failure: run.json first, then the neighbourhood of the place where it failed, a last frame and
+  /// pictures of the half-made step, if they can be made. The history ends with the last whole row.
+  void keep_what_there_is(const std::string& reason, const std::optional<RunFailure::Place>& place) {
     const auto attempt = [](auto f) {
       try {
         f();
@@ -285,8 +292,19 @@ class Run {
       }
     };
     attempt([&] { summarise("failed", reason); });
+    if (place) attempt([&] { write_failed(*place); });
     attempt([&] { write_frame(); });
     attempt([&] { draw("last"); });
+  }
+
+  void write_failed(const RunFailure::Place& place) {
+    const auto& state = step_.state();
+    Vec<Dim> centre;
+    for (int d = 0; d < Dim; ++d) centre[d] = place[static_cast<std::size_t>(d)];
+    std::vector<Vec<Dim>> places;
+    for (std::size_t p = 0; p < state.particles.size(); ++p) places.push_back(step_.place_of(p));
+    write_neighbourhood(options_.folder / "failed.vtu", state.particles, scene_, places, centre,
+                        kFailureReach * state.grid.cell, state.time);
   }
 
   RunSummary summarise(const std::string& status, const std::string& reason) {
@@ -314,10 +332,11 @@ class Run {
     const ContactCounters& c = step_.contact_counters();
     const double mean_iterations =
         c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;
-    s.contact = {c.nodes_peak,    c.regressions, c.fallbacks,     c.unconverged,
-                 mean_iterations, c.pair_nodes,  c.pair_fallbacks};
+    s.contact = {c.nodes_peak, c.regressions,    c.fallbacks, c.unconverged, mean_iterations,
+                 c.pair_nodes, c.pair_fallbacks, c.meetings,  c.screened};
     s.energy_error = counters_.balance.error();
     s.overlap = counters_.overlap;
+    s.outflow = outflow();
     s.checksum = checksum(state.particles);
     s.command = origin_.command;
     s.overrides = origin_.overrides;

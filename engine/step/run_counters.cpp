@@ -53,6 +53,8 @@ void RunCounters<Dim>::visit(Archive& archive) {
   archive.number("run/rows", rows);
   archive.list("run/frame_times", frame_times);
   archive.number("run/last_row_time", last_row_time);
+  archive.number("run/particle_steps", particle_steps);
+  archive.number("run/first_dt", first_dt);
   archive.number("run/dt", dt);
   archive.number("run/dt_min", dt_min);
   archive.number("run/dt_max", dt_max);

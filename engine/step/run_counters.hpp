@@ -33,13 +33,14 @@ class Marks {
   int next_ = 1;
 };
 
-/// The balance kinetic + stored + dissipated + friction − work of boundaries and body forces, and how far it
-/// has drifted.
+/// The balance kinetic + stored + dissipated + friction + what left − work of boundaries and body forces, and
+/// how far it has drifted.
 class EnergyBalance {
  public:
   void add(const HistoryRow& row) {
-    const double balance =
-        row.kinetic + row.stored + row.dissipated + row.friction - row.boundary_work - row.body_force_work;
+    const double gone = row.outflow ? row.outflow->energy : 0;
+    const double balance = row.kinetic + row.stored + row.dissipated + row.friction + gone -
+                           row.boundary_work - row.body_force_work;
     if (!started_) first_ = balance;
     started_ = true;
     drift_ = balance - first_;
@@ -81,6 +82,8 @@ struct RunCounters {
   std::uint64_t rows = 0;           ///< of history.csv
   std::vector<double> frame_times;  ///< s
   double last_row_time = 0;         ///< s
+  double particle_steps = 0;        ///< particles of each step, which may become fewer
+  double first_dt = 0;              ///< the stable time step at the start, s
   double dt = 0, dt_min = std::numeric_limits<double>::infinity(), dt_max = 0;
   double stepping = 0, wall = 0;  ///< s of wall time: in the steps alone, and of the whole run
   std::uint64_t resumes = 0;

@@ -1,6 +1,5 @@
 #include "engine/step/step.hpp"
 
-#include <fmt/format.h>
 #include <omp.h>
 
 #include <Eigen/LU>
@@ -10,7 +9,6 @@
 #include <cstring>
 #include <limits>
 
-#include "engine/errors.hpp"
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
 
@@ -96,6 +94,7 @@ void Step<Dim>::advance(double dt) {
   filter_velocities();   // Eq. 42 to 44
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
+  let_leave();
   book(dt);
   state_.time += dt;
   ++state_.step;
@@ -164,7 +163,7 @@ void Step<Dim>::project() {
     sort_due_ = true;
     sort_if_due();
   }
-  fail("it moved further than the grid can follow in one step");
+  fail("a support reaches further than the grid can follow in one step");
 }
 
 template <int Dim>
@@ -206,10 +205,10 @@ void Step<Dim>::start_velocities() {
 
 template <int Dim>
 void Step<Dim>::strain_and_force(double dt) {
-  const double smallest_j = clock_.time(Pass::strain_force, [&] {
+  const bool sound = clock_.time(Pass::strain_force, [&] {
     return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
   });
-  if (!(smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
+  if (!sound) fail("a volume became zero or negative (J <= 0)");
 }
 
 template <int Dim>
@@ -329,16 +328,16 @@ void Step<Dim>::update_particles(double dt) {
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;
   travelled_ += report.speed * dt;
-  if (!(report.smallest_j > 0)) fail("its volume became zero or negative (J <= 0)");
-  if (report.lost) fail("it left the grid or is not a number");
+  if (report.inverted) fail("a volume became zero or negative (J <= 0)");
+  lost_ = report.lost;
 }
 
 template <int Dim>
 void Step<Dim>::move_rigid_end(double dt) {
   if (rigid_.empty()) return;
-  const double fastest = rigid_.end(state_, dt, lower_, upper_);
-  if (fastest < 0) fail("it left the grid or is not a number");
-  travelled_ += fastest * dt;
+  const RigidReport report = rigid_.end(state_, dt, lower_, upper_);
+  lost_ |= report.lost;
+  travelled_ += report.fastest * dt;
 }
 
 template <int Dim>
@@ -381,30 +380,6 @@ double Step<Dim>::stored_energy() {
 template <int Dim>
 double Step<Dim>::dissipated_energy() {
   return mpmfast::dissipated_energy(state_);
-}
-
-/// Names the particle with the smallest id that is not finite, outside the grid or without volume.
-template <int Dim>
-void Step<Dim>::fail(const char* what) const {
-  const auto& particles = state_.particles;
-  std::size_t worst = particles.size();
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec<Dim> x = particles.vector(Quantity::position, p), v = particles.vector(Quantity::velocity, p);
-    const bool inside = x.allFinite() && v.allFinite() && (x.array() > lower_.array()).all() &&
-                        (x.array() < upper_.array()).all();
-    const bool sound = particles.volume_ratio(p) > 0;
-    if (inside && sound) continue;
-    if (worst == particles.size() || particles.id()[p] < particles.id()[worst]) worst = p;
-  }
-  const std::string when = fmt::format("step {}, time {:.9g} s", state_.step, state_.time);
-  if (worst == particles.size()) throw RunFailure(fmt::format("{}: a particle was lost: {}", when, what));
-  const Vec<Dim> x = particles.vector(Quantity::position, worst);
-  std::string place = fmt::format("{:.6g}, {:.6g}", x[0], x[1]);
-  if constexpr (Dim == 3) place += fmt::format(", {:.6g}", x[2]);
-  const auto body = static_cast<std::size_t>(particles.body()[worst]);
-  throw RunFailure(fmt::format("{}: particle {} of body '{}' (velocity field '{}') at ({}) m: {}", when,
-                               particles.id()[worst], scene_->bodies[body].name,
-                               plan_.fields[static_cast<std::size_t>(plan_.body_field[body])], place, what));
 }
 
 template class Step<2>;

@@ -8,6 +8,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
+#include "engine/state/outflow.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/clock.hpp"
 #include "engine/step/conditions.hpp"
@@ -26,6 +27,7 @@ struct Sums {
   std::vector<Vec<3>> rigid_moment;                                  ///< N m s about the pivot, likewise
   std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction_work;  ///< J, likewise
+  Outflow outflow;
 };
 
 template <int Dim>
@@ -40,6 +42,13 @@ class Step {
 
   /// Advances the state by dt. Throws RunFailure.
   void advance(double dt);
+
+  /// Throws the RunFailure of a time step that collapsed to dt: who holds it, and why.
+  /// @param share  of the first time step
+  [[noreturn]] void fail_collapsed(double dt, double share) const;
+
+  /// Where particle p is: its position, or the cell that it was last sorted to where that is no number.
+  Vec<Dim> place_of(std::size_t p) const;
 
   State<Dim>& state() { return state_; }
   const State<Dim>& state() const { return state_; }
@@ -74,8 +83,11 @@ class Step {
   void filter_velocities();
   void update_particles(double dt);
   void move_rigid_end(double dt);
+  void let_leave();
   void book(double dt);
-  [[noreturn]] void fail(const char* what) const;
+  /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
+  [[noreturn]] void fail(const char* otherwise) const;
+  [[noreturn]] void fail_at(std::size_t particle, const std::string& cause) const;
 
   template <class F>
   void for_each_slot(F f);
@@ -94,6 +106,7 @@ class Step {
   double travelled_ = 0;                 ///< bound on any particle's path since the last sort, m
   Vec<Dim> gravity_ = Vec<Dim>::Zero();  ///< of this step, m/s²
   bool sort_due_ = true;
+  bool lost_ = false;  ///< in this step a particle left the box, or is not a number
   std::uint64_t nodes_peak_ = 0;
 };
 

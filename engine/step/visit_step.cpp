@@ -13,7 +13,10 @@ namespace {
 
 template <int Dim>
 void visit_particles(Archive& archive, Particles<Dim>& particles) {
-  const std::size_t n = particles.size();
+  std::uint64_t n = particles.size();  // fewer than were seeded where some have left
+  archive.number("particles/count", n);
+  if (n > particles.size()) throw FileError("the checkpoint has more particles than its scene");
+  particles.keep_first(n);
   archive.column("particles/id", particles.id().data(), n);
   archive.column("particles/body", particles.body().data(), n);
   for (const Quantity q : particles.quantities()) {
@@ -35,6 +38,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
   archive.number("contact/unconverged", c.unconverged);
   archive.number("contact/pair_nodes", c.pair_nodes);
   archive.number("contact/pair_fallbacks", c.pair_fallbacks);
+  archive.number("contact/meetings", c.meetings);
+  archive.number("contact/screened", c.screened);
 }
 
 }  // namespace

@@ -26,6 +26,10 @@ void visit_sums(Archive& archive, const std::string& group, Sums<Dim>& sums) {
   visit_vectors<3>(archive, group + "/rigid_moment", sums.rigid_moment);
   visit_vectors<Dim>(archive, group + "/pair_impulse", sums.pair_impulse);
   archive.list(group + "/pair_friction_work", sums.pair_friction_work);
+  archive.number(group + "/outflow_particles", sums.outflow.particles);
+  archive.number(group + "/outflow_mass", sums.outflow.mass);
+  archive.number(group + "/outflow_energy", sums.outflow.energy);
+  archive.column(group + "/outflow_momentum", sums.outflow.momentum.data(), sums.outflow.momentum.size());
 }
 
 }  // namespace mpmfast

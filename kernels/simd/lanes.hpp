@@ -137,16 +137,32 @@ inline V floor_of(V x) {
   return nearest > x ? nearest - 1.0 : nearest;
 }
 
+// Lanes as a set, for guards: a machine that has registers for sets narrows one by one instruction a
+// comparison.
+#if defined(__AVX512F__)
+using LaneSet = __mmask8;
+inline LaneSet leading_lanes(int n) { return static_cast<LaneSet>(n >= kLanes ? 0xff : (1u << n) - 1); }
+/// Those of `among` where a < b; never where one is not a number.
+inline LaneSet where_less(LaneSet among, Lanes a, Lanes b) {
+  return _mm512_mask_cmp_pd_mask(among, a, b, _CMP_LT_OQ);
+}
+inline bool same_lanes(LaneSet a, LaneSet b) { return a == b; }
+#else
+using LaneSet = IntLanes;
+inline LaneSet where_less(LaneSet among, Lanes a, Lanes b) { return among & (a < b); }
+inline bool same_lanes(LaneSet a, LaneSet b) { return !any_of(a ^ b); }
+inline LaneSet leading_lanes(int n) {
+  IntLanes lane;
+  for (int i = 0; i < kLanes; ++i) lane[i] = i;
+  return lane < static_cast<std::int64_t>(n);
+}
+#endif
+
 /// Mask of the first n lanes, or of all.
 inline IntLanes lanes_before(int n) {
   IntLanes lane;
   for (int i = 0; i < kLanes; ++i) lane[i] = i;
   return lane < static_cast<std::int64_t>(n);
-}
-inline double smallest_of(Lanes x) {
-  double s = x[0];
-  for (int i = 1; i < kLanes; ++i) s = x[i] < s ? x[i] : s;
-  return s;
 }
 
 inline double sum_of(double x) { return x; }

@@ -43,16 +43,15 @@ inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes 
 }
 
 /// Stores the results of up to kLanes particles from `at`, `count` of which are the caller's.
-/// @return their J; −1 where it is not a positive number, and very large beyond the count
+/// @return whether each J is a positive number
 template <int Dim>
-inline Lanes store_strain(const ParticleView<Dim>& p, std::uint32_t at, int count,
-                          const Lanes (&f)[Dim * Dim], const Lanes (&tau)[kSymmetric<Dim>],
-                          Lanes wave_speed_squared, Lanes jacobian) {
+inline bool store_strain(const ParticleView<Dim>& p, std::uint32_t at, int count, const Lanes (&f)[Dim * Dim],
+                         const Lanes (&tau)[kSymmetric<Dim>], Lanes wave_speed_squared, Lanes jacobian) {
   for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count);
   for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(p.stress[s] + at, tau[s], count);
   store_first(p.wave_speed + at, square_root(wave_speed_squared), count);
-  const Lanes sound = jacobian > 0.0 ? jacobian : -1.0;  // −1 of NaN too
-  return lanes_before(count) ? sound : 1e300;
+  const LaneSet all = leading_lanes(count);
+  return same_lanes(where_less(all, broadcast<Lanes>(0.0), jacobian), all);
 }
 
 /// The velocity gradient and F of kLanes particles.
@@ -68,10 +67,10 @@ inline void load_strain(const ParticleView<Dim>& p, const StrainRoom<Dim>& room,
 
 /// As strain_chunk, in a plane that stretches along its normal.
 template <class Law>
-double strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
-                               double dt, int terms, const StrainRoom<2>& room) {
+bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
+                             double dt, int terms, const StrainRoom<2>& room) {
   const bool hoop = p.depth == Depth::hoop;
-  Lanes smallest = broadcast<Lanes>(1e300);
+  bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[4], f[4], tau[4], c2, s = load_lanes(p.stretch + at);
@@ -79,29 +78,29 @@ double strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::ui
     load_strain(p, room, begin, k, l, f);
     advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
     store_first(p.stretch + at, s, count - k);
-    smallest = smaller(store_strain(p, at, count - k, f, tau, c2, s * determinant<2>(f)), smallest);
+    sound &= store_strain(p, at, count - k, f, tau, c2, s * determinant<2>(f));
   }
-  return smallest_of(smallest);
+  return sound;
 }
 
 /// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
 /// exponential, τ, c and the evolving state by the material's law; all columns written back.
-/// @return smallest J of the chunk, −1 if one is not a positive number
+/// @return whether each J of the chunk is a positive number
 template <int Dim, class Law>
-double strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
-                    int terms, const StrainRoom<Dim>& room) {
+bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
+                  int terms, const StrainRoom<Dim>& room) {
   if constexpr (Dim == 2) {
     if (p.depth != Depth::held) return strain_chunk_with_depth(p, law, begin, count, dt, terms, room);
   }
-  Lanes smallest = broadcast<Lanes>(1e300);
+  bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
     load_strain(p, room, begin, k, l, f);
     advance_law<Dim>(p.state, law, l, dt, terms, at, count - k, f, tau, c2);
-    smallest = smaller(store_strain(p, at, count - k, f, tau, c2, determinant<Dim>(f)), smallest);
+    sound &= store_strain(p, at, count - k, f, tau, c2, determinant<Dim>(f));
   }
-  return smallest_of(smallest);
+  return sound;
 }
 
 }  // namespace mpmfast

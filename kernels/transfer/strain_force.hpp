@@ -88,14 +88,14 @@ inline void scatter_hoop_force(const ParticleView<Dim>& p, const Weights& w, std
 /// One tile: strain first from the nodal velocities (if `dt_strain` > 0), then the internal force.
 /// @tparam D  Depth::hoop for the hoop terms of axisymmetry (2-D); the others differ in nothing here
 /// @param visit_material called as visit_material(index, f): f(law) with the material's law
-/// @return smallest J of the tile (≤ 0: inverted)
+/// @return whether each J of the tile is a positive number
 template <int Dim, class Basis, Depth D = Depth::held, class VisitMaterial>
-double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& room,
-                         const NodeColumns<Dim>& velocity, double dt_strain, int terms,
-                         const VisitMaterial& visit_material, const NodeColumns<Dim>& force) {
+bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& room,
+                       const NodeColumns<Dim>& velocity, double dt_strain, int terms,
+                       const VisitMaterial& visit_material, const NodeColumns<Dim>& force) {
   constexpr bool hoop = D == Depth::hoop;
   const ParticleView<Dim>& p = *c.particles;
-  double smallest = 1e300;
+  bool sound = true;
   if (dt_strain > 0) load_window(for_gradients(velocity), c.tile->slot, room.velocity);
   clear(room.force);
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
@@ -105,16 +105,14 @@ double strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>&
                                  if constexpr (hoop)
                                    gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
                                  visit_material(c.bodies[run.body].material, [&](const auto& law) {
-                                   const double j =
-                                       strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
-                                   smallest = j < smallest ? j : smallest;
+                                   sound &= strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
                                  });
                                }
                                scatter_force(p, w, begin, count, room);
                                if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
                              });
   flush_window(room.force, c.tile->slot, for_gradients(force));
-  return smallest;
+  return sound;
 }
 
 }  // namespace mpmfast

@@ -49,14 +49,14 @@ struct UpdateRoom : StrainForceRoom<Dim, Basis> {
 /// What an update reports of a tile, by lane.
 struct LaneReport {
   Lanes fastest{}, speed_squared{};
-  IntLanes lost{};
+  bool lost = false;
 
   void add_to(TileReport& sum) const {
     for (int i = 0; i < kLanes; ++i) {
       sum.fastest = larger(fastest[i], sum.fastest);
       sum.speed = larger(square_root(speed_squared[i]), sum.speed);
     }
-    sum.lost |= any_of(lost);
+    sum.lost |= lost;
   }
 };
 
@@ -99,6 +99,8 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
   const ParticleView<Dim>& p = *c.particles;
   for (int k = 0; k < count; k += kLanes) {
     const IntLanes counts = lanes_before(count - k);
+    const LaneSet all = leading_lanes(count - k);
+    LaneSet sound = all;  // finite, and in the box
     Lanes speed2 = broadcast<Lanes>(0.0), drift2 = broadcast<Lanes>(0.0);
     for (int d = 0; d < Dim; ++d) {
       const Lanes grid = load_lanes(&value[d][k]), jump = load_lanes(&value[Dim + d][k]);
@@ -113,12 +115,13 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
       const Lanes x_new = x + rule.dt * mean;
       store_first(p.position[d] + begin + k, x_new, count - k);
       store_first(p.velocity[d] + begin + k, v_new, count - k);
-      report.lost |= counts & ~((x_new > lower[d]) & (x_new < upper[d]));  // also of NaN
+      sound = where_less(sound, broadcast<Lanes>(lower[d]), x_new);
+      sound = where_less(sound, x_new, broadcast<Lanes>(upper[d]));
       speed2 += v_new * v_new;
       drift2 += mean * mean;
     }
     const Lanes fastest = square_root(speed2) + load_lanes(p.wave_speed + begin + k);
-    report.lost |= counts & ~(fastest < 1e300);
+    report.lost |= !same_lanes(where_less(sound, fastest, broadcast<Lanes>(1e300)), all);
     report.fastest = larger(counts ? fastest : 0.0, report.fastest);
     report.speed_squared = larger(counts ? larger(speed2, drift2) : 0.0, report.speed_squared);
     if constexpr (Basis::kConvected) {
@@ -161,8 +164,7 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
               store_lanes(&room.hoop_rate[k],
                           load_lanes(&room.value[0][k]) / load_lanes(p.position[0] + begin + k));
           visit_material(c.bodies[run.body].material, [&](const auto& law) {
-            const double j = strain_chunk<Dim>(p, law, begin, count, rule.dt_strain, rule.terms, room);
-            report.smallest_j = j < report.smallest_j ? j : report.smallest_j;
+            report.inverted |= !strain_chunk<Dim>(p, law, begin, count, rule.dt_strain, rule.terms, room);
           });
         }
         if constexpr (Basis::kSpread > 0 && NV == 2) {

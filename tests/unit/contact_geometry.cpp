@@ -119,6 +119,22 @@ TEST_CASE("a volume screen drops the edge nodes, and contact without one keeps t
   CHECK(b.contact_list().nodes.size() < a.contact_list().nodes.size());
   CHECK(b.contact_list().nodes.size() >= 7);
   CHECK_FALSE(a.state().nodes.has(Nodal::volume));
+  const ContactCounters &all = a.contact_counters(), &some = b.contact_counters();
+  CHECK(all.screened == 0);
+  CHECK(all.meetings == a.contact_list().nodes.size());
+  CHECK(some.meetings == all.meetings);
+  CHECK(some.screened == a.contact_list().nodes.size() - b.contact_list().nodes.size());
+}
+
+TEST_CASE("a mass screen counts the nodes that it leaves without contact, step by step") {
+  const Scene scene = contact_scene(0.25, "{mass_screen: 0.1}");
+  Step<2> step(scene);
+  step.advance(step.stable_dt());
+  const std::uint64_t first = step.contact_counters().screened;
+  CHECK(first > 0);
+  CHECK(first == step.contact_counters().meetings - step.contact_list().nodes.size());
+  step.advance(step.stable_dt());
+  CHECK(step.contact_counters().screened > first);
 }
 
 TEST_CASE(

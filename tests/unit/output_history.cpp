@@ -120,6 +120,21 @@ TEST_CASE("the overlap ends a row of the history where the scene asks for it") {
   CHECK(lines[1].ends_with(",3,0.25,0.5"));
 }
 
+TEST_CASE("what left the grid ends a row of the history where the scene lets it leave") {
+  const TemporaryFolder folder;
+  Scene scene = small_scene(Space::plane_strain);
+  scene.grid.leaving = LeavingKind::outflow;
+  HistoryFile file(folder.path(), scene);
+  HistoryRow row;
+  row.dissipated = 3;
+  row.outflow = Outflow{7, 0.25, 0.5, {1, 2, 0}};
+  file.append(row);
+  const auto lines = lines_of(read_text(folder.path() / "history.csv"));
+  REQUIRE(lines.size() == 2);
+  CHECK(lines[0].ends_with(",dissipated_J,outflow_kg,outflow_J,outflow_momentum_x,outflow_momentum_y"));
+  CHECK(lines[1].ends_with(",3,0.25,0.5,1,2"));
+}
+
 TEST_CASE("a body's name with a comma or a quote stays one cell of history.csv") {
   const TemporaryFolder folder;
   Scene scene = small_scene(Space::plane_strain);

@@ -71,7 +71,8 @@ TEST_CASE("run.json has the keys of the output contract") {
                           "command",
                           "overrides"})
     CHECK_MESSAGE(json.contains(key), key);
-  for (const char* key : {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged"})
+  for (const char* key :
+       {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged", "meetings", "screened"})
     CHECK_MESSAGE(json["contact"].contains(key), key);
   CHECK(json["status"] == "failed");
   CHECK(json["steps"] == 12);
@@ -94,6 +95,18 @@ TEST_CASE("run.json states an overlap that was measured, and no other") {
   CHECK(written()["overlap_m2"] == 0.25);
   CHECK(written()["inside_m2"] == 0.5);
   CHECK(written()["particles_inside"] == 3);
+}
+
+TEST_CASE("run.json states what left the grid where a scene lets it, and else nothing") {
+  const TemporaryFolder folder;
+  RunSummary summary;
+  const auto written = [&] {
+    write_run_json(folder.path(), summary);
+    return nlohmann::json::parse(read_text(folder.path() / "run.json"));
+  };
+  CHECK_FALSE(written().contains("outflow"));
+  summary.outflow = Outflow{3, 0.25, 0.5, {}};
+  CHECK(written()["outflow"] == nlohmann::json{{"particles", 3}, {"kg", 0.25}, {"J", 0.5}});
 }
 
 TEST_CASE("the peak of memory is that of a living process") {
@@ -135,6 +148,8 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   good.contact.fallbacks = 200;
   good.contact.pair_nodes = 100;
   good.contact.pair_fallbacks = 5;
+  good.contact.meetings = 500;
+  good.contact.screened = 100;
   good.energy_error = -0.1;
   CHECK(run_warnings(good).empty());
   CHECK(run_warnings(RunSummary{}).empty());
@@ -142,14 +157,15 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   doubtful.contact.unconverged = 11;
   doubtful.contact.fallbacks = 250;
   doubtful.contact.pair_fallbacks = 6;
+  doubtful.contact.screened = 150;
   doubtful.energy_error = -0.25;
   const auto warnings = run_warnings(doubtful);
-  REQUIRE(warnings.size() == 4);
+  REQUIRE(warnings.size() == 5);
   const char* const said[] = {"1.1 % of the contact normals did not converge",
                               "25 % of the contact normals fell back", "on 6 % of the nodes",
-                              "the energy balance drifted by -25 %"};
-  for (std::size_t k = 0; k < 4; ++k) CHECK(warnings[k].find(said[k]) == 0);
+                              "30 % of the nodes where bodies meet", "the energy balance drifted by -25 %"};
+  for (std::size_t k = 0; k < 5; ++k) CHECK(warnings[k].find(said[k]) == 0);
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);
-  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 4);
+  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 5);
 }

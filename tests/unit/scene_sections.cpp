@@ -14,6 +14,8 @@ TEST_CASE("a scene that states its physics alone gets the defaults") {
   CHECK(scene.thickness == 1);
   CHECK(scene.time.cfl == 0.5);
   CHECK(std::isinf(scene.time.max_step));
+  CHECK(scene.time.collapse == 1e-3);
+  CHECK(scene.grid.leaving == LeavingKind::stop);
   CHECK(scene.method.basis == BasisKind::ugimp);
   CHECK(scene.method.update == UpdateKind::flip);
   CHECK(scene.method.position == PositionKind::grid_end);
@@ -51,6 +53,27 @@ TEST_CASE("every update moves particles with the grid unless the scene says othe
   CHECK(holds(fault(plain_scene() + "method: {update: apic, basis: bspline2, position: grid}\n"),
               "method.position: apic moves particles with their velocity"));
   CHECK(holds(fault(plain_scene() + "method: {update: apic(2), basis: bspline2}\n"), "method.update: "));
+}
+
+TEST_CASE("a step collapses at a share of the first that lies below one, and particles leave in three ways") {
+  const auto with = [](const std::string& from, const std::string& to) {
+    return replaced(plain_scene(), from, to);
+  };
+  const auto collapse = [&](const std::string& share) {
+    return with("1 us}", "1 us, collapse: " + share + "}");
+  };
+  CHECK(parse(collapse("0.25")).time.collapse == 0.25);
+  CHECK(parse(collapse("0")).time.collapse == 0);
+  for (const char* wrong : {"1", "-0.1", "1 us"})
+    CHECK_MESSAGE(holds(fault(collapse(wrong)), "time.collapse: "), wrong);
+  const auto leaving = [&](const std::string& word) {
+    return with("cell: 1 mm}", "cell: 1 mm, leaving: " + word + "}");
+  };
+  CHECK(parse(leaving("outflow")).grid.leaving == LeavingKind::outflow);
+  CHECK(parse(leaving("outflow")).boundaries.empty());
+  CHECK(parse(leaving("wall")).boundaries.size() == 4);
+  CHECK(parse(replaced(solid_scene(), "cell: 1 mm}", "cell: 1 mm, leaving: wall}")).boundaries.size() == 6);
+  CHECK(holds(fault(leaving("walls")), "Did you mean 'wall'"));
 }
 
 TEST_CASE("the deformation advances by one term, by two, or by the exponential") {

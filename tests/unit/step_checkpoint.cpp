@@ -245,5 +245,30 @@ bodies:
   check_goes_on<3>(spheres + "method: {basis: bspline2, update: apic}\n", 7, 12);
 }
 
+TEST_CASE("right after particles left the grid a step can be written and goes on to the bit") {
+  const std::string yaml = R"(
+space: plane_strain
+grid: {size: [12 mm, 8 mm], cell: 0.5 mm, leaving: outflow}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, disk: {centre: [2.1 mm, 4 mm], radius: 2 mm}, material: soft, velocity: [-200 m/s, 5 m/s]}
+  - {name: b, disk: {centre: [6.2 mm, 4.4 mm], radius: 2 mm}, material: soft, velocity: [-250 m/s, 0 m/s]}
+method: {basis: lcpdi}
+)" + kContact;
+  const Scene scene = scene_from(yaml);
+  Step<2> step(scene);
+  const auto& particles = step.state().particles;
+  int tried = 0;
+  for (int k = 1; tried < 4; ++k) {
+    const std::size_t before = particles.size();
+    advance(step, 1);
+    REQUIRE(particles.size() > 0);
+    if (particles.size() == before) continue;
+    check_goes_on<2>(yaml, k, k + 8);
+    ++tried;
+  }
+}
+
 }  // namespace
 }  // namespace mpmfast

@@ -33,9 +33,9 @@ void print_contact(const RunSummary::Contact& contact) {
   if (contact.nodes_peak == 0) return;
   fmt::print(
       "contact          {} nodes at most, {} regressions of {:.2f} iterations, {} fallbacks, {} "
-      "unconverged\n",
+      "unconverged, {} nodes screened\n",
       contact.nodes_peak, contact.regressions, contact.mean_iterations, contact.fallbacks,
-      contact.unconverged);
+      contact.unconverged, contact.screened);
 }
 
 /// Where to look at the results.
