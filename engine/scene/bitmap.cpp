@@ -5,11 +5,13 @@
 #include <stb_image.h>
 
 #include <fmt/format.h>
+#define ZLIB_CONST
+#include <zlib.h>
 
+#include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "engine/scene/sections.hpp"
@@ -18,22 +20,27 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kLargestFile = std::size_t{1} << 28;  // bytes
-constexpr std::uint32_t kLongestEdge = 32768;               // pixels; checked before anything is decoded
+constexpr std::uint32_t kLongestEdge = 32768;  // pixels; checked before anything is decoded
 
-std::uint32_t big_endian(const std::vector<unsigned char>& bytes, std::size_t at) {
+std::uint32_t big_endian(std::span<const unsigned char> bytes, std::size_t at) {
   std::uint32_t value = 0;
   for (std::size_t k = 0; k < 4; ++k) value = (value << 8) | bytes[at + k];
   return value;
 }
 
+std::string_view name_of_chunk(std::span<const unsigned char> bytes, std::size_t at) {
+  return {reinterpret_cast<const char*>(bytes.data()) + at + 4, 4};
+}
+
 /// Looks at the PNG header (signature, then IHDR: width, height, depth, colour type).
-std::string header_fault(const std::vector<unsigned char>& bytes) {
+std::string header_fault(std::span<const unsigned char> bytes) {
   constexpr std::array<unsigned char, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
   constexpr std::size_t kHeaderEnd = 26;
   if (bytes.size() < kHeaderEnd || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
     return "not a PNG file";
   }
+  if (big_endian(bytes, 8) != 13 || name_of_chunk(bytes, 8) != "IHDR")
+    return "damaged: it begins without IHDR";
   const int depth = bytes[24], colour = bytes[25];
   if (depth != 8 || colour != 0) {
     static const char* const kColours[] = {"grey",          "?", "RGB", "palette", "grey with alpha", "?",
@@ -48,22 +55,60 @@ std::string header_fault(const std::vector<unsigned char>& bytes) {
   return "";
 }
 
+/// Counts what compressed data, given in pieces, expands to.
+class Inflater {
+ public:
+  Inflater() { inflateInit(&stream_); }
+  ~Inflater() { inflateEnd(&stream_); }
+  Inflater(const Inflater&) = delete;
+  Inflater& operator=(const Inflater&) = delete;
+
+  /// False where the data are no such, or expand to more than `most` bytes in all.
+  bool feed(std::span<const unsigned char> piece, std::uint64_t most) {
+    stream_.next_in = piece.data();
+    stream_.avail_in = static_cast<uInt>(piece.size());
+    int result = Z_OK;
+    do {
+      stream_.next_out = room_.data();
+      stream_.avail_out = static_cast<uInt>(room_.size());
+      result = inflate(&stream_, Z_NO_FLUSH);
+    } while (result == Z_OK && stream_.avail_out == 0 && stream_.total_out <= most);
+    return (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) && stream_.total_out <= most;
+  }
+
+ private:
+  z_stream stream_{};
+  std::array<unsigned char, 32768> room_;
+};
+
+/// stb_image takes the memory that a chunk says it needs, and all that its data expand to: looks whether each
+/// chunk is in the file, and whether the data are no more than the picture.
+std::string chunk_fault(std::span<const unsigned char> bytes) {
+  constexpr std::size_t kAround = 12;  // bytes: length, name, checksum
+  const std::uint64_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
+  const std::uint64_t most = 2 * (width + 1) * height + 64;  // a line has a byte more; interlaced: more lines
+  Inflater inflater;
+  std::size_t at = 8;
+  while (true) {
+    if (at + kAround > bytes.size()) return "damaged: it ends before its IEND";
+    const std::size_t length = big_endian(bytes, at);
+    if (length > bytes.size() - at - kAround) return "damaged: a chunk is longer than the rest of the file";
+    if (name_of_chunk(bytes, at) == "IEND") return "";
+    if (name_of_chunk(bytes, at) == "IDAT" && !inflater.feed(bytes.subspan(at + 8, length), most))
+      return "damaged: its data are no compressed picture of its size";
+    at += kAround + length;
+  }
+}
+
 }  // namespace
 
-std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file, std::string& why_not) {
+std::shared_ptr<const GreyImage> decode_grey_png(std::span<const unsigned char> bytes, std::string& why_not) {
   const auto refuse = [&](std::string why) {
     why_not = std::move(why);
     return nullptr;
   };
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return refuse("no such file");
-  if (!std::filesystem::is_regular_file(file, error)) return refuse("not a file");
-  if (std::filesystem::file_size(file, error) > kLargestFile || error) return refuse("too large a file");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return refuse("cannot be opened");
-  const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream),
-                                         std::istreambuf_iterator<char>()};
   if (std::string fault = header_fault(bytes); !fault.empty()) return refuse(std::move(fault));
+  if (std::string fault = chunk_fault(bytes); !fault.empty()) return refuse(std::move(fault));
   auto image = std::make_shared<GreyImage>();
   int channels = 0;
   const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
@@ -74,6 +119,11 @@ std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file
   const auto count = static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height);
   image->pixel.assign(pixels.get(), pixels.get() + count);
   return image;
+}
+
+std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file, std::string& why_not) {
+  const auto bytes = load_bytes(file, why_not);
+  return bytes ? decode_grey_png(*bytes, why_not) : nullptr;
 }
 
 }  // namespace mpmfast

@@ -19,6 +19,19 @@ std::string expected_of(Measure kind) {
   return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
 }
 
+/// The first of them: a message for each of thousands of values must not name thousands of words.
+std::string list_text(std::span<const std::string> words) {
+  constexpr std::size_t kMost = 50;
+  if (words.size() <= kMost) return fmt::format("{}", fmt::join(words, ", "));
+  return fmt::format("{}, … {} in all", fmt::join(words.first(kMost), ", "), words.size());
+}
+
+/// Of the first hundred problems: a hint looks at all known words, which may be thousands themselves.
+std::string hint_for(const std::string& word, std::span<const std::string> known, const Problems& problems) {
+  constexpr std::size_t kMostHints = 100;
+  return problems.count() < kMostHints ? did_you_mean(word, known) : "";
+}
+
 }  // namespace
 
 bool is_name(const std::string& text) {
@@ -117,8 +130,8 @@ int Value::word_index(std::span<const std::string> known) const {
       if (known[k] == node_->scalar) return static_cast<int>(k);
     }
   }
-  complain(fmt::format("not known here (one of {})", fmt::join(known, ", ")),
-           is(Node::Kind::scalar) ? did_you_mean(node_->scalar, known) : "");
+  complain(fmt::format("not known here (one of {})", list_text(known)),
+           is(Node::Kind::scalar) ? hint_for(node_->scalar, known, *problems_) : "");
   return -1;
 }
 
@@ -235,11 +248,10 @@ void MapReader::finish() {
   if (!valid_) return;
   for (const Key& key : value_.node().keys) {
     if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
-    const std::string hint = did_you_mean(key.text, known_);
+    const std::string hint = hint_for(key.text, known_, value_.problems());
     value_.problems().add(
         key.place, join(value_.path(), key.text),
-        hint.empty() ? fmt::format("unknown key (known here: {})", fmt::join(known_, ", ")) : "unknown key",
-        hint);
+        hint.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key", hint);
   }
 }
 

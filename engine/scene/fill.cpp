@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "engine/scene/geometry.hpp"
+#include "engine/scene/surface.hpp"
 
 namespace mpmfast {
 
@@ -59,6 +60,32 @@ void each_point(const Lattice& lattice, const Visit& visit) {
   }
 }
 
+/// Hands over every point of the lattice that lies inside the shape. A surface is asked once a row.
+template <class Visit>
+void each_point_inside(const Lattice& lattice, const Shape& shape, const Visit& visit) {
+  const auto* stl = std::get_if<StlShape>(&shape);
+  if (!stl) {
+    return each_point(lattice, [&](const Vec3& point) {
+      if (contains(shape, point)) visit(point);
+    });
+  }
+  std::vector<Crossing> crossings;
+  for (long k = 0; k < lattice[2].count; ++k) {
+    for (long j = 0; j < lattice[1].count; ++j) {
+      const double y = lattice[1].at(j), z = lattice[2].at(k);
+      stl->surface->crossings(y, z, crossings);
+      std::size_t passed = 0;
+      int winding = 0;
+      for (long i = 0; i < lattice[0].count; ++i) {
+        const double x = lattice[0].at(i);
+        for (; passed < crossings.size() && crossings[passed].x <= x; ++passed)
+          winding += crossings[passed].winding;
+        if (winding != 0) visit(Vec3{x, y, z});
+      }
+    }
+  }
+}
+
 /// The half-edges of the domains of a lattice's points.
 Vec3 half_size_of(const Lattice& lattice) {
   return {0.5 * lattice[0].spacing, 0.5 * lattice[1].spacing, 0.5 * lattice[2].spacing};
@@ -71,9 +98,11 @@ Seeds fill_straight(const BodySpec& body, const GridSpec& grid, int dimension) {
       box ? lattice_of(around, body, grid, dimension) : grid_lattice(around, body, grid, dimension);
   Seeds seeds;
   seeds.half_size = half_size_of(lattice);
-  each_point(lattice, [&](const Vec3& point) {
-    if (box || contains(body.shape, point)) seeds.position.push_back(point);
-  });
+  const auto keep = [&](const Vec3& point) { seeds.position.push_back(point); };
+  if (box)
+    each_point(lattice, keep);
+  else
+    each_point_inside(lattice, body.shape, keep);
   return seeds;
 }
 
@@ -108,6 +137,10 @@ struct Turn {
     return polygon;
   }
   Shape operator()(const BitmapShape& bitmap) const { return bitmap; }  // its levels share the grid's lattice
+  Shape operator()(StlShape stl) const {                                // of which only the surface counts
+    stl.surface = std::make_shared<Surface>(stl.surface->placed(1, {0, 0, 1}, angle, {0, 0, 0}));
+    return stl;
+  }
 };
 
 /// Seen along the lattice's axes, the lattice ends on the faces of the box around the shape.
@@ -117,9 +150,8 @@ Seeds fill_turned(const BodySpec& body, const GridSpec& grid, int dimension) {
   const Lattice lattice = lattice_of(bounds(shape), body, grid, dimension);
   Seeds seeds;
   seeds.half_size = half_size_of(lattice);
-  each_point(lattice, [&](const Vec3& point) {
-    if (contains(shape, point)) seeds.position.push_back(turned(point, angle));
-  });
+  each_point_inside(lattice, shape,
+                    [&](const Vec3& point) { seeds.position.push_back(turned(point, angle)); });
   seeds.angle.assign(seeds.position.size(), angle);
   return seeds;
 }

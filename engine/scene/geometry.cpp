@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "engine/scene/polygon.hpp"
+#include "engine/scene/surface.hpp"
 
 namespace mpmfast {
 
@@ -69,6 +70,12 @@ bool inside(const BitmapShape& shape, const Vec3& point) {
   return image.pixel[index] == shape.grey;
 }
 
+bool inside(const StlShape& shape, const Vec3& point) {
+  std::vector<Crossing> crossings;
+  shape.surface->crossings(point[1], point[2], crossings);
+  return wound_round(crossings, point[0]);
+}
+
 Bounds extent(const BoxShape& box) { return {box.lower, box.upper}; }
 
 Bounds extent(const EllipsoidShape& shape) {
@@ -128,6 +135,8 @@ Bounds extent(const BitmapShape& shape) {
   out.upper[1] = top == 0 ? shape.upper[1] : shape.lower[1] + pixel_y * static_cast<double>(height - top);
   return out;
 }
+
+Bounds extent(const StlShape& shape) { return shape.surface->bounds(); }
 
 }  // namespace
 

@@ -63,13 +63,6 @@ std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
   return chosen[0];
 }
 
-std::optional<int> material_index(const Value& value, const Scene& scene) {
-  std::vector<std::string> known;
-  for (const MaterialSpec& material : scene.materials) known.push_back(material.name);
-  const int index = value.word_index(known);
-  return index < 0 ? std::nullopt : std::optional<int>(index);
-}
-
 void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
   constexpr int kMost = 8;
   if (dimension == 2) body.particles_per_cell[2] = 1;
@@ -132,7 +125,9 @@ void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) 
 /// One entry of the list: one body, or one for each grey level of a bitmap.
 class BodyReader {
  public:
-  BodyReader(Scene& scene, std::vector<BodyPlace>& places) : scene_(scene), places_(places) {}
+  BodyReader(Scene& scene, std::vector<BodyPlace>& places) : scene_(scene), places_(places) {
+    for (const MaterialSpec& material : scene.materials) materials_.push_back(material.name);
+  }
 
   void read(const Value& entry, std::size_t number) {
     MapReader map(entry, "a map {box | disk | …, material, …}");
@@ -157,8 +152,8 @@ class BodyReader {
       read_parts(map, chosen->value, body, place);
     } else {
       const auto material = map.need("material", "the name of a material");
-      const auto index = material ? material_index(*material, scene_) : std::nullopt;
-      const auto shape = chosen ? chosen->kind->read(chosen->value, dimension) : std::nullopt;
+      const auto index = material ? material_index(*material) : std::nullopt;
+      const auto shape = chosen ? chosen->kind->read(chosen->value, scene_) : std::nullopt;
       if (index && shape) {
         body.material = *index;
         body.shape = *shape;
@@ -169,10 +164,15 @@ class BodyReader {
   }
 
  private:
+  std::optional<int> material_index(const Value& value) const {
+    const int index = value.word_index(materials_);
+    return index < 0 ? std::nullopt : std::optional<int>(index);
+  }
+
   void read_parts(MapReader& map, const Value& bitmap, const BodySpec& common, const BodyPlace& place) {
     const std::vector<BitmapPart> parts = read_bitmap(map, bitmap, scene_);
     const auto shared = map.find("material");
-    const auto shared_index = shared ? material_index(*shared, scene_) : std::nullopt;
+    const auto shared_index = shared ? material_index(*shared) : std::nullopt;
     if (!shared && parts.empty()) return;
     for (const BitmapPart& part : parts) {
       BodySpec body = common;
@@ -184,7 +184,7 @@ class BodyReader {
                         part.shape.grey));
         continue;
       }
-      const auto index = part.material ? material_index(*part.material, scene_) : shared_index;
+      const auto index = part.material ? material_index(*part.material) : shared_index;
       if (!index) continue;
       body.material = *index;
       add(body, place);
@@ -200,6 +200,7 @@ class BodyReader {
 
   Scene& scene_;
   std::vector<BodyPlace>& places_;
+  std::vector<std::string> materials_;  ///< names
 };
 
 /// Particles may only lie in the grid. A shape across the axis of an axisymmetric scene is its right half; a

@@ -86,12 +86,12 @@ const std::vector<MaterialKind>& material_kinds() {
 void read_materials(MapReader& top, std::vector<MaterialSpec>& materials) {
   const auto section = top.need("materials", "a map of names, each {model: …}");
   if (!section) return;
-  MapReader all(*section, "a map of names, each {model: …}");
-  if (!all.valid()) return;
+  if (!section->is(Node::Kind::map)) return section->complain("not a map of names, each {model: …}");
   std::vector<std::string> models;
   for (const MaterialKind& kind : material_kinds()) models.emplace_back(kind.name);
-  for (const Key& key : section->node().keys) {
-    const Value value = *all.find(key.text);
+  for (std::size_t k = 0; k < section->size(); ++k) {
+    const Key& key = section->node().keys[k];
+    const Value value(section->node().items[k], join(section->path(), key.text), section->problems());
     MaterialSpec material{key.text, NeoHookeanSpec{}};
     if (!is_name(key.text)) value.report("not a name (letters, digits, '_' and '-')");
     MapReader map(value, "a map {model, density, …}");

@@ -14,7 +14,8 @@ std::optional<Vec3> need_vector(MapReader& map, const char* key, int dimension, 
   return value ? value->vector(Measure::length, dimension, limit) : std::nullopt;
 }
 
-std::optional<Shape> read_box(const Value& value, int dimension) {
+std::optional<Shape> read_box(const Value& value, const Scene& scene) {
+  const int dimension = scene.dimension();
   MapReader map(value, "a map {from, to}");
   const auto from = need_vector(map, "from", dimension);
   const auto to = need_vector(map, "to", dimension);
@@ -29,7 +30,8 @@ std::optional<Shape> read_box(const Value& value, int dimension) {
   return BoxShape{*from, *to};
 }
 
-std::optional<Shape> read_round(const Value& value, int dimension) {
+std::optional<Shape> read_round(const Value& value, const Scene& scene) {
+  const int dimension = scene.dimension();
   MapReader map(value, "a map {centre, radius}");
   const auto centre = need_vector(map, "centre", dimension);
   double radius = 0;
@@ -39,7 +41,8 @@ std::optional<Shape> read_round(const Value& value, int dimension) {
   return EllipsoidShape{*centre, {radius, radius, dimension == 3 ? radius : 0.0}, 0};
 }
 
-std::optional<Shape> read_ellipsoid(const Value& value, int dimension) {
+std::optional<Shape> read_ellipsoid(const Value& value, const Scene& scene) {
+  const int dimension = scene.dimension();
   MapReader map(value, "a map {centre, radii, angle}");
   const auto centre = need_vector(map, "centre", dimension);
   const auto radii = need_vector(map, "radii", dimension, kPositive);
@@ -50,7 +53,8 @@ std::optional<Shape> read_ellipsoid(const Value& value, int dimension) {
   return EllipsoidShape{*centre, *radii, angle};
 }
 
-std::optional<Shape> read_ring(const Value& value, int dimension) {
+std::optional<Shape> read_ring(const Value& value, const Scene& scene) {
+  const int dimension = scene.dimension();
   MapReader map(value,
                 dimension == 3 ? "a map {centre, inner, outer, length}" : "a map {centre, inner, outer}");
   const auto centre = need_vector(map, "centre", dimension);
@@ -88,7 +92,8 @@ std::optional<std::vector<std::array<double, 2>>> read_points(const Value& list)
   return points;
 }
 
-std::optional<Shape> read_polygon(const Value& value, int dimension) {
+std::optional<Shape> read_polygon(const Value& value, const Scene& scene) {
+  const int dimension = scene.dimension();
   PolygonShape shape;
   if (dimension == 2 && value.is(Node::Kind::list)) {
     const auto points = read_points(value);
@@ -132,6 +137,9 @@ const std::vector<ShapeKind>& shape_kinds() {
        "simple, closed by itself; in 3-D extruded along z", read_polygon},
       {"bitmap", 2, "FILE (beside it: extent, origin, skip, materials)",
        "2-D, an 8-bit grey PNG: each grey level is a body NAME_LEVEL", nullptr},
+      {"stl", 3, "file, scale, angle = 0, axis = z, translate = 0",
+       "3-D, a closed surface: scale is the length of the file's unit; turned about its origin, then moved",
+       read_stl},
   };
   return kKinds;
 }

@@ -168,7 +168,18 @@ struct BitmapShape {
   std::shared_ptr<const struct GreyImage> image;
 };
 
-using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape>;
+/// The inside of a closed surface from an STL file: scaled, turned about an axis through the file's origin,
+/// moved (3-D).
+struct StlShape {
+  std::filesystem::path file;
+  double scale = 1;                              ///< m, a length of 1 in the file
+  Vec3 axis{0, 0, 1};                            ///< unit
+  double angle = 0;                              ///< rad, right-handed about the axis
+  Vec3 translate{};                              ///< m
+  std::shared_ptr<const class Surface> surface;  ///< where it lies in the scene
+};
+
+using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape, StlShape>;
 
 /// About an axis through a point that moves with the body's velocity; the speed of a deformable body is that
 /// at the start.

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,12 @@ struct ShapeKind {
   int dimension;  ///< 2, 3, or 0 for both
   const char* keys;
   const char* says;
-  std::optional<Shape> (*read)(const Value& value, int dimension);
+  std::optional<Shape> (*read)(const Value& value, const Scene& scene);  ///< needs the head of the scene
 };
 const std::vector<ShapeKind>& shape_kinds();
+
+/// `stl` of a body.
+std::optional<Shape> read_stl(const Value& value, const Scene& scene);
 
 /// A bitmap entry: one shape for each grey level that is not skipped.
 struct BitmapPart {
@@ -57,8 +61,16 @@ struct BitmapPart {
 };
 std::vector<BitmapPart> read_bitmap(MapReader& body, const Value& bitmap, const Scene& scene);
 
-/// Decodes an 8-bit grey PNG. On failure returns nothing and says why.
+/// The content of a file that a scene names. On failure, as also below, returns nothing and says why.
+std::optional<std::vector<unsigned char>> load_bytes(const std::filesystem::path& file, std::string& why_not);
+
+/// Decodes an 8-bit grey PNG.
 std::shared_ptr<const GreyImage> load_grey_png(const std::filesystem::path& file, std::string& why_not);
+std::shared_ptr<const GreyImage> decode_grey_png(std::span<const unsigned char> bytes, std::string& why_not);
+
+/// Reads an STL file, text or binary, in its own lengths: a closed surface, or nothing.
+std::shared_ptr<const Surface> load_stl(const std::filesystem::path& file, std::string& why_not);
+std::shared_ptr<const Surface> decode_stl(std::span<const unsigned char> bytes, std::string& why_not);
 
 struct MaterialKind {
   const char* name;

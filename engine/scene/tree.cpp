@@ -6,6 +6,7 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 #include <utility>
@@ -16,16 +17,29 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kDeepest = 32;        // levels; a scene has about six
-constexpr std::size_t kMostNodes = 200000;  // after aliases are expanded
+// After aliases are expanded, whose copies take memory like what was written.
+constexpr std::size_t kDeepest = 32;         // levels; a scene has about six
+constexpr std::size_t kMostNodes = 200000;   // keys and values
+constexpr std::size_t kMostText = 16 << 20;  // bytes of keys and values, as a file may have
 
 /// Thrown inside the parser to leave it; the problem is already noted.
 struct StopParsing {};
 
-std::size_t count_nodes(const Node& node) {
-  std::size_t count = 1;
-  for (const Node& item : node.items) count += count_nodes(item);
-  return count;
+/// What a node and all that is in it take.
+struct Size {
+  std::size_t nodes = 0, text = 0, levels = 0;
+};
+Size size_of(const Node& node) {
+  Size size{1 + node.keys.size(), node.scalar.size(), 0};
+  for (const Key& key : node.keys) size.text += key.text.size();
+  for (const Node& item : node.items) {
+    const Size inner = size_of(item);
+    size.nodes += inner.nodes;
+    size.text += inner.text;
+    size.levels = std::max(size.levels, inner.levels);
+  }
+  if (node.kind == Node::Kind::list || node.kind == Node::Kind::map) ++size.levels;
+  return size;
 }
 
 /// Builds the tree from the parser's events. Aliases become copies of what they name.
@@ -34,9 +48,7 @@ class TreeBuilder : public YAML::EventHandler {
   TreeBuilder(int source, Problems& problems) : source_(source), problems_(problems) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
-    if (documents_++ == 0) return;
-    problems_.add(at(mark), "", "a second document begins here (a scene is one YAML document)");
-    throw StopParsing();
+    if (documents_++ > 0) stop(at(mark), "a second document begins here (a scene is one YAML document)");
   }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
@@ -45,6 +57,7 @@ class TreeBuilder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                 const std::string& value) override {
     refuse_tag(mark, tag);
+    count({0, value.size(), 0}, at(mark));
     Node node = make(Node::Kind::scalar, mark);
     node.scalar = value;
     quoted_ = tag == "!";
@@ -56,7 +69,7 @@ class TreeBuilder : public YAML::EventHandler {
       problems_.add(at(mark), path(), "an alias may not stand inside its own anchor");
       throw StopParsing();
     }
-    count(count_nodes(known->second), mark);
+    count(size_of(known->second), at(mark));
     finish(known->second, YAML::NullAnchor);
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
@@ -77,14 +90,15 @@ class TreeBuilder : public YAML::EventHandler {
   struct Frame {
     Node node;
     YAML::anchor_t anchor = YAML::NullAnchor;
-    std::optional<Key> key;  ///< read, its value not yet
-    bool drop = false;       ///< that value belongs to a refused key
+    std::optional<Key> key;            ///< read, its value not yet
+    std::map<std::string, int> lines;  ///< of all keys so far
+    bool drop = false;                 ///< that value belongs to a refused key
   };
 
   Place at(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1, source_}; }
 
   Node make(Node::Kind kind, const YAML::Mark& mark) {
-    count(1, mark);
+    count({1, 0, 0}, at(mark));
     quoted_ = false;
     Node node;
     node.kind = kind;
@@ -92,10 +106,20 @@ class TreeBuilder : public YAML::EventHandler {
     return node;
   }
 
-  void count(std::size_t more, const YAML::Mark& mark) {
-    nodes_ += more;
-    if (nodes_ <= kMostNodes) return;
-    problems_.add(at(mark), "", fmt::format("too many values (at most {}, aliases expanded)", kMostNodes));
+  /// Of what begins at the mark, inside all that is open.
+  void count(const Size& more, const Place& place) {
+    nodes_ += more.nodes;
+    text_ += more.text;
+    if (nodes_ > kMostNodes)
+      stop(place, fmt::format("too many values (at most {}, aliases expanded)", kMostNodes));
+    if (text_ > kMostText)
+      stop(place, fmt::format("too much text (at most {} bytes, aliases expanded)", kMostText));
+    if (frames_.size() + more.levels > kDeepest)
+      stop(place, fmt::format("nested too deeply (at most {} levels, aliases expanded)", kDeepest));
+  }
+
+  [[noreturn]] void stop(const Place& place, std::string why) {
+    problems_.add(place, "", std::move(why));
     throw StopParsing();
   }
 
@@ -106,10 +130,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
     refuse_tag(mark, tag);
-    if (frames_.size() >= kDeepest) {
-      problems_.add(at(mark), "", fmt::format("nested too deeply (at most {} levels)", kDeepest));
-      throw StopParsing();
-    }
+    count({0, 0, 1}, at(mark));
     Frame frame;
     frame.node = make(kind, mark);
     frame.anchor = anchor;
@@ -125,7 +146,10 @@ class TreeBuilder : public YAML::EventHandler {
 
   /// Hands a complete node to what encloses it.
   void finish(Node node, YAML::anchor_t anchor) {
-    if (anchor != YAML::NullAnchor) anchors_[anchor] = node;
+    if (anchor != YAML::NullAnchor) {
+      count(size_of(node), node.place);
+      anchors_[anchor] = node;
+    }
     if (frames_.empty()) {
       root_ = std::move(node);
       return;
@@ -153,9 +177,9 @@ class TreeBuilder : public YAML::EventHandler {
     } else if (node.scalar == "<<" && !quoted_) {
       problems_.add(node.place, join(parent, "<<"), "merge keys are not supported",
                     "Put the anchor on a whole value, or use --set");
-    } else if (const int first = index_of(frame.node, node.scalar); first >= 0) {
-      const int line = frame.node.keys[static_cast<std::size_t>(first)].place.line;
-      problems_.add(node.place, join(parent, node.scalar), fmt::format("already given on line {}", line));
+    } else if (const auto [first, fresh] = frame.lines.emplace(node.scalar, node.place.line); !fresh) {
+      problems_.add(node.place, join(parent, node.scalar),
+                    fmt::format("already given on line {}", first->second));
     } else {
       frame.drop = false;
     }
@@ -176,7 +200,7 @@ class TreeBuilder : public YAML::EventHandler {
   Node root_;
   std::vector<Frame> frames_;
   std::map<YAML::anchor_t, Node> anchors_;
-  std::size_t nodes_ = 0;
+  std::size_t nodes_ = 0, text_ = 0;
   int documents_ = 0;
   bool quoted_ = false;  ///< the scalar just read stood in quotes
 };

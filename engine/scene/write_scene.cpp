@@ -143,6 +143,11 @@ struct ShapeText {
     const std::string z = d == 3 ? fmt::format(", z: [{}, {}]", length(s.z_lower), length(s.z_upper)) : "";
     return fmt::format("polygon: {{points: [{}]{}}}", fmt::join(points, ", "), z);
   }
+  std::string operator()(const StlShape& s) const {
+    return fmt::format("stl: {{file: {}, scale: {}, angle: {}, axis: {}, translate: {}}}",
+                       quoted(s.file.string()), length(s.scale), quantity_text(s.angle, Measure::angle),
+                       vector_text(s.axis, Measure::number, 3), lengths(s.translate));
+  }
   std::string operator()(const BitmapShape& s) const { return "bitmap: " + quoted(s.file.string()); }
 };
 

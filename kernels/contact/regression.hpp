@@ -88,17 +88,10 @@ inline bool solve_symmetric(double (&a)[packed_size(N)], double (&b)[N]) {
 /// The sum over the lanes of each of kLanes vectors, in the lanes of one: neighbouring lanes of two vectors
 /// are added into one, until one is left. A third of the instructions of as many sums one by one.
 inline Lanes sums_of(Lanes (&v)[kLanes]) {
-  IntLanes even, odd;
-#pragma GCC unroll 16
-  for (int i = 0; i < kLanes; ++i) {
-    even[i] = 2 * i;
-    odd[i] = 2 * i + 1;
-  }
 #pragma GCC unroll 16
   for (int half = kLanes / 2; half > 0; half /= 2)
 #pragma GCC unroll 16
-    for (int i = 0; i < half; ++i)
-      v[i] = __builtin_shuffle(v[2 * i], v[2 * i + 1], even) + __builtin_shuffle(v[2 * i], v[2 * i + 1], odd);
+    for (int i = 0; i < half; ++i) v[i] = add_neighbours(v[2 * i], v[2 * i + 1]);
   return v[0];
 }
 

@@ -61,7 +61,7 @@ struct JohnsonCook {
     V low = zero, high = larger(trial, zero) / slope;
     V x = (trial - rest) / (slope + derivative * thermal);
     const auto yields = trial > rest;
-    x = (x > low) & (x <= high) ? x : 0.5 * high;
+    x = ((x > low) & (x <= high)) ? x : 0.5 * high;
     constexpr int kMost = 60;  // bisection alone would need them; Newton takes about five
     for (int k = 0; k < kMost; ++k) {
       const V rate = x * (1.0 / dt);
@@ -73,7 +73,7 @@ struct JohnsonCook {
       low = g > 0.0 ? x : low;
       high = g > 0.0 ? high : x;
       const V newton = x + g / (slope + thermal * (derivative * share + base * rate_slope));
-      const V next = (newton > low) & (newton <= high) ? newton : 0.5 * (low + high);
+      const V next = ((newton > low) & (newton <= high)) ? newton : 0.5 * (low + high);
       x = open ? next : x;
     }
     return yields ? x : zero;

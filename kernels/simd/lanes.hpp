@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
+#include <utility>
 
 #if defined(__AVX__)
 #include <immintrin.h>
@@ -175,10 +176,18 @@ inline double sum_of(Lanes x) {
 /// The lanes a distance that is a power of two away change places.
 template <int Distance>
 inline Lanes swap_lanes(Lanes x) {
-  IntLanes from;
-#pragma GCC unroll 16
-  for (int i = 0; i < kLanes; ++i) from[i] = i ^ Distance;
-  return __builtin_shuffle(x, from);
+  const auto swap = [&]<int... I>(std::integer_sequence<int, I...>) {
+    return __builtin_shufflevector(x, x, (I ^ Distance)...);
+  };
+  return swap(std::make_integer_sequence<int, kLanes>());
+}
+
+/// The sums of neighbouring lanes, those of a before those of b.
+inline Lanes add_neighbours(Lanes a, Lanes b) {
+  const auto add = [&]<int... I>(std::integer_sequence<int, I...>) {
+    return __builtin_shufflevector(a, b, (2 * I)...) + __builtin_shufflevector(a, b, (2 * I + 1)...);
+  };
+  return add(std::make_integer_sequence<int, kLanes>());
 }
 
 inline double largest_of(Lanes x) {
@@ -189,16 +198,14 @@ inline double largest_of(Lanes x) {
 
 /// Transposes four records in place: row i of the result holds component i of each.
 inline void transpose(Record& a, Record& b, Record& c, Record& d) {
-  using Index = std::conditional_t<sizeof(Real) == 4, std::int32_t, std::int64_t>;
-  using Pick = Index __attribute__((vector_size(sizeof(Record))));
-  const Record ab_even = __builtin_shuffle(a, b, Pick{0, 4, 2, 6}),
-               ab_odd = __builtin_shuffle(a, b, Pick{1, 5, 3, 7});
-  const Record cd_even = __builtin_shuffle(c, d, Pick{0, 4, 2, 6}),
-               cd_odd = __builtin_shuffle(c, d, Pick{1, 5, 3, 7});
-  a = __builtin_shuffle(ab_even, cd_even, Pick{0, 1, 4, 5});
-  b = __builtin_shuffle(ab_odd, cd_odd, Pick{0, 1, 4, 5});
-  c = __builtin_shuffle(ab_even, cd_even, Pick{2, 3, 6, 7});
-  d = __builtin_shuffle(ab_odd, cd_odd, Pick{2, 3, 6, 7});
+  const Record ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+               ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Record cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+               cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
 }  // namespace mpmfast

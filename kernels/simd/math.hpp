@@ -64,7 +64,7 @@ inline V exponential(V x) {
 /// ln x for normal positive x. x = m 2^e with m in [√½, √2); ln m = 2 atanh(s), s = (m − 1)/(m + 1), |s| ≤
 /// 0.172.
 template <class V>
-[[gnu::no_sanitize("signed-integer-overflow")]]  // of an x below zero, which has no logarithm
+__attribute__((no_sanitize("signed-integer-overflow")))  // of an x below zero, which has no logarithm
 inline V
 logarithm(V x) {
   constexpr std::int64_t sqrt_half = 0x3FE6A09E667F3BCD;

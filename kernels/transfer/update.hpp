@@ -64,7 +64,7 @@ struct LaneReport {
 /// wanted: in 2-D from the pairs beside the values.
 template <int NC, class Weights, class Room>
 inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room) {
-  constexpr int last = from.window.kRecords - 1, pairs = 4 / from.window.kPerNode;
+  constexpr int last = Window<2, NC>::kRecords - 1, pairs = 4 / Window<2, NC>::kPerNode;
   for (int r = 0; r <= last; ++r)
     if (gradient && r == pairs)
       for (int k = 0; k < count; ++k) from.value[r][k] = gather_pairs(w, k, from.window.at[r]);
@@ -88,7 +88,7 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
   for (int r = gradient ? 1 : 0; r < from.window.kRecords; ++r)
     for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   for (int r = 0; r < from.window.kRecords; ++r)
-    unstack<3, from.window.kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
+    unstack<3, Window<3, NC>::kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
 }
 
 /// New velocities and positions (and domains) of a chunk from the nodal quantities in `value`.

@@ -1,0 +1,25 @@
+#pragma once
+
+/// @file What the fuzzers call with any bytes at all, and a unit test with those of corpus/. Each reads its
+/// input from memory as a run would from a file, and uses what was read.
+
+#include <span>
+
+namespace mpmfast::fuzz {
+
+using Bytes = std::span<const unsigned char>;
+
+/// Inputs beyond it are not tried: a scene of this many bytes holds everything.
+inline constexpr std::size_t kMostBytes = 64 << 10;
+
+/// A scene is read, or refused by located messages. One that is read writes itself as the same scene, and its
+/// bodies fill. Throws std::logic_error where this does not hold.
+void read_scene_bytes(Bytes bytes);
+/// The same of a study, which writes nothing.
+void read_study_bytes(Bytes bytes);
+/// A picture has as many pixels as it says.
+void read_bitmap_bytes(Bytes bytes);
+/// A closed surface encloses a volume, and a body of it fills.
+void read_stl_bytes(Bytes bytes);
+
+}  // namespace mpmfast::fuzz
