@@ -72,7 +72,7 @@ TEST_CASE("faults of laws and pairs are found where they stand") {
   CHECK(holds(contact("{pairs: {between: [a, b]}}"), "not a list of maps"));
 }
 
-TEST_CASE("a rotation belongs to a rigid body, about a point, in time") {
+TEST_CASE("a rotation is about a point; only that of a rigid body may change in time") {
   const std::string turning =
       ", velocity: [1 m/s, 0], rotation: {about: [5 mm, 11 mm], speed: [[0 s, 0 "
       "rad/s], [1 ms, 180 deg/s]]}";
@@ -82,8 +82,9 @@ TEST_CASE("a rotation belongs to a rigid body, about a point, in time") {
   CHECK(scene.bodies[3].rotation->speed.value[1] == doctest::Approx(3.14159265358979));
   CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
   CHECK(holds(
-      fault(replaced(three_bodies(""), "material: steel}", "material: steel, rotation: {about: [0, 0]}}")),
-      "bodies.0.rotation: a rotation is for rigid bodies only"));
+      fault(replaced(three_bodies(""), "material: steel}",
+                     "material: steel, rotation: {about: [0, 0], speed: [[0 s, 0 rad/s], [1 s, 1 rad/s]]}}")),
+      "bodies.0.rotation: a table of rotations is for rigid bodies only"));
   CHECK(holds(fault(three_bodies("", ", rotation: {speed: 1 rad/s}")), "bodies.3.rotation.about: missing"));
   CHECK(holds(fault(three_bodies("", ", rotation: {about: [0, 0], speed: 1 m/s}")), "'m/s' is a velocity"));
 }
