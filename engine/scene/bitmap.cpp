@@ -94,7 +94,10 @@ std::string chunk_fault(std::span<const unsigned char> bytes) {
     const std::size_t length = big_endian(bytes, at);
     if (length > bytes.size() - at - kAround) return "damaged: a chunk is longer than the rest of the file";
     if (name_of_chunk(bytes, at) == "IEND") return "";
-    if (name_of_chunk(bytes, at) == "IDAT" && !inflater.feed(bytes.subspan(at + 8, length), most))
+    const bool data = name_of_chunk(bytes, at) == "IDAT";
+    if (data && length == 0)
+      return "damaged: it has a piece of data without a byte";  // stb_image would copy to null
+    if (data && !inflater.feed(bytes.subspan(at + 8, length), most))
       return "damaged: its data are no compressed picture of its size";
     at += kAround + length;
   }

@@ -77,18 +77,19 @@ TEST_CASE("touching surfaces: separations by domains and by displacement vanish,
     const char* separation;
     double tolerance;  // cells
   };
-  for (const auto& [separation, tolerance] :
+  for (const Known& known :
        {Known{"ellipsoid", 1e-9}, Known{"ellipsoid_support", 1e-9}, Known{"parallelogram_support", 1e-9},
         Known{"displacement", 1e-12}, Known{"position_offset", 0.3}, Known{"position_power", 0.05},
         Known{"position_piecewise", 0.06}}) {
-    CAPTURE(std::string(separation));
-    const Scene scene = contact_scene(
-        0.25, std::string("{normal: specified, specified_normal: [0, 1], separation: ") + separation + "}");
+    CAPTURE(std::string(known.separation));
+    const Scene scene =
+        contact_scene(0.25, std::string("{normal: specified, specified_normal: [0, 1], separation: ") +
+                                known.separation + "}");
     Step<2> step(scene);
     step.advance(step.stable_dt());
     const int entries = for_inner_entries(step, [&](const auto& node, const auto& entry, double) {
       if (node.node[1] != 8) return;  // the row nearest to the interface: others see one side whole
-      CHECK(std::abs(entry.separation) < tolerance);
+      CHECK(std::abs(entry.separation) < known.tolerance);
     });
     CHECK(entries > 6);
   }

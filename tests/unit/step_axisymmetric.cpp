@@ -221,11 +221,11 @@ TEST_CASE("a law with a history answers about an axis as in three dimensions") {
   }
   for (int c = 0; c < 4; ++c) {
     tau[c] = all[c];
-    CHECK(tau[c][kLanes - 1] == doctest::Approx(solid.tau[c]).epsilon(1e-12));
+    CHECK(double{tau[c][kLanes - 1]} == doctest::Approx(solid.tau[c]).epsilon(1e-12));
   }
   CHECK(plastic[0] > 0.01);
   CHECK(plastic[0] == doctest::Approx(solid.state.plastic_strain).epsilon(1e-12));
-  CHECK(s[0] == doctest::Approx(solid.f[8]).epsilon(1e-14));
+  CHECK(double{s[0]} == doctest::Approx(solid.f[8]).epsilon(1e-14));
 }
 
 }  // namespace
