@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 
 #include "engine/scene/sections.hpp"
@@ -52,6 +53,10 @@ void read_moduli(MapReader& map, const char* volumetric, double& modulus, double
     const double ratio = poisson->quantity(Measure::number, kPoisson).value_or(0);
     shear = e / (2 * (1 + ratio));
     modulus = lame ? 2 * shear * ratio / (1 - 2 * ratio) : e / (3 * (1 - 2 * ratio));
+    const bool holds = shear > 0 && (lame ? modulus >= 0 : modulus > 0);
+    if (e > 0 && (!holds || !std::isfinite(shear) || !std::isfinite(modulus)))
+      map.value().report(fmt::format("young and poisson give {} = {} Pa and shear = {} Pa: out of range",
+                                     volumetric, modulus, shear));
   } else {
     map.value().report(fmt::format("needs either {} and shear or young and poisson", volumetric));
   }

@@ -138,7 +138,7 @@ std::size_t Surface::bucket_at(double y, double z) const {
     const double lower = bounds_.lower[axis], extent = bounds_.upper[axis] - lower;
     const auto count = static_cast<double>(buckets_[axis - 1]);
     const double share = extent > 0 ? (at - lower) / extent * count : 0;
-    return static_cast<std::size_t>(std::clamp(share, 0.0, count - 1));
+    return share > 0 ? static_cast<std::size_t>(std::min(share, count - 1)) : 0;  // 0 for not a number too
   };
   return along(2, z) * buckets_[0] + along(1, y);
 }

