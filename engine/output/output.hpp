@@ -57,6 +57,14 @@ struct HistoryRow {
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
+/// How far apart neighbouring particles of one body were at most, as their F tells.
+struct Spacing {
+  double cells = 0;
+  std::uint64_t body = 0;  ///< into Scene::bodies
+};
+template <int Dim>
+Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene);
+
 /// The header of history.csv.
 std::vector<std::string> history_columns(const Scene& scene);
 
@@ -142,6 +150,9 @@ struct RunSummary {
     std::uint64_t meetings = 0, screened = 0;          ///< as ContactCounters
   } contact;
   double energy_error = 0;
+  double spacing = 0;              ///< cells; the widest of the history's rows
+  double most_spacing = 1;         ///< cells that the basis bridges
+  std::string spacing_body;        ///< where it was
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::optional<Outflow> outflow;  ///< with grid.leaving: outflow
   std::string checksum;

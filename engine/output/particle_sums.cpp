@@ -75,7 +75,25 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
   row.mean_stress = all.mean_stress();
 }
 
+template <int Dim>
+Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene) {
+  Spacing widest;
+  if (!particles.has(Quantity::deformation_gradient)) return widest;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const BodySpec& body = scene.bodies[particles.body()[p]];
+    if (is_rigid(scene, body)) continue;
+    const Mat<Dim> f = particles.deformation_gradient(p);
+    for (int d = 0; d < Dim; ++d) {
+      const double cells = f.col(d).norm() / body.particles_per_cell[static_cast<std::size_t>(d)];
+      if (cells > widest.cells) widest = {cells, particles.body()[p]};
+    }
+  }
+  return widest;
+}
+
 template void fill_particle_sums(const Particles<2>&, const Scene&, HistoryRow&);
 template void fill_particle_sums(const Particles<3>&, const Scene&, HistoryRow&);
+template Spacing widest_spacing(const Particles<2>&, const Scene&);
+template Spacing widest_spacing(const Particles<3>&, const Scene&);
 
 }  // namespace mpmfast

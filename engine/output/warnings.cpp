@@ -37,6 +37,11 @@ std::vector<std::string> run_warnings(const RunSummary& summary) {
         "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
         "contact.volume_screen or contact.mass_screen",
         100 * part, 100 * kMostScreened));
+  if (summary.spacing > summary.most_spacing)
+    out.push_back(fmt::format(
+        "particles of body '{}' came {:.2g} cells apart (the basis bridges {:g}): a body parts there "
+        "without a law of fracture; more particles_per_cell or a CPDI basis keep it whole for longer",
+        summary.spacing_body, summary.spacing, summary.most_spacing));
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back(
         fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "

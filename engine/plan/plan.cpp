@@ -139,6 +139,7 @@ Plan make_plan(const Scene& scene) {
   plan.own_filter = scene.method.own_filter && plan.order > 1 && !plan.full_mass;
   if (plan.contact)
     plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
+  if (plan.update == ParticleUpdate::flip) plan.first_share = scene.contact.first_correction_share;
   plan.first_correction_stays =
       plan.update == ParticleUpdate::pic || plan.update == ParticleUpdate::apic ||
       (plan.update == ParticleUpdate::xpic &&

@@ -27,6 +27,7 @@ struct Plan {
   bool own_filter = false;
   bool paired = false;                  ///< XPIC carries Δv* beside v*
   bool first_correction_stays = false;  ///< particles keep its impulse: PIC, and XPIC without the Δv terms
+  double first_share = 0;               ///< of its impulse: FLIP's particles take it too, as a force
   bool first_correction = true;   ///< contact is corrected before the strain too, not only after the momenta
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses

@@ -16,6 +16,7 @@ void set_defaults(ContactSpec& contact) {
                     contact.normal == NormalKind::smoothed_max_margin ||
                     contact.normal == NormalKind::smoothed_logistic_regression;
   contact.advance_separation = contact.warm_start = contact.persistent = ours;
+  if (!ours) contact.first_correction_share = 0;
   contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
   if (is_gradient(contact.normal)) contact.separation = SeparationKind::position_offset;
 }
@@ -48,7 +49,7 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
     if (!unit) normal->report("the zero vector has no direction");
     contact.specified_normal = unit.value_or(Vec3{});
   }
-  constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
+  constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true}, kWhole{"in [0, 1]", 0, 1};
   map.word("separation", kSeparations, contact.separation);
   map.quantity("position_offset", Measure::number, kNotNegative, contact.position_offset);
   map.integer("piecewise_particles", 1, 2, contact.piecewise_particles);
@@ -58,6 +59,7 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   map.quantity("rigid_bias", Measure::number, kNotNegative, contact.rigid_bias);
   map.boolean("advance_separation", contact.advance_separation);
   map.boolean("persistent", contact.persistent);
+  map.quantity("first_correction_share", Measure::number, kWhole, contact.first_correction_share);
   map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
   map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
   map.quantity("volume_screen", Measure::number, kNotNegative, contact.volume_screen);

@@ -275,6 +275,9 @@ struct ContactSpec : LawSpec {
   bool advance_separation = true;  ///< corrections judge by δ + Δv·n Δt, Δv the free velocities (NN Eq. 3.56)
   /// The first correction also holds a pair that touched at the end of the last step and now would part.
   bool persistent = true;
+  /// Share of the first correction's impulse that FLIP's particles take too (N20: none). Without it they keep
+  /// for good the approach that the grid is relieved of every step: noise that grows.
+  double first_correction_share = 0.03;
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

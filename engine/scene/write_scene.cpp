@@ -300,10 +300,10 @@ std::string contact_text(const Scene& scene) {
       "  penalty: {}\n  offset_penalty: {}\n  tolerance: {}\n  max_iterations: {}\n  warm_start: {}\n",
       contact.penalty, contact.offset_penalty, contact.tolerance, contact.max_iterations, contact.warm_start);
   out += fmt::format(
-      "  rigid_bias: {}\n  advance_separation: {}\n  persistent: {}\n  hysteresis: {}\n  mass_screen: {}\n"
-      "  volume_screen: {}\n",
-      contact.rigid_bias, contact.advance_separation, contact.persistent, contact.hysteresis,
-      contact.mass_screen, contact.volume_screen);
+      "  rigid_bias: {}\n  advance_separation: {}\n  persistent: {}\n  first_correction_share: {}\n"
+      "  hysteresis: {}\n  mass_screen: {}\n  volume_screen: {}\n",
+      contact.rigid_bias, contact.advance_separation, contact.persistent, contact.first_correction_share,
+      contact.hysteresis, contact.mass_screen, contact.volume_screen);
   out += fmt::format("  corrections: {}\n  area: {}\n  fields: {}\n", contact.corrections,
                      name_of(kAreas, contact.area), name_of(kManyFields, contact.fields));
   return out + pairs_text(scene);

@@ -26,7 +26,7 @@ void Contact<Dim>::book(const State<Dim>& state) {
       const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
       books_.friction_work += share * entry.friction_work;
       if (node.rigid >= 0) book_rigid(state, node, entry);
-      if (!pairs_.empty() && entry.touching) book_pair(state, node, entry, share);
+      if (!pairs_.empty()) book_pair(state, node, entry, share);
     }
 }
 
@@ -35,13 +35,14 @@ void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& n
                               const ContactEntry<Dim>& entry) {
   const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
   const auto f = static_cast<std::size_t>(field);
-  books_.rigid_impulse[f] -= entry.impulse;
+  const Vec<Dim> kept = entry.impulse + entry.passed;
+  books_.rigid_impulse[f] -= kept;
   books_.rigid_work +=
-      entry.impulse.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
+      kept.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
   Vec<3> arm = Vec<3>::Zero(), impulse = Vec<3>::Zero();
   for (int d = 0; d < Dim; ++d) {
     arm[d] = state.grid.origin[d] + node.node[d] * state.grid.cell - pivots_[f][d];
-    impulse[d] = entry.impulse[d];
+    impulse[d] = kept[d];
   }
   books_.rigid_moment[f] -= arm.cross(impulse);
 }
@@ -55,7 +56,7 @@ void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& no
   const std::size_t at = pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
   if (pairs_.pair[at] < 0) return;
   const auto k = static_cast<std::size_t>(pairs_.pair[at]);
-  books_.pair_impulse[k] += (pairs_.forward[at] ? share : -share) * entry.impulse;
+  books_.pair_impulse[k] += (pairs_.forward[at] ? share : -share) * (entry.impulse + entry.passed);
   books_.pair_friction_work[k] += share * entry.friction_work;
 }
 

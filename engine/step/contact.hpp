@@ -85,7 +85,8 @@ class Contact {
     double plane[Dim + 1];
   };
 
-  PairOutcome resolve_pairs(const State<Dim>& state, double dt, const ContactNode<Dim>& node);
+  PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
+                            const ContactNode<Dim>& node);
   struct Touching;
   bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node, Touching& out);
   void rest(int begin, int end);
@@ -115,7 +116,8 @@ class Contact {
   void find_acting(const State<Dim>& state, const Laws& laws, double dt, const ContactNode<Dim>& node,
                    Together& together);
   template <class Laws>
-  void finish(const Laws& laws, const ContactNode<Dim>& node, const Together& together) const;
+  void finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+              const Together& together) const;
   template <class Laws, class F>
   void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
   template <class Laws>
@@ -129,6 +131,7 @@ class Contact {
                                  const Vec<Dim>& impulse, double reduced, const Law& law);
   Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
   Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
+  void pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const;
   double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const;
   double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
 
@@ -138,6 +141,7 @@ class Contact {
   double cell_, cell_volume_;
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
   bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
+  double first_share_;           ///< of the first correction's impulse: a force of the second too
   bool geometry_;                ///< some law asks for normals and separations
   bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;

@@ -29,6 +29,7 @@ struct ContactEntry {
   bool touching = false;     ///< in contact at the last correction
   double friction_work = 0;  ///< J, of the last correction
   Vec<Dim> impulse;          ///< Δp_a of the last correction
+  Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a of the first correction that the second passes on as a force
 };
 
 template <int Dim>

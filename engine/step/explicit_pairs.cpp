@@ -63,7 +63,8 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, double dt, const Conta
 /// One or two pairs that touch are solved by themselves; more than two, bonds, and pairs that do not settle
 /// are left to the lump.
 template <int Dim>
-PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, double dt, const ContactNode<Dim>& node) {
+PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction correction, double dt,
+                                        const ContactNode<Dim>& node) {
   Touching touching;
   rest(node.entry_begin, node.entry_end);
   if (!find_touching(state, dt, node, touching)) return PairOutcome::lump;
@@ -92,6 +93,7 @@ PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, double dt, cons
     entry.touching = !entry.impulse.isZero(0);
     const Vec<Dim> slip = pair[k].slip - pair[k].slip.dot(entry.normal) * entry.normal;
     entry.friction_work = entry.touching ? entry.impulse.dot(slip) : 0;
+    pass_on(entry, correction, std::visit([](const auto& law) { return law.scope; }, *touching.law[k]));
   }
   return PairOutcome::solved;
 }

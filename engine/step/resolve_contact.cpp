@@ -41,6 +41,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       cell_volume_(cell_volume(scene)),
       keep_velocity_change_(plan.paired),
       first_correction_stays_(plan.first_correction_stays),
+      first_share_(plan.first_share),
       geometry_(plan.contact_geometry),
       exact_fields_(plan.exact_fields) {
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
@@ -70,7 +71,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
-      outcome = resolve_pairs(state, dt, node);
+      outcome = resolve_pairs(state, correction, dt, node);
       solved += outcome == PairOutcome::solved;
       lumped += outcome == PairOutcome::lump;
     }
@@ -193,6 +194,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time);
       entry.friction_work = friction_work_of(entry, meeting.stick, entry.impulse, meeting.reduced, law);
+      pass_on(entry, correction, Law::scope);
     };
     if constexpr (Laws::by_pair)
       laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
@@ -241,7 +243,7 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
     });
     return impulse;
   });
-  finish(laws, node, together);
+  finish(laws, correction, node, together);
   return settled;
 }
 
@@ -289,7 +291,8 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double
 /// The impulses of pairs that are solved, with their friction work.
 template <int Dim>
 template <class Laws>
-void Contact<Dim>::finish(const Laws& laws, const ContactNode<Dim>& node, const Together& together) const {
+void Contact<Dim>::finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+                          const Together& together) const {
   for (std::size_t k = 0; k < together.acting.size(); ++k) {
     const FieldContact<Dim>& contact = together.solver.contacts[k];
     auto& entry = *together.acting[k].entry;
@@ -297,6 +300,7 @@ void Contact<Dim>::finish(const Laws& laws, const ContactNode<Dim>& node, const 
     entry.touching = !entry.impulse.isZero(0);
     with_law(laws, node, entry, [&](const auto& law) {
       entry.friction_work = friction_work_of(entry, contact.stick, entry.impulse, contact.reduced, law);
+      pass_on(entry, correction, law.scope);
     });
   }
 }
@@ -313,14 +317,27 @@ void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, cons
     laws.with(0, 0, f);
 }
 
-/// Work that an impulse's tangential part takes from the sliding that remains, J.
+/// Work that an impulse takes from the sliding that remains, J. Its normal part does none where surfaces stay
+/// together or part; where many fields jam and do not settle, both parts together are what the node loses.
 template <int Dim>
 template <class Law>
 double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, const Vec<Dim>& stick,
                                       const Vec<Dim>& impulse, double reduced, const Law&) {
-  if (Law::scope != LawScope::contact && Law::scope != LawScope::bonded) return 0;
+  if (Law::scope == LawScope::contact) return impulse.dot(stick - impulse) / reduced;
+  if (Law::scope != LawScope::bonded) return 0;
   const Vec<Dim> tangential = impulse - impulse.dot(entry.normal) * entry.normal;
   return tangential.dot(stick - impulse) / reduced;
+}
+
+/// FLIP's particles take a share of what surfaces that touch change in the first correction.
+///
+/// They are given forces only, and the first correction is none (N20 Eq. 33). So an approach that it takes
+/// from the grid in every step stays in the particles for good: forces then act on velocities that the bodies
+/// do not have, and the noise grows. A small share ends it within as many steps as its inverse.
+template <int Dim>
+void Contact<Dim>::pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const {
+  if (correction == Correction::initial && scope == LawScope::contact)
+    entry.passed = first_share_ * entry.impulse;
 }
 
 /// No contact at the entries [begin, end).
@@ -339,19 +356,32 @@ void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
                          const ContactNode<Dim>& node) const {
   auto& nodes = state.nodes;
   const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const auto add_force = [&](int k, const Vec<Dim>& impulse) {
+    nodes.set(Nodal::force, slot_of(k), nodes.vector(Nodal::force, slot_of(k)) + impulse / dt);
+  };
   const auto change = [&](int k, const Vec<Dim>& impulse) {
-    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    const int slot = slot_of(k);
     nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
     if (correction == Correction::final)
-      nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
+      add_force(k, impulse);
     else if (keep_velocity_change_)
       for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
   };
+  const bool passes = correction == Correction::final && first_share_ > 0;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    if (!entry.touching) continue;
-    change(entry.a, entry.impulse);
-    if (entry.b >= 0 && entry.b != node.rigid) change(entry.b, -entry.impulse);
+    const bool moves_other = entry.b >= 0 && entry.b != node.rigid;
+    if (entry.touching) {
+      change(entry.a, entry.impulse);
+      if (moves_other) change(entry.b, -entry.impulse);
+    }
+    if (passes && !entry.passed.isZero(0)) {
+      add_force(entry.a, entry.passed);
+      if (moves_other) add_force(entry.b, -entry.passed);
+    }
   }
 }
 

@@ -228,6 +228,8 @@ class Run {
     row.pair_friction = sums.pair_friction_work;
     measure_overlap_of_fields();
     row.overlap = counters_.overlap;
+    const Spacing spacing = widest_spacing(state.particles, scene_);
+    if (spacing.cells > counters_.spacing.cells) counters_.spacing = spacing;
     row.outflow = outflow();
     counters_.last_sums = sums;
     counters_.last_row_time = state.time;
@@ -335,6 +337,11 @@ class Run {
     s.contact = {c.nodes_peak, c.regressions,    c.fallbacks, c.unconverged, mean_iterations,
                  c.pair_nodes, c.pair_fallbacks, c.meetings,  c.screened};
     s.energy_error = counters_.balance.error();
+    s.spacing = counters_.spacing.cells;
+    // A domain's corners reach the nodes around them, which two domains of two cells still share.
+    const BasisKind basis = scene_.method.basis;
+    s.most_spacing = basis == BasisKind::lcpdi || basis == BasisKind::qcpdi ? 2 : 1;
+    if (s.spacing > 0) s.spacing_body = scene_.bodies[counters_.spacing.body].name;
     s.overlap = counters_.overlap;
     s.outflow = outflow();
     s.checksum = checksum(state.particles);

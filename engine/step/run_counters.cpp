@@ -47,6 +47,8 @@ void RunCounters<Dim>::visit(Archive& archive) {
   frames.visit(archive, "run/next_frame");
   balance.visit(archive);
   visit_overlap(archive, overlap);
+  archive.number("run/spacing_cells", spacing.cells);
+  archive.number("run/spacing_body", spacing.body);
   visit_sums(archive, "last_sums", last_sums);
   archive.number("run/last_row_step", last_row_step);
   archive.number("run/last_frame_step", last_frame_step);

@@ -77,6 +77,7 @@ struct RunCounters {
   Marks history, frames;
   EnergyBalance balance;
   std::optional<Overlap> overlap;  ///< of the last row
+  Spacing spacing;                 ///< the widest of all rows
   Sums<Dim> last_sums;             ///< at the last row
   std::uint64_t last_row_step = ~std::uint64_t{0}, last_frame_step = ~std::uint64_t{0};
   std::uint64_t rows = 0;           ///< of history.csv

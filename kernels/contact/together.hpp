@@ -44,7 +44,8 @@ class ContactsTogether {
 
   /// Finds the impulses, from the present ones.
   /// @param law  law(k, d): the impulse of contact k where sticking would need d
-  /// @return whether they settled to 1e-9 of the largest
+  /// @return whether they settled to 1e-9 of the largest; if not, they are as they are, less what would do
+  /// work
   template <class Law>
   bool solve(const Law& law) {
     constexpr int kSweeps = 100, kLeaps = 10;  // where kinds still change then, leaps seldom help
@@ -52,6 +53,8 @@ class ContactsTogether {
       if (sweep(law) || contacts.size() == 1) return true;
       if (done < kLeaps || done % kLeaps == 0) leap(law);
     }
+    take_back_work();
+    for (FieldContact<Dim>& c : contacts) c.stick = c.impulse + c.reduced * slip(c);
     return false;
   }
 
@@ -98,6 +101,26 @@ class ContactsTogether {
       change = std::max(change, step.squaredNorm());
     }
     return change <= 1e-18 * largest;
+  }
+
+  /// Contact only takes energy: Σ J · slip ≥ 0 over the slips that it leaves. Impulses that have not settled
+  /// may wedge fields apart that jam in a ring; they are cut to where they take the most.
+  void take_back_work() {
+    double taken = 0, squares = 0;  // Σ J · slip after, Σ |Δp|²/m: their sum is that over the slips before
+    for (const FieldContact<Dim>& c : contacts) taken += c.impulse.dot(slip(c));
+    if (taken >= 0) return;
+    changes_.assign(fields.size(), Vec<Dim>::Zero());
+    for (const FieldContact<Dim>& c : contacts) {
+      changes_[static_cast<std::size_t>(c.a)] += c.impulse;
+      changes_[static_cast<std::size_t>(c.b)] -= c.impulse;
+    }
+    for (std::size_t k = 0; k < fields.size(); ++k)
+      squares += fields[k].inverse_mass * changes_[k].squaredNorm();
+    const double share = std::clamp((taken + squares) / squares, 0.0, 1.0);
+    for (FieldContact<Dim>& c : contacts) {
+      add(c, (share - 1) * c.impulse);
+      c.impulse *= share;
+    }
   }
 
   /// What each contact hinders by its present kind: stuck, all slip; sliding, with J = J_n (n + s) and s to
@@ -207,7 +230,7 @@ class ContactsTogether {
   }
 
   Hindrances hindrances_{};
-  std::vector<Vec<Dim>> changes_;  ///< of the contacts' impulses
+  std::vector<Vec<Dim>> changes_;  ///< of the contacts' impulses, or the fields' momenta
   double matrix_[kMost * kMost], right_[kMost];
 };
 

@@ -151,6 +151,7 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   good.contact.meetings = 500;
   good.contact.screened = 100;
   good.energy_error = -0.1;
+  good.spacing = 1;
   CHECK(run_warnings(good).empty());
   CHECK(run_warnings(RunSummary{}).empty());
   RunSummary doubtful = good;
@@ -159,13 +160,18 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   doubtful.contact.pair_fallbacks = 6;
   doubtful.contact.screened = 150;
   doubtful.energy_error = -0.25;
+  doubtful.spacing = 1.7;
+  doubtful.spacing_body = "bar";
   const auto warnings = run_warnings(doubtful);
-  REQUIRE(warnings.size() == 5);
+  REQUIRE(warnings.size() == 6);
   const char* const said[] = {"1.1 % of the contact normals did not converge",
-                              "25 % of the contact normals fell back", "on 6 % of the nodes",
-                              "30 % of the nodes where bodies meet", "the energy balance drifted by -25 %"};
-  for (std::size_t k = 0; k < 5; ++k) CHECK(warnings[k].find(said[k]) == 0);
+                              "25 % of the contact normals fell back",
+                              "on 6 % of the nodes",
+                              "30 % of the nodes where bodies meet",
+                              "particles of body 'bar' came 1.7 cells apart",
+                              "the energy balance drifted by -25 %"};
+  for (std::size_t k = 0; k < 6; ++k) CHECK(warnings[k].find(said[k]) == 0);
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);
-  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 5);
+  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 6);
 }

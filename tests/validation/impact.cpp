@@ -63,9 +63,9 @@ TEST_CASE("oblique impact: turned by 30 degrees with its particles it gives near
     const Overrides& normal;
     double turning, energy;
   };
-  for (const Reached& reached : {Reached{kPlain, 0.025, 0.09},       // measured 1.7 %; -6.8, -7.8 %
-                                 Reached{kSmoothed, 0.015, 0.085},   // 0.96 %; -7.4, -7.2 %
-                                 Reached{kDefault, 0.045, 0.09}}) {  // 3.8 %; -7.9, -8.1 %
+  for (const Reached& reached : {Reached{kPlain, 0.025, 0.09},      // measured 1.7 %; -6.8, -7.8 %
+                                 Reached{kSmoothed, 0.015, 0.085},  // 0.96 %; -7.4, -7.2 %
+                                 Reached{kDefault, 0.06, 0.09}}) {  // 5.3 %; -7.9, -8.1 %
     CAPTURE(reached.normal.front().second);
     const Impact along = impact(reached.normal, 0), turned = impact(reached.normal, 30);
     CHECK(turning_error(along, turned) < reached.turning);
@@ -88,12 +88,14 @@ TEST_CASE("slow: oblique impact: at half the cell size the turned scene and the 
   }
 }
 
-TEST_CASE("oblique impact: on rings, with splines and strain first, the energy balance is met within 0.5 %") {
+TEST_CASE("oblique impact: on rings, with splines and strain first, the energy balance is met within 0.6 %") {
   const Overrides rings{{"bodies.0.seeding", "rings"}, {"bodies.1.seeding", "rings"},
                         {"grid.cell", "0.25 mm"},      {"method.strain", "first"},
                         {"method.basis", "bspline2"},  {"contact.normal", "smoothed_max_margin"}};
-  const Impact along = impact(rings, 0);
-  CHECK(std::abs(along.energy_change) < 0.005);  // measured -0.2 %
+  const Impact along = impact(rings, 0),
+               published = impact(rings, 0, {{"contact.first_correction_share", "0"}});
+  CHECK(std::abs(published.energy_change) < 0.005);  // measured -0.26 %
+  CHECK(std::abs(along.energy_change) < 0.006);      // -0.56 %: what particles take of the first correction
   for (const double angle : {15.0, 30.0, 45.0}) {
     const Impact turned = impact(rings, angle);
     CHECK(std::abs(turned.energy_change) < (angle < 45 ? 0.005 : 0.01));  // -0.1, -0.4, -0.8 %
