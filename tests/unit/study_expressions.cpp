@@ -120,4 +120,5 @@ TEST_CASE("a table with a ragged row, a word or no header is refused with its li
   CHECK(says("a,b\n1,x\n") == ":2: not a number, got 'x'");
   CHECK(says("a,b\n1,\n") == ":2: not a number, got ''");
   CHECK(says("") == ": no header");
+  CHECK_THROWS_WITH_AS(read_table("/dev/zero"), "/dev/zero: cannot read the table", FileError);
 }

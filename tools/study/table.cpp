@@ -52,8 +52,10 @@ const std::vector<double>* Table::find(const std::string& name) const {
 }
 
 Table read_table(const std::filesystem::path& file) {
+  std::error_code error;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(fmt::format("{}: cannot read the table", file.string()));
+  if (!std::filesystem::is_regular_file(file, error) || !stream)  // a device may never end
+    throw FileError(fmt::format("{}: cannot read the table", file.string()));
   const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   Table table;
   std::size_t line = 0, first = 0;
