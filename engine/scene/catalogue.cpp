@@ -63,14 +63,15 @@ std::vector<CatalogueEntry> seedings() {
 
 std::vector<CatalogueEntry> output_keys() {
   const OutputSpec plain;
-  return {{"frames", fmt::format("= {}", plain.frames), "particle files, evenly spaced in time; 0: none"},
-          {"history", fmt::format("= {}", plain.history), "rows of history.csv"},
-          {"overlap", fmt::format("= {}", plain.overlap),
-           "2-D: history.csv and run.json say how much bodies enter each other"},
-          {"checkpoint",
-           fmt::format("none or {{every: TIME of wall = {} min, steps: N}}", plain.checkpoint.every / 60),
-           "when the state is written for `mpmfast resume`, beside at a signal and at the end"},
-          {"picture", "= " + plain.picture, "what the second picture shows (see pictures); none: no pictures"}};
+  return {
+      {"frames", fmt::format("= {}", plain.frames), "particle files, evenly spaced in time; 0: none"},
+      {"history", fmt::format("= {}", plain.history), "rows of history.csv"},
+      {"overlap", fmt::format("= {}", plain.overlap),
+       "2-D: history.csv and run.json say how much bodies enter each other"},
+      {"checkpoint",
+       fmt::format("none or {{every: TIME of wall = {} min, steps: N}}", plain.checkpoint.every / 60),
+       "when the state is written for `mpmfast resume`, beside at a signal and at the end"},
+      {"picture", "= " + plain.picture, "what the second picture shows (see pictures); none: no pictures"}};
 }
 
 }  // namespace

@@ -73,7 +73,8 @@ inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
     {1, "1", "F advances by I + dt grad v"},
     {2, "2", "the same with the square of dt grad v (default of strain last and average)"},
     {MethodSpec::kInverse, "inverse",
-     "F advances by (I - dt grad v)^-1: exact for a gradient at the end of the motion (default of strain first)"},
+     "F advances by (I - dt grad v)^-1: exact for a gradient at the end of the motion (default of strain "
+     "first)"},
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
