@@ -22,6 +22,8 @@ find_package(nlohmann_json QUIET)
 mpmfast_need(nlohmann_json_FOUND nlohmann-json3-dev "run.json")
 find_package(ZLIB QUIET)
 mpmfast_need(ZLIB_FOUND zlib1g-dev "particle files")
+find_package(pugixml QUIET)
+mpmfast_need(pugixml_FOUND libpugixml-dev "reading particle files")
 find_path(XXHASH_INCLUDE xxhash.h)
 mpmfast_need(XXHASH_INCLUDE libxxhash-dev "checksums")
 # Debian keeps the serial library in a folder of its own.

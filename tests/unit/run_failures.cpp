@@ -2,8 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/output/read_vtu.hpp"
 #include "tests/support.hpp"
-#include "tests/unit/vtu_reader.hpp"
 
 namespace mpmfast {
 namespace {
@@ -68,9 +68,9 @@ TEST_CASE("failed.vtu holds the particles within four cells of the one that fail
   const Folder folder;
   const Failed failed = run_to_failure(scene, folder);
   REQUIRE(failed.message.find("particle 1 of body 'missile'") != std::string::npos);
-  const output_test::Vtu file(folder / "run" / "failed.vtu");
-  const auto points = file.array<double>("Points");
-  const auto id = file.array<std::uint32_t>("id");
+  const VtuReader file(folder / "run" / "failed.vtu");
+  const auto points = file.points();
+  const auto id = file.read<std::uint32_t>("id");
   CHECK(id == std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9});  // rows 1 mm apart
   REQUIRE(points.size() == 3 * id.size());
   for (std::size_t k = 0; k < points.size(); k += 3) {
@@ -78,9 +78,9 @@ TEST_CASE("failed.vtu holds the particles within four cells of the one that fail
     CHECK(std::abs(points[k + 1] - points[4]) <= 4e-3);
   }
   CHECK(points[3] > 11e-3);
-  CHECK(file.array<float>("velocity")[3] == doctest::Approx(40));
-  CHECK(file.array<float>("stress").size() == 6 * id.size());
-  CHECK(file.array<double>("deformation_gradient").size() == 9 * id.size());
+  CHECK(file.read<float>("velocity")[3] == doctest::Approx(40));
+  CHECK(file.read<float>("stress").size() == 6 * id.size());
+  CHECK(file.read<double>("deformation_gradient").size() == 9 * id.size());
   CHECK_FALSE(std::filesystem::exists(folder / "run" / "failed.vtu.tmp"));
 }
 
@@ -202,9 +202,9 @@ TEST_CASE("the neighbourhood of particles without a place holds finite points") 
   for (std::size_t p = 0; p < particles.size(); ++p) places.push_back(step.place_of(p));
   const Folder folder;
   write_neighbourhood(folder / "failed.vtu", particles, scene, places, step.place_of(77), 4e-3, 0.5);
-  const output_test::Vtu file(folder / "failed.vtu");
-  const auto points = file.array<double>("Points");
-  const auto id = file.array<std::uint32_t>("id");
+  const VtuReader file(folder / "failed.vtu");
+  const auto points = file.points();
+  const auto id = file.read<std::uint32_t>("id");
   CHECK(std::find(id.begin(), id.end(), particles.id()[77]) != id.end());
   CHECK(points.size() < 3 * particles.size());
   for (double x : points) REQUIRE(std::isfinite(x));
