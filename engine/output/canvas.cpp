@@ -124,7 +124,7 @@ void Canvas::text(PixelPoint anchor, Align align, std::string_view text, Colour 
   }
 }
 
-void Canvas::write_png(const std::filesystem::path& path) const {
+std::vector<std::uint8_t> Canvas::pixels() const {
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
   constexpr std::size_t kSide = kSamples;
   std::vector<std::uint8_t> pixel(3 * width * height);
@@ -144,6 +144,11 @@ void Canvas::write_png(const std::filesystem::path& path) const {
       out[1] = static_cast<std::uint8_t>((green + kCount / 2) / kCount);
       out[2] = static_cast<std::uint8_t>((blue + kCount / 2) / kCount);
     }
+  return pixel;
+}
+
+void Canvas::write_png(const std::filesystem::path& path) const {
+  const std::vector<std::uint8_t> pixel = pixels();
   std::string bytes;
   const auto append = [](void* context, void* data, int size) {
     static_cast<std::string*>(context)->append(static_cast<const char*>(data),

@@ -44,6 +44,8 @@ class Canvas {
   /// @param anchor left, middle or right end of the text, at mid height
   void text(PixelPoint anchor, Align align, std::string_view text, Colour colour = {});
 
+  /// Red, green and blue of every pixel, row by row.
+  std::vector<std::uint8_t> pixels() const;
   /// Written to a temporary name and renamed; throws FileError.
   void write_png(const std::filesystem::path& path) const;
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/output/output.hpp"
+#include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/picture.hpp"
 #include "engine/output/projection.hpp"
@@ -20,9 +21,16 @@ struct Extent {
     lower = std::min(lower, x);
     upper = std::max(upper, x);
   }
-  bool empty() const { return !(lower < upper); }
-  Range with_margin(double margin) const { return {lower - margin, upper + margin}; }
+  std::optional<Range> range() const {
+    return lower < upper ? std::optional(Range{lower, upper}) : std::nullopt;
+  }
 };
+
+/// Of the framing; of the grid where it has none.
+Range box_range(const Framing& framing, const Scene& scene, std::size_t d) {
+  const double origin = scene.grid.origin[d];
+  return framing.box[d].value_or(Range{origin, origin + std::max(scene.grid.size[d], 1e-9)});
+}
 
 PictureText picture_text(const Scene& scene, const std::string& label, double time) {
   const DisplayUnit unit = display_unit(std::abs(time), "s");
@@ -31,8 +39,8 @@ PictureText picture_text(const Scene& scene, const std::string& label, double ti
 
 /// The colour of every particle, and the bar that explains it.
 struct Colouring {
-  explicit Colouring(const FieldValues& field)
-      : by_body(field.unit.empty()), scale(robust_range(field.value)), value(&field.value) {}
+  Colouring(const FieldValues& field, const Framing& framing)
+      : by_body(field.names), scale(framing.values.value_or(Range{})), value(&field.value) {}
   Colour operator()(std::size_t p) const {
     return by_body ? body_colour(static_cast<std::size_t>((*value)[p])) : scale((*value)[p]);
   }
@@ -51,13 +59,19 @@ Mat<Dim> half_edges(const Particles<Dim>& particles, const Scene& scene, std::si
     return edges;
   }
   if (particles.has(Quantity::deformation_gradient)) edges = particles.deformation_gradient(p);
-  // The particle does not know its undeformed shape: nearly always it is a square or a cube.
+  // The particle does not know its undeformed shape: its share of a cell, or of the width of a ring.
   double volume =
       particles.has(Quantity::initial_volume) ? particles.column(Quantity::initial_volume)[p] : 0.0;
   if (scene.space == Space::axisymmetric)  // of a ring, to the square that is turned
     volume *= particles.column(Quantity::out_of_plane_stretch)[p] /
               (kFullTurn * particles.column(Quantity::position, 0)[p]);
-  return edges * (0.5 * (Dim == 2 ? std::sqrt(volume / scene.thickness) : std::cbrt(volume)));
+  const double size = 0.5 * (Dim == 2 ? std::sqrt(volume / scene.thickness) : std::cbrt(volume));
+  const auto& per_cell = scene.bodies[particles.body()[p]].particles_per_cell;
+  double mean = 1;
+  for (std::size_t d = 0; d < Dim; ++d) mean *= per_cell[d];
+  mean = Dim == 2 ? std::sqrt(mean) : std::cbrt(mean);
+  for (int d = 0; d < Dim; ++d) edges.col(d) *= size * mean / per_cell[static_cast<std::size_t>(d)];
+  return edges;
 }
 
 using Corners = std::array<PixelPoint, 4>;  ///< m, though, until they are placed
@@ -72,33 +86,50 @@ Corners parallelogram(const Vec<2>& centre, const Mat<2>& edges) {
   return corners;
 }
 
-void draw(const std::filesystem::path& png, const Particles<2>& particles, const Scene& scene,
-          const FieldValues& field, double time) {
-  const auto shape = [&](std::size_t p) {
-    return parallelogram(particles.vector(Quantity::position, p), half_edges(particles, scene, p));
-  };
-  Extent x, y;
+Corners shape_of(const Particles<2>& particles, const Scene& scene, std::size_t p) {
+  return parallelogram(particles.vector(Quantity::position, p), half_edges(particles, scene, p));
+}
+
+std::array<Extent, 3> extents_of(const Particles<2>& particles, const Scene& scene) {
+  std::array<Extent, 3> box;
   for (std::size_t p = 0; p < particles.size(); ++p)
-    for (const auto& corner : shape(p)) {
-      x.include(corner.x);
-      y.include(corner.y);
+    for (const auto& corner : shape_of(particles, scene, p)) {
+      box[0].include(corner.x);
+      box[1].include(corner.y);
     }
-  if (x.empty() || y.empty()) {
-    x = {scene.grid.origin[0], scene.grid.origin[0] + std::max(scene.grid.size[0], 1e-9)};
-    y = {scene.grid.origin[1], scene.grid.origin[1] + std::max(scene.grid.size[1], 1e-9)};
+  return box;
+}
+
+/// Of a ball with the particle's volume, m.
+double radius_of(const Particles<3>& particles, const Scene& scene, std::size_t p) {
+  return std::cbrt(std::abs(half_edges(particles, scene, p).determinant()));
+}
+
+std::array<Extent, 3> extents_of(const Particles<3>& particles, const Scene& scene) {
+  std::array<Extent, 3> box;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec<3> centre = particles.vector(Quantity::position, p);
+    const double radius = radius_of(particles, scene, p);
+    if (!centre.allFinite() || !std::isfinite(radius)) continue;
+    for (int d = 0; d < 3; ++d)
+      for (double side : {-radius, radius}) box[static_cast<std::size_t>(d)].include(centre[d] + side);
   }
-  const double margin = 0.02 * std::max(x.upper - x.lower, y.upper - y.lower);
-  const Colouring colour(field);
-  Picture picture(x.with_margin(margin), y.with_margin(margin), !colour.by_body);
+  return box;
+}
+
+Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring& colour,
+              const Framing& framing) {
+  const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
+  const double margin = 0.02 * std::max(x.width(), y.width());
+  const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
+  Picture picture(wider(x), wider(y), !colour.by_body);
   for (const std::uint32_t p : order_by_id(particles)) {
-    Corners corners = shape(p);
+    Corners corners = shape_of(particles, scene, p);
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
     picture.canvas().fill_convex(corners, colour(p));
   }
-  picture.write_titles(picture_text(scene, field.label, time));
   picture.draw_axes();
-  if (!colour.by_body) picture.draw_colour_bar(colour.scale, field.unit);
-  picture.canvas().write_png(png);
+  return picture;
 }
 
 /// A disc of the particle's present volume with a dark rim, so that a surface of them shows its relief.
@@ -109,28 +140,22 @@ void draw_ball(Picture& picture, PixelPoint centre, double radius, Colour colour
   picture.canvas().fill_disc({centre.x - 0.08 * radius, centre.y - 0.08 * radius}, 0.84 * radius, colour);
 }
 
-void draw(const std::filesystem::path& png, const Particles<3>& particles, const Scene& scene,
-          const FieldValues& field, double time) {
+Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring& colour,
+              const Framing& framing) {
   struct Ball {
     Vec<3> view;  ///< right, up, towards the eye
     double radius;
     std::uint32_t particle;
   };
   std::vector<Ball> balls;
-  std::array<Extent, 3> box;
   for (const std::uint32_t p : order_by_id(particles)) {
     const Vec<3> centre = particles.vector(Quantity::position, p);
-    const double radius = std::cbrt(std::abs(half_edges(particles, scene, p).determinant()));
-    if (!centre.allFinite() || !std::isfinite(radius)) continue;
-    balls.push_back({to_view(centre), 1.15 * radius, p});
-    for (int d = 0; d < 3; ++d)
-      for (double side : {-radius, radius}) box[static_cast<std::size_t>(d)].include(centre[d] + side);
+    const double radius = radius_of(particles, scene, p);
+    if (centre.allFinite() && std::isfinite(radius)) balls.push_back({to_view(centre), 1.15 * radius, p});
   }
-  for (std::size_t d = 0; d < 3; ++d)
-    if (box[d].empty())
-      box[d] = {scene.grid.origin[d], scene.grid.origin[d] + std::max(scene.grid.size[d], 1e-9)};
-  const ViewBox view({box[0].lower, box[1].lower, box[2].lower}, {box[0].upper, box[1].upper, box[2].upper});
-  const Colouring colour(field);
+  const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
+              z = box_range(framing, scene, 2);
+  const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
   Picture picture(view.across(), view.up(), !colour.by_body);
   view.draw_edges(picture);
   std::stable_sort(balls.begin(), balls.end(),
@@ -139,22 +164,56 @@ void draw(const std::filesystem::path& png, const Particles<3>& particles, const
     draw_ball(picture, picture.at(ball.view[0], ball.view[1]), ball.radius * picture.pixels_per_metre(),
               colour(ball.particle));
   view.draw_labels(picture);
-  picture.write_titles(picture_text(scene, field.label, time));
   picture.draw_frame();
-  if (!colour.by_body) picture.draw_colour_bar(colour.scale, field.unit);
-  picture.canvas().write_png(png);
+  return picture;
 }
 
 }  // namespace
 
+void Framing::include(const Framing& other) {
+  const auto widen = [](std::optional<Range>& own, const std::optional<Range>& theirs) {
+    if (!theirs) return;
+    own = own ? Range{std::min(own->lower, theirs->lower), std::max(own->upper, theirs->upper)} : *theirs;
+  };
+  for (std::size_t d = 0; d < 3; ++d) widen(box[d], other.box[d]);
+  widen(values, other.values);
+}
+
+template <int Dim>
+Framing framing_of(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
+  const FieldValues values = field_values(particles, scene, field);
+  Framing framing;
+  const auto extents = extents_of(particles, scene);
+  for (std::size_t d = 0; d < 3; ++d) framing.box[d] = extents[d].range();
+  if (!values.names) framing.values = robust_range(values.value);
+  return framing;
+}
+
+template <int Dim>
+Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
+                       double time, const Framing& framing) {
+  const FieldValues values = field_values(particles, scene, field);
+  const Colouring colour(values, framing);
+  Picture picture = paint(particles, scene, colour, framing);
+  picture.write_titles(picture_text(scene, values.label, time));
+  if (!colour.by_body) picture.draw_colour_bar(colour.scale, values.unit);
+  return picture.canvas();
+}
+
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
                     const std::string& field, double time) {
-  draw(png, particles, scene, field_values(particles, field), time);
+  paint_particles(particles, scene, field, time, framing_of(particles, scene, field)).write_png(png);
 }
 
+template Framing framing_of(const Particles<2>&, const Scene&, const std::string&);
+template Canvas paint_particles(const Particles<2>&, const Scene&, const std::string&, double,
+                                const Framing&);
 template void draw_particles(const std::filesystem::path&, const Particles<2>&, const Scene&,
                              const std::string&, double);
+template Framing framing_of(const Particles<3>&, const Scene&, const std::string&);
+template Canvas paint_particles(const Particles<3>&, const Scene&, const std::string&, double,
+                                const Framing&);
 template void draw_particles(const std::filesystem::path&, const Particles<3>&, const Scene&,
                              const std::string&, double);
 

@@ -11,8 +11,10 @@
 namespace mpmfast {
 namespace {
 
-constexpr std::array<std::string_view, 7> kOurFiles{
-    "scene.yaml", "run.json", "run.log", "history.csv", "particles.pvd", "failed.vtu", "checkpoint.h5"};
+constexpr std::array<std::string_view, 8> kOurFiles{"scene.yaml",  "run.json",      "run.log",
+                                                    "history.csv", "particles.pvd", "grid.pvd",
+                                                    "failed.vtu",  "checkpoint.h5"};
+constexpr std::array<std::string_view, 2> kSeries{"particles", "grid"};
 
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
@@ -22,7 +24,11 @@ bool ends_with(std::string_view text, std::string_view end) {
 bool is_ours(std::string name) {
   if (ends_with(name, ".tmp")) name.resize(name.size() - 4);
   if (std::find(kOurFiles.begin(), kOurFiles.end(), name) != kOurFiles.end()) return true;
-  return name.rfind("picture_", 0) == 0 && ends_with(name, ".png");
+  // What `mpmfast plot` and `report` made of the earlier run would belong to another one.
+  if (name == "report.html") return true;
+  const bool plot = name.rfind("plot_", 0) == 0, picture = name.rfind("picture_", 0) == 0;
+  return (plot || picture) &&
+         (ends_with(name, ".png") || (plot && (ends_with(name, ".svg") || ends_with(name, ".gp"))));
 }
 
 /// NNNNNN.vtu, or what a kill left of it.
@@ -49,11 +55,13 @@ void remove_files(const std::filesystem::path& folder, Chosen chosen) {
 
 void remove_earlier_run(const std::filesystem::path& folder) {
   remove_files(folder, is_ours);
-  const auto frames = folder / "particles";
-  std::error_code error;
-  if (!std::filesystem::is_directory(frames, error)) return;
-  remove_files(frames, is_frame);
-  if (std::filesystem::is_empty(frames, error)) std::filesystem::remove(frames, error);
+  for (const std::string_view series : kSeries) {
+    const auto frames = folder / series;
+    std::error_code error;
+    if (!std::filesystem::is_directory(frames, error)) continue;
+    remove_files(frames, is_frame);
+    if (std::filesystem::is_empty(frames, error)) std::filesystem::remove(frames, error);
+  }
 }
 
 }  // namespace
@@ -64,9 +72,10 @@ void reopen_folder(const std::filesystem::path& folder) {
     return name == "run.json" || name == "failed.vtu" || half_written(name);
   });
   std::error_code error;
-  if (std::filesystem::is_directory(folder / "particles", error))
-    remove_files(folder / "particles",
-                 [](const std::string& name) { return ends_with(name, ".tmp") && is_frame(name); });
+  for (const std::string_view series : kSeries)
+    if (std::filesystem::is_directory(folder / series, error))
+      remove_files(folder / series,
+                   [](const std::string& name) { return ends_with(name, ".tmp") && is_frame(name); });
 }
 
 void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force) {

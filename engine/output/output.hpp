@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "engine/output/descriptor.hpp"
@@ -93,19 +94,39 @@ class HistoryFile {
   std::uint64_t size_ = 0, rows_ = 0;  ///< bytes; without the header
 };
 
+/// NAME.pvd and NAME/NNNNNN.vtu: the files of a series, numbered without gaps, and the list that ParaView
+/// opens.
+class FrameSeries {
+ public:
+  /// @param times  of the frames that are there already; later ones are removed
+  FrameSeries(const std::filesystem::path& folder, std::string name, std::vector<double> times = {});
+  /// Where the next frame goes.
+  std::filesystem::path next() const;
+  /// Lists the frame that has been written there.
+  void add(double time);
+  const std::vector<double>& times() const { return times_; }
+
+ private:
+  std::filesystem::path file(std::size_t number) const;
+  void list() const;
+
+  std::filesystem::path folder_;
+  std::string name_;
+  std::vector<double> times_;  ///< s, of each frame
+};
+
 /// particles.pvd and particles/NNNNNN.vtu: appended raw, zlib level 1, vertex cells, TimeValue in each file.
 template <int Dim>
 class ParticleSeries {
  public:
-  /// @param times  of the frames that are there already; later ones are removed
-  ParticleSeries(const std::filesystem::path& folder, const Scene& scene, std::vector<double> times = {});
+  ParticleSeries(const std::filesystem::path& folder, const Scene& scene, std::vector<double> times = {})
+      : series_(folder, "particles", std::move(times)), scene_(&scene) {}
   void append(const Particles<Dim>& particles, double time);
-  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>& times() const { return series_.times(); }
 
  private:
-  std::filesystem::path folder_;
+  FrameSeries series_;
   const Scene* scene_;
-  std::vector<double> times_;  ///< s, of each frame
 };
 
 /// One VTU file with all that a frame has of the particles around a place. Written aside and renamed.
@@ -117,8 +138,8 @@ void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>&
                          double reach, double time);
 
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
-/// by `field` ("body", "pressure", "von_mises", "stress_xx", …, "speed") to a PNG with title, equal axes, and
-/// a colour bar with units. Throws std::invalid_argument for a field that there is not.
+/// by `field` (one of field_names) to a PNG with title, equal axes, and a colour bar with units. Throws
+/// std::invalid_argument for a field that there is not.
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
                     const std::string& field, double time);
@@ -170,8 +191,12 @@ inline constexpr double kMostPairFallbacks = 0.05;  ///< of the nodes that solve
 inline constexpr double kMostScreened = 0.2;        ///< of the nodes where fields meet
 inline constexpr double kMostDrift = 0.1;           ///< of the energy at work
 
-/// What the figures of a run give reason to doubt, a sentence each with the figure and a way out.
-std::vector<std::string> run_warnings(const RunSummary& summary);
+/// What the figures of a run give reason to doubt: a sentence with the figure and a way out.
+struct RunWarning {
+  std::string_view about;  ///< the same for all warnings of its kind
+  std::string text;
+};
+std::vector<RunWarning> run_warnings(const RunSummary& summary);
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
 

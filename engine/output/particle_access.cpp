@@ -1,6 +1,7 @@
 #include "engine/output/particle_access.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -62,9 +63,22 @@ FieldValues collect(const Particles<Dim>& particles, Quantity needed, std::strin
 
 }  // namespace
 
+std::vector<std::string> field_names(int dimension) {
+  std::vector<std::string> names{"pressure", "von_mises", "stress_xx", "stress_yy", "stress_zz", "stress_xy"};
+  if (dimension == 3) names.insert(names.end(), {"stress_yz", "stress_xz"});
+  names.insert(names.end(), {"speed", "velocity_x", "velocity_y"});
+  if (dimension == 3) names.emplace_back("velocity_z");
+  names.insert(names.end(), {"volume_ratio", "plastic_strain", "temperature", "body", "material"});
+  return names;
+}
+
 template <int Dim>
-FieldValues field_values(const Particles<Dim>& particles, const std::string& field) {
+FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
   const Quantity stress = Quantity::kirchhoff_stress;
+  const auto names = [](FieldValues values) {
+    values.names = true;
+    return values;
+  };
   if (field == "pressure")
     return collect(particles, stress, field, "Pa",
                    [&](std::size_t p) { return cauchy_stress(particles, p).pressure(); });
@@ -78,19 +92,35 @@ FieldValues field_values(const Particles<Dim>& particles, const std::string& fie
   if (field == "speed")
     return collect(particles, Quantity::velocity, field, "m/s",
                    [&](std::size_t p) { return particles.vector(Quantity::velocity, p).norm(); });
+  for (int d = 0; d < Dim; ++d)
+    if (field == std::string("velocity_") + "xyz"[d])
+      return collect(particles, Quantity::velocity, std::string("velocity along ") + "xyz"[d], "m/s",
+                     [&](std::size_t p) { return particles.column(Quantity::velocity, d)[p]; });
+  if (field == "volume_ratio")
+    return collect(particles, Quantity::deformation_gradient, "volume over initial volume", "-",
+                   [&](std::size_t p) { return particles.volume_ratio(p); });
+  if (field == "plastic_strain")
+    return collect(particles, Quantity::plastic_strain, "plastic strain", "-",
+                   [&](std::size_t p) { return particles.column(Quantity::plastic_strain)[p]; });
+  if (field == "temperature")
+    return collect(particles, Quantity::temperature, field, "K",
+                   [&](std::size_t p) { return particles.column(Quantity::temperature)[p]; });
   if (field == "body")
-    return collect(particles, Quantity::position, field, "",
-                   [&](std::size_t p) { return static_cast<double>(particles.body()[p]); });
+    return names(collect(particles, Quantity::position, field, "",
+                         [&](std::size_t p) { return static_cast<double>(particles.body()[p]); }));
+  if (field == "material")
+    return names(collect(particles, Quantity::position, field, "", [&](std::size_t p) {
+      return static_cast<double>(scene.bodies[particles.body()[p]].material);
+    }));
   throw std::invalid_argument(
-      fmt::format("unknown field '{}' (expected body, pressure, von_mises, speed, {})", field,
-                  fmt::join(kStressNames, ", ")));
+      fmt::format("unknown field '{}' (one of {})", field, fmt::join(field_names(Dim), ", ")));
 }
 
 template std::vector<std::uint32_t> order_by_id(const Particles<2>&);
 template std::vector<std::uint32_t> order_by_id(const Particles<3>&);
 template CauchyStress cauchy_stress(const Particles<2>&, std::size_t);
 template CauchyStress cauchy_stress(const Particles<3>&, std::size_t);
-template FieldValues field_values(const Particles<2>&, const std::string&);
-template FieldValues field_values(const Particles<3>&, const std::string&);
+template FieldValues field_values(const Particles<2>&, const Scene&, const std::string&);
+template FieldValues field_values(const Particles<3>&, const Scene&, const std::string&);
 
 }  // namespace mpmfast

@@ -36,9 +36,12 @@ CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p);
 struct FieldValues {
   std::vector<double> value;
   std::string label, unit;
+  bool names = false;  ///< of bodies or materials, by their numbers
 };
-/// @param field as draw_particles; throws std::invalid_argument for a name that there is not.
+/// Names of all fields of particles in so many dimensions, the usual ones first.
+std::vector<std::string> field_names(int dimension);
+/// @param field  one of field_names; throws std::invalid_argument for another one.
 template <int Dim>
-FieldValues field_values(const Particles<Dim>& particles, const std::string& field);
+FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, const std::string& field);
 
 }  // namespace mpmfast

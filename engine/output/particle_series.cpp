@@ -1,9 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <system_error>
 
-#include "engine/output/files.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/vtu.hpp"
@@ -113,44 +111,14 @@ void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& par
   file.write(vtu, time);
 }
 
-std::string frame_name(std::size_t number) { return fmt::format("particles/{:06}.vtu", number); }
-
-std::string pvd_text(const std::vector<double>& times) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n"
-      "  <Collection>\n";
-  for (std::size_t k = 0; k < times.size(); ++k)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", times[k], frame_name(k));
-  return text + "  </Collection>\n</VTKFile>\n";
-}
-
-/// Frames are numbered without gaps: those from `first` on.
-void remove_frames(const std::filesystem::path& folder, std::size_t first) {
-  std::error_code error;
-  for (std::size_t k = first; std::filesystem::remove(folder / frame_name(k), error); ++k) {
-  }
-  if (error) throw_file_error("remove frames from", folder / "particles", error.value());
-}
-
 }  // namespace
-
-template <int Dim>
-ParticleSeries<Dim>::ParticleSeries(const std::filesystem::path& folder, const Scene& scene,
-                                    std::vector<double> times)
-    : folder_(folder), scene_(&scene), times_(std::move(times)) {
-  make_folder(folder_ / "particles");
-  if (times_.empty()) return;
-  write_aside(folder_ / "particles.pvd", pvd_text(times_));
-  remove_frames(folder_, times_.size());
-}
 
 template <int Dim>
 void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
   const std::vector<std::uint32_t> order = order_by_id(particles);
-  write_particles(folder_ / frame_name(times_.size()), particles, *scene_, order,
+  write_particles(series_.next(), particles, *scene_, order,
                   gather_vector<double>(particles, order, Quantity::position), time);
-  times_.push_back(time);
-  write_aside(folder_ / "particles.pvd", pvd_text(times_));
+  series_.add(time);
 }
 
 template <int Dim>

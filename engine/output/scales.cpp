@@ -74,7 +74,7 @@ Colour body_colour(std::size_t body) { return Colour::hex(kBodies[body % kBodies
 
 DisplayUnit display_unit(double size, std::string_view si_unit) {
   const std::string unit(si_unit);
-  if (unit.empty() || unit == "-" || unit == "m/s") return {unit, 1};
+  if (unit.empty() || unit == "-" || unit == "K" || unit == "m/s") return {unit, 1};
   constexpr std::array<std::pair<std::string_view, double>, 8> prefixes{
       {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
   const auto usual = [&](std::string_view prefix) {  // nobody writes ks, Mm or mPa

@@ -14,39 +14,49 @@ double share(std::uint64_t part, std::uint64_t whole) {
 
 }  // namespace
 
-std::vector<std::string> run_warnings(const RunSummary& summary) {
-  std::vector<std::string> out;
+std::vector<RunWarning> run_warnings(const RunSummary& summary) {
+  std::vector<RunWarning> out;
   const auto& contact = summary.contact;
   if (const double part = share(contact.unconverged, contact.regressions); part > kMostUnconverged)
     out.push_back(
-        fmt::format("{:.2g} % of the contact normals did not converge (usual: below {:g} %); a larger "
-                    "contact.tolerance or contact.max_iterations may help",
-                    100 * part, 100 * kMostUnconverged));
+        {"convergence",
+         fmt::format("{:.2g} % of the contact normals did not converge (usual: below {:g} %); a larger "
+                     "contact.tolerance or contact.max_iterations may help",
+                     100 * part, 100 * kMostUnconverged)});
   if (const double part = share(contact.fallbacks, contact.regressions); part > kMostFallbacks)
-    out.push_back(fmt::format(
-        "{:.2g} % of the contact normals fell back on a simpler method (usual: below {:g} %): the "
-        "clouds of touching bodies overlap, or hold too few particles",
-        100 * part, 100 * kMostFallbacks));
+    out.push_back(
+        {"fallbacks",
+         fmt::format(
+             "{:.2g} % of the contact normals fell back on a simpler method (usual: below {:g} %): the "
+             "clouds of touching bodies overlap, or hold too few particles",
+             100 * part, 100 * kMostFallbacks)});
   if (const double part = share(contact.pair_fallbacks, contact.pair_nodes); part > kMostPairFallbacks)
-    out.push_back(fmt::format(
-        "on {:.2g} % of the nodes of three and more fields the pairs were not solved for one by one "
-        "(usual: below {:g} %)",
-        100 * part, 100 * kMostPairFallbacks));
+    out.push_back(
+        {"pairs",
+         fmt::format(
+             "on {:.2g} % of the nodes of three and more fields the pairs were not solved for one by one "
+             "(usual: below {:g} %)",
+             100 * part, 100 * kMostPairFallbacks)});
   if (const double part = share(contact.screened, contact.meetings); part > kMostScreened)
-    out.push_back(fmt::format(
-        "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
-        "contact.volume_screen or contact.mass_screen",
-        100 * part, 100 * kMostScreened));
+    out.push_back(
+        {"screens",
+         fmt::format(
+             "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
+             "contact.volume_screen or contact.mass_screen",
+             100 * part, 100 * kMostScreened)});
   if (summary.spacing > summary.most_spacing)
-    out.push_back(fmt::format(
-        "particles of body '{}' came {:.2g} cells apart (the basis bridges {:g}): a body parts there "
-        "without a law of fracture; more particles_per_cell or a CPDI basis keep it whole for longer",
-        summary.spacing_body, summary.spacing, summary.most_spacing));
+    out.push_back(
+        {"spacing",
+         fmt::format(
+             "particles of body '{}' came {:.2g} cells apart (the basis bridges {:g}): a body parts there "
+             "without a law of fracture; more particles_per_cell or a CPDI basis keep it whole for longer",
+             summary.spacing_body, summary.spacing, summary.most_spacing)});
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back(
-        fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "
-                    "time.cfl, or another method.update, may help",
-                    100 * summary.energy_error));
+        {"energy",
+         fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "
+                     "time.cfl, or another method.update, may help",
+                     100 * summary.energy_error)});
   return out;
 }
 

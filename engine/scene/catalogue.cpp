@@ -68,6 +68,9 @@ std::vector<CatalogueEntry> output_keys() {
       {"history", fmt::format("= {}", plain.history), "rows of history.csv"},
       {"overlap", fmt::format("= {}", plain.overlap),
        "2-D: history.csv and run.json say how much bodies enter each other"},
+      {"grid", fmt::format("= {}", plain.grid),
+       "with each frame after the first a file of the nodes (grid.pvd): masses, velocities, normals, "
+       "separations"},
       {"checkpoint",
        fmt::format("none or {{every: TIME of wall = {} min, steps: N}}", plain.checkpoint.every / 60),
        "when the state is written for `mpmfast resume`, beside at a signal and at the end"},

@@ -110,11 +110,12 @@ void read_checkpoint(const Value& value, CheckpointSpec& checkpoint) {
 void read_output(MapReader& top, int dimension, OutputSpec& output) {
   const auto section = top.find("output");
   if (!section) return;
-  MapReader map(*section, "a map {frames, history, picture, overlap, checkpoint}");
+  MapReader map(*section, "a map {frames, history, picture, overlap, grid, checkpoint}");
   constexpr int kMostFrames = 999999;  // frames are numbered with six digits
   constexpr int kMostRows = 100000000;
   map.integer("frames", 0, kMostFrames, output.frames);
   map.integer("history", 1, kMostRows, output.history);
+  map.boolean("grid", output.grid);
   if (const auto overlap = map.find("overlap")) {
     output.overlap = overlap->boolean().value_or(false);
     if (output.overlap && dimension == 3) overlap->complain("the overlap of bodies is measured in 2-D only");

@@ -315,8 +315,9 @@ std::string output_text(const OutputSpec& output) {
                     steps = c.steps > 0 ? fmt::format("{}", c.steps) : "none",
                     checkpoint = c.active ? fmt::format("{{every: {}, steps: {}}}", every, steps)
                                           : std::string("none");
-  return fmt::format("output:\n  frames: {}\n  history: {}\n  overlap: {}\n  checkpoint: {}\n  picture: {}\n",
-                     output.frames, output.history, output.overlap, checkpoint, output.picture);
+  return fmt::format(
+      "output:\n  frames: {}\n  history: {}\n  overlap: {}\n  grid: {}\n  checkpoint: {}\n  picture: {}\n",
+      output.frames, output.history, output.overlap, output.grid, checkpoint, output.picture);
 }
 
 }  // namespace

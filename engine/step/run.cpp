@@ -11,8 +11,11 @@
 #include "engine/errors.hpp"
 #include "engine/output/checkpoint_file.hpp"
 #include "engine/scene/read_scene.hpp"
+#include "engine/step/make_row.hpp"
 #include "engine/step/run_counters.hpp"
+#include "engine/step/run_log.hpp"
 #include "engine/step/step.hpp"
+#include "engine/step/write_grid.hpp"
 
 namespace mpmfast {
 
@@ -26,8 +29,6 @@ constexpr double kFailureReach = 4;  ///< cells around a failure of which failed
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
-
-bool has_ended(double time, double end) { return time >= end * (1 - 1e-12); }
 
 RunOrigin first_origin(const Scene& scene, const RunOptions& options) {
   RunOrigin origin;
@@ -68,6 +69,10 @@ std::optional<RunOrigin> next_origin(const Scene& scene, const RunOptions& optio
   return origin;
 }
 
+std::vector<double> after_first(const std::vector<double>& times) {
+  return times.empty() ? times : std::vector<double>(times.begin() + 1, times.end());
+}
+
 template <int Dim>
 class Run {
  public:
@@ -75,7 +80,9 @@ class Run {
   Run(const Scene& scene, const RunOptions& options) : Run(scene, options, first_origin(scene, options)) {
     prepare_folder(options.folder, scene, options.force);
     history_.emplace(options.folder, scene);
+    log_.emplace(options.folder, figures());
     if (scene.output.frames > 0) series_.emplace(options.folder, scene);
+    if (series_ && scene.output.grid) grid_series_.emplace(options.folder, "grid");
     write_row(0);
     write_frame();
     draw("first");
@@ -93,9 +100,12 @@ class Run {
     checkpoint.finish();
     history_.emplace(options.folder, scene, counters_.rows, counters_.last_row_step);
     reopen_folder(options.folder);
-    if (scene.output.frames > 0) series_.emplace(options.folder, scene, counters_.frame_times);
-    saved_step_ = step_.state().step;
     ++counters_.resumes;
+    log_.emplace(options.folder, figures());
+    if (scene.output.frames > 0) series_.emplace(options.folder, scene, counters_.frame_times);
+    if (series_ && scene.output.grid)
+      grid_series_.emplace(options.folder, "grid", after_first(counters_.frame_times));
+    saved_step_ = step_.state().step;
   }
 
   RunSummary execute() {
@@ -143,13 +153,8 @@ class Run {
         stopped_ = true;
         return;
       }
-      const double stable = step_.stable_dt();
-      const double left = end - state.time;
-      // Two even steps rather than a last sliver.
-      const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
-      counters_.first_dt = std::max(counters_.first_dt, state.step == 0 ? stable : 0);
-      if (!(stable >= scene_.time.collapse * counters_.first_dt) || (!(dt > 1e-12 * end) && dt < left))
-        step_.fail_collapsed(stable, stable / counters_.first_dt);
+      if (state.step == 0) counters_.first_dt = step_.stable_dt();
+      const double dt = step_.dt_towards(end, counters_.first_dt);
       counters_.particle_steps += static_cast<double>(state.particles.size());
       const auto begin = Clock::now();
       step_.advance(dt);
@@ -193,66 +198,19 @@ class Run {
   }
 
   void write_row(double dt) {
-    const auto& state = step_.state();
-    HistoryRow row;
-    row.step = state.step;
-    row.time = state.time;
-    row.dt = dt;
-    const Sums<Dim>& sums = step_.sums();
-    row.stored = step_.stored_energy();
-    row.dissipated = step_.dissipated_energy();
-    row.friction = sums.friction_work;
-    row.boundary_work = sums.boundary_work;
-    row.body_force_work = sums.body_force_work;
-    fill_particle_sums(state.particles, scene_, row);
-    const double elapsed = state.time - counters_.last_row_time;
-    const auto mean_force = [&](const auto& now, const auto& before) {
-      Vec3 force{};
-      for (int d = 0; d < now.size() && elapsed > 0; ++d)
-        force[static_cast<std::size_t>(d)] = (now[d] - before[d]) / elapsed;
-      return force;
-    };
-    for (std::size_t b = 0; b < sums.boundary_impulse.size(); ++b)
-      row.boundary_force.push_back(
-          mean_force(sums.boundary_impulse[b], counters_.last_sums.boundary_impulse[b]));
-    row.rigid_force.assign(scene_.bodies.size(), Vec3{});
-    row.rigid_moment.assign(scene_.bodies.size(), Vec3{});
-    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
-      const auto f = static_cast<std::size_t>(step_.plan().body_field[b]);
-      if (!step_.plan().field_rigid[f]) continue;
-      row.rigid_force[b] = mean_force(sums.rigid_impulse[f], counters_.last_sums.rigid_impulse[f]);
-      row.rigid_moment[b] = mean_force(sums.rigid_moment[f], counters_.last_sums.rigid_moment[f]);
-    }
-    for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
-      row.pair_force.push_back(mean_force(sums.pair_impulse[k], counters_.last_sums.pair_impulse[k]));
-    row.pair_friction = sums.pair_friction_work;
-    measure_overlap_of_fields();
-    row.overlap = counters_.overlap;
-    const Spacing spacing = widest_spacing(state.particles, scene_);
-    if (spacing.cells > counters_.spacing.cells) counters_.spacing = spacing;
-    row.outflow = outflow();
-    counters_.last_sums = sums;
-    counters_.last_row_time = state.time;
-    counters_.last_row_step = state.step;
+    const HistoryRow row = make_row(step_, scene_, dt, counters_);
     counters_.balance.add(row);
     history_->append(row);
-  }
-
-  std::optional<Outflow> outflow() const {
-    if (scene_.grid.leaving != LeavingKind::outflow) return std::nullopt;
-    return step_.sums().outflow;
-  }
-
-  void measure_overlap_of_fields() {
-    const auto& state = step_.state();
-    if constexpr (Dim == 2)
-      if (scene_.output.overlap)
-        counters_.overlap =
-            measure_overlap(particle_domains(state.particles, state.bodies, state.body_field), state.threads);
+    if (step_.state().step > 0) log_->row(figures(), dt);
   }
 
   void write_frame() {
-    if (series_) series_->append(step_.state().particles, step_.state().time);
+    const auto& state = step_.state();
+    if (series_) series_->append(state.particles, state.time);
+    if (grid_series_ && state.step > 0) {  // before the first step nodes know nothing
+      write_grid(grid_series_->next(), step_);
+      grid_series_->add(state.time);
+    }
     counters_.last_frame_step = step_.state().step;
   }
 
@@ -309,13 +267,11 @@ class Run {
                         kFailureReach * state.grid.cell, state.time);
   }
 
-  RunSummary summarise(const std::string& status, const std::string& reason) {
+  /// What is known of the run while it goes on.
+  RunSummary figures() {
     const auto& state = step_.state();
     RunSummary s;
-    s.resolved_yaml = scene_.resolved_yaml;
     s.scene_name = origin_.scene_name;
-    s.status = status;
-    s.reason = reason;
     s.dimension = Dim;
     s.threads = state.threads;
     s.particles = state.particles.size();
@@ -327,10 +283,6 @@ class Run {
     s.dt_max = counters_.dt_max;
     s.wall = seconds_since(start_);
     s.particle_steps_per_second = throughput();
-    s.peak_memory_bytes = peak_memory_bytes();
-    for (std::size_t k = 0; k < kPassNames.size(); ++k)
-      s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
-    s.seconds.emplace_back("output", std::max(0.0, s.wall - counters_.stepping));
     const ContactCounters& c = step_.contact_counters();
     const double mean_iterations =
         c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;
@@ -342,13 +294,26 @@ class Run {
     const BasisKind basis = scene_.method.basis;
     s.most_spacing = basis == BasisKind::lcpdi || basis == BasisKind::qcpdi ? 2 : 1;
     if (s.spacing > 0) s.spacing_body = scene_.bodies[counters_.spacing.body].name;
-    s.overlap = counters_.overlap;
-    s.outflow = outflow();
-    s.checksum = checksum(state.particles);
     s.command = origin_.command;
     s.overrides = origin_.overrides;
     s.resumes = counters_.resumes;
+    return s;
+  }
+
+  RunSummary summarise(const std::string& status, const std::string& reason) {
+    RunSummary s = figures();
+    s.resolved_yaml = scene_.resolved_yaml;
+    s.status = status;
+    s.reason = reason;
+    s.peak_memory_bytes = peak_memory_bytes();
+    for (std::size_t k = 0; k < kPassNames.size(); ++k)
+      s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
+    s.seconds.emplace_back("output", std::max(0.0, s.wall - counters_.stepping));
+    s.overlap = counters_.overlap;
+    s.outflow = outflow_of(step_, scene_);
+    s.checksum = checksum(step_.state().particles);
     write_run_json(options_.folder, s);
+    log_->close(s);
     return s;
   }
 
@@ -358,7 +323,9 @@ class Run {
   Step<Dim> step_;
   RunCounters<Dim> counters_;
   std::optional<HistoryFile> history_;
+  std::optional<RunLog> log_;
   std::optional<ParticleSeries<Dim>> series_;
+  std::optional<FrameSeries> grid_series_;
   std::uint64_t saved_step_ = ~std::uint64_t{0};  ///< of the last checkpoint
   bool stopped_ = false;
   Clock::time_point start_ = Clock::now(), last_report_ = start_, last_save_ = start_;

@@ -25,6 +25,9 @@ struct Progress {
   double energy_error = 0;
 };
 
+/// Is a run that goes to `end` over? The last step may miss it by round-off.
+inline bool has_ended(double time, double end) { return time >= end * (1 - 1e-12); }
+
 struct RunOptions {
   std::filesystem::path folder;
   bool force = false;

@@ -74,6 +74,28 @@ double Step<Dim>::stable_dt() const {
 }
 
 template <int Dim>
+double Step<Dim>::dt_towards(double end, double first) const {
+  const double stable = stable_dt(), left = end - state_.time;
+  const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
+  if (!(stable >= scene_->time.collapse * first) || (!(dt > 1e-12 * end) && dt < left))
+    fail_collapsed(stable, stable / first);
+  return dt;
+}
+
+template <int Dim>
+void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
+  auto& particles = state_.particles;
+  double* v = particles.column(Quantity::velocity, axis);
+  const double* mass = particles.column(Quantity::mass);
+  for (std::size_t p = 0; p < change.size(); ++p) {
+    sums_.body_force_work += mass[p] * change[p] * (v[p] + 0.5 * change[p]);
+    v[p] += change[p];
+    fastest_ = std::max(
+        fastest_, particles.column(Quantity::wave_speed)[p] + particles.vector(Quantity::velocity, p).norm());
+  }
+}
+
+template <int Dim>
 void Step<Dim>::advance(double dt) {
   rigid_.begin(state_, dt);
   sort_if_due();

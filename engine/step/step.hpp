@@ -3,6 +3,7 @@
 /// @file One time step (theory §2), for either dimension and any basis.
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -40,8 +41,17 @@ class Step {
   /// The stable time step now: C Δx / max(c + |v|), s.
   double stable_dt() const;
 
+  /// The next step towards the time `end`: the stable one, but two even ones rather than a last sliver, s.
+  /// Throws the RunFailure of a time step that collapsed.
+  /// @param first  the time step that the run began with
+  double dt_towards(double end, double first) const;
+
   /// Advances the state by dt. Throws RunFailure.
   void advance(double dt);
+
+  /// Adds to one component of the particles' velocities, m/s, in the order of the columns; the energy that
+  /// this brings is booked as work of body forces.
+  void add_velocity(int axis, std::span<const double> change);
 
   /// Throws the RunFailure of a time step that collapsed to dt: who holds it, and why.
   /// @param share  of the first time step

@@ -56,9 +56,10 @@ TEST_CASE("hard cases hold with XPIC(5) and lCPDI") {
 
 TEST_CASE("a bar that is torn says so, and not one that is pressed") {
   const auto parts = [](const char* scene) {
-    const std::vector<std::string> warnings = run_warnings(run(scene_file(scene)).summary);
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
-      return warning.starts_with("particles of body '") && warning.find(" cells apart") != std::string::npos;
+    const std::vector<RunWarning> warnings = run_warnings(run(scene_file(scene)).summary);
+    return std::any_of(warnings.begin(), warnings.end(), [](const RunWarning& warning) {
+      return warning.text.starts_with("particles of body '") &&
+             warning.text.find(" cells apart") != std::string::npos;
     });
   };
   CHECK(parts("hard/stretch.yaml"));

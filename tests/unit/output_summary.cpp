@@ -170,7 +170,7 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
                               "30 % of the nodes where bodies meet",
                               "particles of body 'bar' came 1.7 cells apart",
                               "the energy balance drifted by -25 %"};
-  for (std::size_t k = 0; k < 6; ++k) CHECK(warnings[k].find(said[k]) == 0);
+  for (std::size_t k = 0; k < 6; ++k) CHECK(warnings[k].text.find(said[k]) == 0);
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);
   CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 6);

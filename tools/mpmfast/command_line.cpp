@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <string_view>
 
+#include "describe_command_line.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/quantity.hpp"
 #include "engine/scene/suggest.hpp"
@@ -23,7 +24,8 @@ constexpr int kMostThreads = 4096;
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
   std::string scene, out, topic, threads, jobs, steps, until, x = "time_s", progress = "auto";
-  std::vector<std::string> set, columns;
+  std::string frame, range;
+  std::vector<std::string> set, columns, fields;
   bool force = false;
 };
 
@@ -133,12 +135,25 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->allow_extra_args(false)
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
+  command
+      .add_option("--field", raw.fields,
+                  "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
+                  "body, ...; "
+                  "may be repeated")
+      ->take_all()
+      ->allow_extra_args(false)
+      ->type_name("FIELD");
+  command.add_option("--frame", raw.frame, "Draw this frame alone: first, last or its number")
+      ->type_name("N");
+  command
+      .add_option("--range", raw.range, "Ends of the colours, such as \"0:300 MPa\"; all values if not given")
+      ->type_name("LOW:HIGH");
 }
 
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *resume, *check, *study, *plot, *list;
+  CLI::App *run, *resume, *check, *study, *plot, *list, *man, *completion;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
@@ -148,8 +163,11 @@ struct Commands {
     resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
     study = app.add_subcommand("study", "Run the variants of a scene; table and chart of error against cost");
-    plot = app.add_subcommand("plot", "Draw the history of a run");
+    plot = app.add_subcommand("plot", "Draw the history and the particles of a run");
     list = app.add_subcommand("list", "What this build offers");
+    man = app.add_subcommand("man", "Print the man page: mpmfast man | man -l -");
+    completion =
+        app.add_subcommand("completion", "Print the completion for bash: source <(mpmfast completion)");
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
     add_resume_options(*resume, raw);
@@ -221,6 +239,9 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.topic = raw.topic;
   line.set = raw.set;
   line.columns = raw.columns;
+  line.fields = raw.fields;
+  line.frame = raw.frame;
+  line.range = raw.range;
   line.x = raw.x;
   line.force = raw.force;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
@@ -262,6 +283,10 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return {std::nullopt, commands.app.exit(error)};  // help, version
     return {std::nullopt, refuse(error.what(), commands.option_hint(count, arguments))};
+  }
+  if (*commands.man || *commands.completion) {
+    fmt::print("{}", *commands.man ? man_page(commands.app) : bash_completion(commands.app));
+    return {std::nullopt, 0};
   }
   CommandLine line = make_line(commands, raw);
   line.text = shell_text(count, arguments);

@@ -21,6 +21,8 @@ struct CommandLine {
   std::string out, topic, x = "time_s";
   std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
   std::vector<std::string> columns;  ///< of a plot, expressions
+  std::vector<std::string> fields;   ///< of a plot, of the particles
+  std::string frame, range;          ///< of a plot, as written
   int threads = 0;
   int jobs = 1;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();

@@ -8,6 +8,7 @@
 #include "commands.hpp"
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
+#include "plot_particles.hpp"
 #include "tools/study/line_chart.hpp"
 
 namespace mpmfast {
@@ -102,9 +103,7 @@ class Plot {
   std::string x_label_;
 };
 
-}  // namespace
-
-int plot_command(const CommandLine& line) {
+int plot_history(const CommandLine& line) {
   const Table history = read_table(fs::path(line.scene) / "history.csv");
   auto x = read_expression("--x", line.x, history);
   std::vector<Expression> columns;
@@ -122,6 +121,18 @@ int plot_command(const CommandLine& line) {
     for (const UsualChart& chart : kUsual) all = plot.draw(chart) && all;
   }
   return all ? 0 : kExitFile;
+}
+
+}  // namespace
+
+int plot_command(const CommandLine& line) {
+  const bool particles = !line.fields.empty() || !line.frame.empty() || !line.range.empty();
+  if (particles && line.columns.empty()) return plot_particles(line);
+  const int code = plot_history(line);
+  if (code == kExitWrongInput || !(particles || (line.columns.empty() && has_particle_files(line.scene))))
+    return code;
+  const int drawn = plot_particles(line);
+  return drawn != 0 ? drawn : code;
 }
 
 }  // namespace mpmfast

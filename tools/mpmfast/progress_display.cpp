@@ -21,7 +21,7 @@ std::string status_text(const Progress& progress) {
                                 progress.step, time_text(progress.time), time_text(progress.end),
                                 count_text(progress.particle_steps_per_second));
   if (progress.seconds_left > 0) out += fmt::format("  {} left", clock_text(progress.seconds_left));
-  return out;
+  return out + fmt::format("  energy {:+.2g} %", 100 * progress.energy_error);
 }
 
 std::size_t terminal_width() {

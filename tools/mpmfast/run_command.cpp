@@ -66,7 +66,7 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
   print_passes(summary);
   print_contact(summary.contact);
   fmt::print("energy error     {:.3g}\n", summary.energy_error);
-  for (const std::string& warning : run_warnings(summary)) fmt::print("warning          {}\n", warning);
+  for (const RunWarning& warning : run_warnings(summary)) fmt::print("warning          {}\n", warning.text);
   fmt::print("checksum         {}\n", summary.checksum);
   print_files(folder);
   std::error_code error;

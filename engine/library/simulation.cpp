@@ -1,0 +1,254 @@
+#include "engine/library/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <new>
+#include <type_traits>
+#include <variant>
+
+#include "engine/errors.hpp"
+#include "engine/output/output.hpp"
+#include "engine/scene/read_scene.hpp"
+#include "engine/step/run.hpp"
+#include "engine/step/step.hpp"
+#include "mpmfast_version.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Runs f; what it throws becomes an Error.
+template <class F>
+decltype(auto) said(F f) {
+  try {
+    return f();
+  } catch (const SceneError& error) {
+    throw Error(Error::Kind::scene, error.what());
+  } catch (const RunFailure& error) {
+    throw Error(Error::Kind::failure, error.what());
+  } catch (const FileError& error) {
+    throw Error(Error::Kind::file, error.what());
+  } catch (const std::bad_alloc&) {
+    throw Error(Error::Kind::failure, "out of memory");
+  }
+}
+
+/// The components of a quantity in the order of its columns.
+std::vector<std::string_view> component_names(int components) {
+  switch (components) {
+    case 1:
+      return {""};
+    case 2:
+      return {"x", "y"};
+    case 3:
+      return {"x", "y", "z"};
+    case 6:
+      return {"xx", "yy", "zz", "xy", "yz", "xz"};
+    default:
+      return {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+  }
+}
+
+/// Four numbers are a tensor in the plane, which is not the same for a symmetric one with its zz.
+template <int Dim>
+std::vector<std::string_view> component_names(Quantity quantity) {
+  const int components = Particles<Dim>::components(quantity);
+  if (components != 4) return component_names(components);
+  const bool symmetric = quantity == Quantity::kirchhoff_stress || quantity == Quantity::elastic_strain;
+  if (symmetric) return {"xx", "yy", "zz", "xy"};
+  return {"xx", "xy", "yx", "yy"};
+}
+
+struct NamedColumn {
+  std::string name;
+  Quantity quantity;
+  int component;
+};
+
+template <int Dim>
+std::vector<NamedColumn> named_columns(const Particles<Dim>& particles) {
+  std::vector<NamedColumn> out;
+  for (const Quantity quantity : particles.quantities()) {
+    const std::string_view name = kQuantityTable[static_cast<std::size_t>(quantity)].name;
+    int k = 0;
+    for (const std::string_view component : component_names<Dim>(quantity))
+      out.push_back(
+          {component.empty() ? std::string(name) : fmt::format("{}.{}", name, component), quantity, k++});
+  }
+  return out;
+}
+
+}  // namespace
+
+class Simulation::Implementation {
+ public:
+  template <class F>
+  decltype(auto) visit(F f) {
+    return std::visit([&](auto& s) -> decltype(auto) { return f(*s); }, step);
+  }
+  template <class F>
+  decltype(auto) visit(F f) const {
+    return std::visit([&](const auto& s) -> decltype(auto) { return f(std::as_const(*s)); }, step);
+  }
+
+  explicit Implementation(Scene read) : scene(std::move(read)) {
+    if (scene.dimension() == 2) {
+      step.emplace<std::unique_ptr<Step<2>>>(std::make_unique<Step<2>>(scene));
+    } else {
+      step.emplace<std::unique_ptr<Step<3>>>(std::make_unique<Step<3>>(scene));
+    }
+    first_dt = visit([](auto& s) { return s.stable_dt(); });
+    visit([&](auto& s) { names = named_columns(s.state().particles); });
+  }
+
+  const NamedColumn& find(std::string_view name) const {
+    const auto found =
+        std::find_if(names.begin(), names.end(), [&](const auto& column) { return column.name == name; });
+    if (found == names.end()) throw std::out_of_range(fmt::format("no column '{}' in this scene", name));
+    return *found;
+  }
+
+  Scene scene;  ///< stays where it is: the step points to it
+  std::variant<std::unique_ptr<Step<2>>, std::unique_ptr<Step<3>>> step;
+  std::vector<NamedColumn> names;
+  double first_dt = 0;  ///< s
+};
+
+Simulation::Simulation(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+Simulation::Simulation(const std::filesystem::path& scene, const Settings& settings)
+    : implementation_(said([&] { return std::make_unique<Implementation>(read_scene(scene, settings)); })) {}
+
+Simulation Simulation::from_text(const std::string& yaml, const std::filesystem::path& folder,
+                                 const Settings& settings) {
+  return said([&] {
+    return Simulation(std::make_unique<Implementation>(parse_scene(yaml, folder / "scene.yaml", settings)));
+  });
+}
+
+int Simulation::dimension() const { return implementation_->scene.dimension(); }
+double Simulation::end() const { return implementation_->scene.time.end; }
+const std::string& Simulation::resolved_scene() const { return implementation_->scene.resolved_yaml; }
+
+std::size_t Simulation::particles() const {
+  return implementation_->visit([](const auto& s) { return s.state().particles.size(); });
+}
+
+double Simulation::time() const {
+  return implementation_->visit([](const auto& s) { return s.state().time; });
+}
+
+std::uint64_t Simulation::steps() const {
+  return implementation_->visit([](const auto& s) { return static_cast<std::uint64_t>(s.state().step); });
+}
+
+double Simulation::stable_dt() const {
+  return implementation_->visit([](const auto& s) { return s.stable_dt(); });
+}
+
+void Simulation::advance(double dt) {
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw std::invalid_argument(fmt::format("a time step must be positive, got {}", dt));
+  said([&] { implementation_->visit([&](auto& s) { s.advance(dt); }); });
+}
+
+std::uint64_t Simulation::advance_to(double time) {
+  if (!std::isfinite(time)) throw std::invalid_argument("a time to advance to must be finite");
+  const std::uint64_t before = steps();
+  said([&] {
+    implementation_->visit([&](auto& s) {
+      while (!has_ended(s.state().time, time)) s.advance(s.dt_towards(time, implementation_->first_dt));
+    });
+  });
+  return steps() - before;
+}
+
+std::vector<std::string> Simulation::columns() const {
+  std::vector<std::string> out;
+  for (const NamedColumn& column : implementation_->names) out.push_back(column.name);
+  return out;
+}
+
+std::span<const double> Simulation::column(std::string_view name) const {
+  const NamedColumn& column = implementation_->find(name);
+  return implementation_->visit([&](const auto& s) {
+    const auto& particles = s.state().particles;
+    return std::span<const double>(particles.column(column.quantity, column.component), particles.size());
+  });
+}
+
+std::string Simulation::unit(std::string_view name) const {
+  return std::string(kQuantityTable[static_cast<std::size_t>(implementation_->find(name).quantity)].unit);
+}
+
+std::span<const std::uint32_t> Simulation::ids() const {
+  return implementation_->visit([](const auto& s) {
+    return std::span<const std::uint32_t>(s.state().particles.id().data(), s.state().particles.size());
+  });
+}
+
+std::span<const std::uint16_t> Simulation::bodies() const {
+  return implementation_->visit([](const auto& s) {
+    return std::span<const std::uint16_t>(s.state().particles.body().data(), s.state().particles.size());
+  });
+}
+
+std::vector<std::string> Simulation::body_names() const {
+  std::vector<std::string> out;
+  for (const BodySpec& body : implementation_->scene.bodies) out.push_back(body.name);
+  return out;
+}
+
+void Simulation::add_velocity(int axis, std::span<const double> change) {
+  if (axis < 0 || axis >= dimension())
+    throw std::invalid_argument(fmt::format("no axis {} in {} dimensions", axis, dimension()));
+  if (change.size() != particles())
+    throw std::invalid_argument(
+        fmt::format("{} changes of velocity for {} particles", change.size(), particles()));
+  if (!std::all_of(change.begin(), change.end(), [](double v) { return std::isfinite(v); }))
+    throw std::invalid_argument("a change of velocity is not finite");
+  implementation_->visit([&](auto& s) { s.add_velocity(axis, change); });
+}
+
+Energies Simulation::energies() {
+  return implementation_->visit([&](auto& s) {
+    HistoryRow row;
+    fill_particle_sums(s.state().particles, implementation_->scene, row);
+    const auto& sums = s.sums();
+    return Energies{row.kinetic,           s.stored_energy(),  sums.friction_work,
+                    s.dissipated_energy(), sums.boundary_work, sums.body_force_work};
+  });
+}
+
+std::string Simulation::checksum() const {
+  return implementation_->visit([](const auto& s) { return mpmfast::checksum(s.state().particles); });
+}
+
+std::string run(const std::filesystem::path& scene, const std::filesystem::path& folder,
+                const Settings& settings, bool replace, int threads) {
+  return said([&] {
+    const Scene read = read_scene(scene, settings);
+    RunOptions options;
+    options.folder = folder;
+    options.force = replace;
+    options.threads = threads;
+    options.command = "library";
+    for (const auto& [path, text] : settings) options.overrides.push_back(path + "=" + text);
+    run_scene(read, options);
+    std::ifstream json(folder / "run.json");
+    return std::string(std::istreambuf_iterator<char>(json), {});
+  });
+}
+
+std::string version() { return kVersion; }
+
+}  // namespace mpmfast

@@ -1,0 +1,111 @@
+#pragma once
+
+/// @file mpmfast as a library: load a scene, step, read the particles. The one header that is installed; it
+/// needs nothing but the standard library, and changes only with the major version.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#define MPMFAST_API __attribute__((visibility("default")))
+
+namespace mpmfast {
+
+/// What goes wrong, with the message that the program would print.
+class MPMFAST_API Error : public std::runtime_error {
+ public:
+  /// As the exit codes of the program.
+  enum class Kind { scene = 2, failure = 3, file = 4 };
+  Error(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
+  Kind kind() const { return kind_; }
+
+ private:
+  Kind kind_;
+};
+
+/// Dotted path of a scene and the text that replaces what stands there, as --set PATH=TEXT.
+using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// Where the energy is, J; in 2-D of the scene's thickness. What was dissipated and worked counts from the
+/// start.
+struct Energies {
+  double kinetic = 0, stored = 0;
+  double friction = 0;    ///< heat of contact
+  double dissipated = 0;  ///< plastic work and viscous heat
+  double boundary_work = 0, body_force_work = 0;
+};
+
+/// A scene that is stepped by its caller and writes no files. Everything is SI. Spans show the memory of the
+/// simulation itself; they hold until the next step, which may sort the particles anew.
+class MPMFAST_API Simulation {
+ public:
+  /// Reads the scene and seeds its particles. Throws Error.
+  explicit Simulation(const std::filesystem::path& scene, const Settings& settings = {});
+  /// The same from text; relative paths in it count from `folder`.
+  static Simulation from_text(const std::string& yaml, const std::filesystem::path& folder = ".",
+                              const Settings& settings = {});
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  int dimension() const;
+  std::size_t particles() const;
+  double time() const;  ///< s
+  double end() const;   ///< s, of the scene
+  std::uint64_t steps() const;
+  double stable_dt() const;  ///< s, of the next step
+
+  /// One step of dt, at most stable_dt() where it is to stay stable. Throws Error.
+  void advance(double dt);
+  /// As many steps as it takes to get to `time`, as `mpmfast run` would take them; returns how many. Throws
+  /// Error.
+  std::uint64_t advance_to(double time);
+
+  /// Names of the columns: velocity.x, kirchhoff_stress.xy, mass … What a scene does not need is not there.
+  std::vector<std::string> columns() const;
+  /// One number a particle. Throws std::out_of_range for a column that is not there.
+  std::span<const double> column(std::string_view name) const;
+  /// Unit of a column: m/s, Pa, kg …
+  std::string unit(std::string_view name) const;
+  /// A particle keeps its number while the columns are sorted.
+  std::span<const std::uint32_t> ids() const;
+  /// Of each particle, into body_names().
+  std::span<const std::uint16_t> bodies() const;
+  std::vector<std::string> body_names() const;
+
+  /// For what acts on the particles from outside: adds to their velocities along an axis (0, 1, 2), one
+  /// number a particle in the order of the columns. The energy counts as work of body forces; rigid bodies do
+  /// not mind. Throws std::invalid_argument for a wrong axis, length or a number that is not finite.
+  void add_velocity(int axis, std::span<const double> change);
+
+  Energies energies();
+  /// Of the particles' state, as `checksum` in run.json.
+  std::string checksum() const;
+  /// The scene with every default, as scene.yaml.
+  const std::string& resolved_scene() const;
+
+  /// Hidden: what a change of it must not touch is compiled elsewhere.
+  class Implementation;
+
+ private:
+  explicit Simulation(std::unique_ptr<Implementation> implementation);
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Runs a scene as `mpmfast run` does and writes its folder. Returns run.json's text. Throws Error.
+/// @param replace  a folder that is there
+/// @param threads  0: OMP_NUM_THREADS or the cores
+MPMFAST_API std::string run(const std::filesystem::path& scene, const std::filesystem::path& folder,
+                            const Settings& settings = {}, bool replace = false, int threads = 0);
+
+/// "0.2.0"
+MPMFAST_API std::string version();
+
+}  // namespace mpmfast

@@ -1,0 +1,159 @@
+#include "describe_command_line.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string_view>
+#include <vector>
+
+#include "engine/scene/catalogue.hpp"
+#include "mpmfast_version.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Text as the page shows it: a '-' is a minus, a first '.' no request.
+std::string roff(std::string_view text) {
+  std::string out = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
+  for (const char c : text) {
+    if (c == '\\') out += "\\e";
+    if (c == '-') out += "\\-";
+    if (c != '\\' && c != '-') out += c;
+  }
+  return out;
+}
+
+std::string positional_of(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options())
+    if (option->get_positional()) return option->get_name();
+  return "";
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  std::vector<const CLI::Option*> out;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_positional() && !option->get_lnames().empty()) out.push_back(option);
+  return out;
+}
+
+std::string man_command(const CLI::App& command) {
+  const std::string positional = positional_of(command);
+  std::string out = fmt::format(".SS mpmfast {}{}\n{}.\n", roff(command.get_name()),
+                                positional.empty() ? "" : " \\fI" + roff(positional) + "\\fR",
+                                roff(command.get_description()));
+  for (const CLI::Option* option : options_of(command)) {
+    if (option->get_lnames()[0] == "help") continue;
+    out += fmt::format(".TP\n\\fB\\-\\-{}\\fR", roff(option->get_lnames()[0]));
+    if (option->get_items_expected_max() > 0)
+      out += fmt::format(" \\fI{}\\fR", roff(option->get_type_name()));
+    out += fmt::format("\n{}.\n", roff(option->get_description()));
+  }
+  return out;
+}
+
+constexpr std::string_view kManEnd = R"(.SH EXIT STATUS
+.TP
+0
+finished
+.TP
+2
+the command line or the scene is wrong; nothing was written
+.TP
+3
+the run failed; the message says step, time, particle, body, place and cause, and what there was is kept
+.TP
+4
+a file could not be read or written
+.TP
+130, 143
+stopped by SIGINT or SIGTERM after a step; \fBmpmfast resume\fR goes on
+.SH FILES
+An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.json\fR (figures and warnings),
+\fIhistory.csv\fR, \fIparticles.pvd\fR (opens in ParaView), \fIcheckpoint.h5\fR and pictures.
+.SH ENVIRONMENT
+.TP
+\fBOMP_NUM_THREADS\fR
+threads where \-\-threads does not say
+.TP
+\fBOMP_WAIT_POLICY\fR
+active: threads spin while they wait, which may gain a little on a machine of one's own
+.SH EXAMPLES
+.TP
+mpmfast run ellipses.yaml \-\-set grid.cell="1/20 mm" \-\-out small
+a scene, coarser than it is written
+.TP
+mpmfast check ellipses.yaml
+what a run would need, without running it
+)";
+
+/// What a word after the command may be.
+std::string completed_positional(const std::string& positional) {
+  if (positional == "SCENE" || positional == "STUDY")
+    return "COMPREPLY+=($(compgen -f -X '!*.yaml' -- \"$word\") $(compgen -d -- \"$word\"))";
+  if (positional == "DIR") return "COMPREPLY+=($(compgen -d -- \"$word\"))";
+  if (positional == "TOPIC")
+    return fmt::format("COMPREPLY+=($(compgen -W '{}' -- \"$word\"))", fmt::join(catalogue_topics(), " "));
+  return ":";
+}
+
+/// The words of "auto|plain|none"; nothing for other type names.
+std::string choices(const std::string& type_name) {
+  std::string out = type_name;
+  if (out.find('|') == std::string::npos) return "";
+  for (char& c : out) c = c == '|' ? ' ' : c;
+  return out;
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app) {
+  std::string out = fmt::format(
+      ".TH MPMFAST 1 \"\" \"mpmfast {}\" \"User Commands\"\n"
+      ".SH NAME\nmpmfast \\- material point method with multimaterial frictional contact\n"
+      ".SH SYNOPSIS\n\\fBmpmfast\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n"
+      ".SH DESCRIPTION\nRuns scenes written in YAML: solid bodies in two or three dimensions that deform, "
+      "touch, slide and\n"
+      "stick. \\fBmpmfast list\\fR names what a scene may hold.\n.SH COMMANDS\n",
+      kVersion);
+  for (const CLI::App* command : app.get_subcommands({})) out += man_command(*command);
+  return out + std::string(kManEnd);
+}
+
+std::string bash_completion(const CLI::App& app) {
+  std::vector<std::string> names;
+  std::string cases, values;
+  for (const CLI::App* command : app.get_subcommands({})) {
+    names.push_back(command->get_name());
+    std::vector<std::string> options;
+    for (const CLI::Option* option : options_of(*command)) {
+      const std::string& name = option->get_lnames()[0];
+      options.push_back("--" + name);
+      const std::string words = choices(option->get_type_name());
+      const std::string line =
+          fmt::format("    --{}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", name, words);
+      if (!words.empty() && values.find(line) == std::string::npos) values += line;
+    }
+    cases += fmt::format("    {}) options='{}'; {} ;;\n", command->get_name(), fmt::join(options, " "),
+                         completed_positional(positional_of(*command)));
+  }
+  return fmt::format(
+      "# Completion of mpmfast for bash: printed by `mpmfast completion`.\n"
+      "_mpmfast() {{\n"
+      "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options=\n"
+      "  COMPREPLY=()\n"
+      "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
+      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    return\n"
+      "  fi\n"
+      "  case $before in\n{}"
+      "    --out) COMPREPLY=($(compgen -d -- \"$word\")); return ;;\n"
+      "  esac\n"
+      "  case ${{COMP_WORDS[1]}} in\n{}  esac\n"
+      "  case $word in -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;; esac\n"
+      "}}\n"
+      "complete -o filenames -F _mpmfast mpmfast\n",
+      fmt::join(names, " "), values, cases);
+}
+
+}  // namespace mpmfast

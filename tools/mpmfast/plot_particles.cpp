@@ -1,0 +1,180 @@
+#include "plot_particles.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+#include "engine/errors.hpp"
+#include "engine/output/animated_png.hpp"
+#include "engine/output/paint.hpp"
+#include "engine/output/particle_access.hpp"
+#include "engine/output/read_frame.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/read_scene.hpp"
+#include "engine/scene/suggest.hpp"
+#include "exit_codes.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+int refuse(const std::string& option, const std::string& why, const std::string& hint = "") {
+  fmt::print(stderr, "mpmfast: {}: {}{}\n", option, why, hint.empty() ? "" : ". " + hint);
+  return kExitWrongInput;
+}
+
+/// Index of the frame that was asked for; nothing when there is none of that number.
+std::optional<std::size_t> frame_index(const std::string& text, std::size_t count) {
+  if (text == "first") return 0;
+  if (text == "last") return count - 1;
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
+  if (error != std::errc() || end != text.data() + text.size() || index >= count) return std::nullopt;
+  return index;
+}
+
+/// "LOW:HIGH", each with a unit of the field or in SI.
+std::optional<Range> read_range(const std::string& text, const std::string& unit) {
+  const Measure measure = unit == "Pa"    ? Measure::pressure
+                          : unit == "m/s" ? Measure::velocity
+                          : unit == "K"   ? Measure::temperature
+                                          : Measure::number;
+  const std::size_t colon = text.find(':');
+  if (colon == std::string::npos) return std::nullopt;
+  const auto lower = parse_quantity(text.substr(0, colon), measure),
+             upper = parse_quantity(text.substr(colon + 1), measure);
+  if (!std::holds_alternative<double>(lower) || !std::holds_alternative<double>(upper)) return std::nullopt;
+  const Range range{std::get<double>(lower), std::get<double>(upper)};
+  return range.lower < range.upper ? std::optional(range) : std::nullopt;
+}
+
+/// Is there no column for it?
+bool lacks(const FieldValues& values) {
+  return std::all_of(values.value.begin(), values.value.end(), [](double v) { return std::isnan(v); });
+}
+
+template <int Dim>
+class Series {
+ public:
+  Series(const Scene& scene, std::vector<SeriesFrame> frames) : scene_(scene), frames_(std::move(frames)) {}
+
+  std::size_t size() const { return frames_.size(); }
+  double time(std::size_t k) const { return frames_[k].time; }
+  Particles<Dim> read(std::size_t k) const {
+    return read_frame<Dim>(VtuReader(frames_[k].file), frames_[k].file, scene_);
+  }
+
+ private:
+  const Scene& scene_;
+  std::vector<SeriesFrame> frames_;
+};
+
+template <int Dim>
+class ParticlePlot {
+ public:
+  ParticlePlot(const CommandLine& line, const Scene& scene, std::vector<SeriesFrame> frames)
+      : line_(line), scene_(scene), series_(scene, std::move(frames)) {}
+
+  /// One picture of one frame, or the animation of all.
+  int draw(const std::string& field) {
+    std::optional<Range> colours;
+    if (!line_.range.empty()) {
+      const FieldValues values = field_values(Particles<Dim>(), scene_, field);
+      colours = values.names ? std::nullopt : read_range(line_.range, values.unit);
+      if (!colours)
+        return refuse(
+            "--range",
+            fmt::format("not LOW:HIGH for {} ({}), such as 0:5, got '{}'", values.label,
+                        values.unit.empty() ? "which has names, not numbers" : values.unit, line_.range));
+    }
+    return line_.frame.empty() ? animate(field, colours) : draw_frame(field, colours);
+  }
+
+ private:
+  int draw_frame(const std::string& field, std::optional<Range> colours) {
+    const auto k = frame_index(line_.frame, series_.size());
+    if (!k)
+      return refuse("--frame", fmt::format("not a frame of this run (first, last or 0 to {}), got '{}'",
+                                           series_.size() - 1, line_.frame));
+    const Particles<Dim> particles = series_.read(*k);
+    Framing framing = framing_of(particles, scene_, field);
+    if (colours) framing.values = colours;
+    const fs::path path = fs::path(line_.scene) / fmt::format("plot_{}_{:06}.png", field, *k);
+    paint_particles(particles, scene_, field, series_.time(*k), framing).write_png(path);
+    fmt::print("picture          {}\n", path.string());
+    return 0;
+  }
+
+  int animate(const std::string& field, std::optional<Range> colours) {
+    Framing framing;
+    for (std::size_t k = 0; k < series_.size(); ++k)
+      framing.include(framing_of(series_.read(k), scene_, field));
+    if (colours) framing.values = colours;
+    std::optional<AnimatedPng> animation;
+    for (std::size_t k = 0; k < series_.size(); ++k) {
+      const Canvas canvas = paint_particles(series_.read(k), scene_, field, series_.time(k), framing);
+      if (!animation) animation.emplace(canvas.width(), canvas.height(), kRate);
+      animation->add(canvas.pixels());
+    }
+    const fs::path path = fs::path(line_.scene) / fmt::format("plot_{}.png", field);
+    animation->write(path);
+    fmt::print("animation        {} ({} frames; opens in a browser)\n", path.string(), series_.size());
+    return 0;
+  }
+
+  static constexpr int kRate = 8;  ///< frames a second
+  const CommandLine& line_;
+  const Scene& scene_;
+  Series<Dim> series_;
+};
+
+template <int Dim>
+int plot_fields(const CommandLine& line, const Scene& scene, std::vector<SeriesFrame> frames) {
+  std::vector<std::string> fields = line.fields;
+  if (fields.empty()) fields.push_back(scene.output.picture == "none" ? "body" : scene.output.picture);
+  const std::vector<std::string> known = field_names(Dim);
+  for (const std::string& field : fields)
+    if (std::find(known.begin(), known.end(), field) == known.end())
+      return refuse("--field", fmt::format("not known (one of {}), got '{}'", fmt::join(known, ", "), field),
+                    did_you_mean(field, known));
+  const Particles<Dim> first = read_frame<Dim>(VtuReader(frames[0].file), frames[0].file, scene);
+  for (const std::string& field : fields)
+    if (first.size() > 0 && lacks(field_values(first, scene, field)))
+      return refuse("--field", fmt::format("the particles of this run have no {}", field));
+  ParticlePlot<Dim> plot(line, scene, std::move(frames));
+  for (const std::string& field : fields)
+    if (const int code = plot.draw(field); code != 0) return code;
+  return 0;
+}
+
+}  // namespace
+
+bool has_particle_files(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(folder / "particles.pvd", error);
+}
+
+int plot_particles(const CommandLine& line) {
+  const fs::path folder = line.scene;
+  if (!has_particle_files(folder))
+    throw FileError(
+        fmt::format("{} has no particle files (particles.pvd): the scene's output.frames was 0, or it is no "
+                    "output folder of a run",
+                    folder.string()));
+  const Scene scene = read_scene(folder / "scene.yaml");
+  std::vector<SeriesFrame> frames = read_pvd(folder / "particles.pvd");
+  if (frames.empty()) throw FileError(fmt::format("{} lists no frames", (folder / "particles.pvd").string()));
+  return scene.dimension() == 2 ? plot_fields<2>(line, scene, std::move(frames))
+                                : plot_fields<3>(line, scene, std::move(frames));
+}
+
+}  // namespace mpmfast
