@@ -10,8 +10,8 @@ A mark is an HTML comment on the line before a fenced block, which a reader of t
   <!-- run: exit 2 -->      it must end with this exit code
   <!-- run: short -->       every `mpmfast run` in it ends after a few steps
   <!-- run: slow -->        with --slow only
-  <!-- run: needs WORD -->  only where there is the program WORD, the Python module python.WORD or mpmfast's command
-                            mpmfast.WORD; left out elsewhere, which is said
+  <!-- run: needs WORD -->  only where there is the program WORD or the Python module python.WORD; left out elsewhere,
+                            which is said
   <!-- not run: REASON -->  a shell block that cannot be run here
   <!-- output -->           each line of the block stands in what the block run last printed; ... stands for anything
   <!-- scene: NAME.yaml --> a whole scene, which `mpmfast check` accepts; with a name it is a file of the blocks after it
@@ -106,13 +106,12 @@ def prepare_path(bin_folder, program):
         (place / "python3").symlink_to("/usr/bin/python3")
 
 
-def is_there(word, program):
-    """Is there the program, the Python module (python.WORD) or the command of mpmfast (mpmfast.WORD)?"""
+def is_there(word, environment):
+    """Is there the program, or the Python module (python.WORD)?"""
     kind, _, name = word.partition(".")
     if kind == "python" and name:
-        return subprocess.run(["/usr/bin/python3", "-c", f"import {name}"], capture_output=True).returncode == 0
-    if kind == "mpmfast" and name:
-        return subprocess.run([program, name, "--help"], capture_output=True).returncode == 0
+        return subprocess.run(["/usr/bin/python3", "-c", f"import {name}"], capture_output=True,
+                              env=environment).returncode == 0
     return shutil.which(word) is not None
 
 
@@ -138,11 +137,14 @@ class Runner:
         folder.mkdir()
         (folder / "configs").symlink_to(source / "configs")
         prepare_path(self.bin, program)
+        # The Python module, where the build has it, lies beside the program.
+        self.environment = {**os.environ, "OMP_WAIT_POLICY": "passive",
+                            "PYTHONPATH": os.path.join(os.path.dirname(program), "python")}
         self.printed, self.ran, self.left_out = None, 0, []
 
     def run(self, block):
         for word in block.after("needs"):
-            if not is_there(word, self.program):
+            if not is_there(word, self.environment):
                 self.left_out.append(f"{block.place}: no {word}")
                 self.printed = None
                 return
@@ -153,7 +155,7 @@ class Runner:
         command = ["/usr/bin/python3", "-c"] if block.language == "python" else ["bash", "-euo", "pipefail", "-c"]
         done = subprocess.run(command + [block.text], cwd=self.folder, stdin=subprocess.DEVNULL,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, encoding="utf-8", errors="replace",
-                              env={**os.environ, "PATH": path, "OMP_WAIT_POLICY": "passive"})
+                              env={**self.environment, "PATH": path})
         self.printed = done.stdout
         self.ran += 1
         codes = [int(code) for code in block.after("exit")] or [0]
@@ -233,6 +235,18 @@ def check_words(program, name, prose, known):
             expect(word in known, f"{name}:{number}", f"'{word}' is no word of `mpmfast list`")
 
 
+def check_recipes(source, name, prose):
+    """In tables of files and what to look for there, `file` exists and holds `words`."""
+    for number, line in prose:
+        cells = [cell.strip() for cell in re.split(r"(?<!\\)\|", line)] if line.startswith("| `") else []
+        if len(cells) < 4 or "/" not in cells[1] or not re.fullmatch(r"`[^`]+`", cells[1]):
+            continue
+        path = source / cells[1].strip("`")
+        expect(path.is_file(), f"{name}:{number}", f"no such file: {cells[1]}")
+        for words in re.findall(r"`([^`]+)`", cells[2]) if path.is_file() else ():
+            expect(words in path.read_text(encoding="utf-8"), f"{name}:{number}", f"{cells[1]} holds no '{words}'")
+
+
 def dotted_keys(yaml_text):
     """Paths of a resolved scene such as contact.normal; lists count from 0."""
     import yaml
@@ -264,13 +278,16 @@ def pages_of(source):
             yield path, str(path.relative_to(source))
 
 
-def resolved_scene(program, source, folder):
-    """Of a scene with every section."""
-    done = subprocess.run([program, "run", str(source / "configs" / "gap.yaml"), "--steps", "1", "--progress", "none",
-                           "--set", "grid.cell=10 mm", "--set", "output.checkpoint={every: 10 min}", "--out", "resolved"],
-                          cwd=folder, capture_output=True, text=True)
-    expect(done.returncode == 0, "configs/gap.yaml", done.stderr)
-    return (folder / "resolved" / "scene.yaml").read_text(encoding="utf-8") if done.returncode == 0 else ""
+def keys_of_scenes(program, source, folder):
+    """Dotted keys of resolved scenes that have every section between them."""
+    keys = set()
+    for name, setting in (("gap", "grid.cell=10 mm"), ("pair_laws", "output.checkpoint={steps: 9}")):
+        done = subprocess.run([program, "run", str(source / "configs" / f"{name}.yaml"), "--steps", "1", "--progress",
+                               "none", "--set", setting, "--out", name], cwd=folder, capture_output=True, text=True)
+        expect(done.returncode == 0, f"configs/{name}.yaml", done.stderr)
+        if done.returncode == 0:
+            keys |= dotted_keys((folder / name / "scene.yaml").read_text(encoding="utf-8"))
+    return keys
 
 
 def main():
@@ -283,7 +300,7 @@ def main():
     ran, left_out = 0, []
     with tempfile.TemporaryDirectory(prefix="documents-") as root:
         root = pathlib.Path(root)
-        paths = dotted_keys(resolved_scene(program, source, root))
+        paths = keys_of_scenes(program, source, root)
         for index, (path, name) in enumerate(pages_of(source)):
             if only and only not in name:
                 continue
@@ -291,6 +308,8 @@ def main():
             check_links(path, name, prose, source)
             if name == "tools/manual/methods.md":
                 check_words(program, name, prose, known)
+            if name == "tools/manual/extending.md":
+                check_recipes(source, name, prose)
             if name.startswith("tools/manual/") or name == "README.md":
                 check_keys(name, prose, paths)
             runner = Runner(root / f"page{index}", program, source, "--slow" in options)
