@@ -247,6 +247,26 @@ def check_recipes(source, name, prose):
             expect(words in path.read_text(encoding="utf-8"), f"{name}:{number}", f"{cells[1]} holds no '{words}'")
 
 
+def messages_of(source):
+    """All text of the program's sources, literals that continue on the next line joined."""
+    text = ""
+    for folder in ("engine", "tools"):
+        for path in sorted((source / folder).rglob("*.cpp")):
+            text += path.read_text(encoding="utf-8")
+    return re.sub(r'"\s*\n\s*"', "", text).replace('{:', "{").replace('\\"', '"')
+
+
+def check_messages(name, prose, sources):
+    """Messages in the first column of a table, or bold at the start of a line, stand in the sources; … stands for what
+    changes."""
+    for number, line in prose:
+        table = line.split("|")[1] if line.startswith("| `") and line.count("|") == 3 else ""
+        bold = re.match(r"\*\*(`[^`]+`)\*\*", line)
+        for message in re.findall(r"`([^`]+)`", table or (bold[1] if bold else "")):
+            for part in message.split("…"):
+                expect(part.strip(" )") in sources, f"{name}:{number}", f"no message says '{part}'")
+
+
 def dotted_keys(yaml_text):
     """Paths of a resolved scene such as contact.normal; lists count from 0."""
     import yaml
@@ -308,6 +328,8 @@ def main():
             check_links(path, name, prose, source)
             if name == "tools/manual/methods.md":
                 check_words(program, name, prose, known)
+            if name == "tools/manual/troubleshooting.md":
+                check_messages(name, prose, messages_of(source))
             if name == "tools/manual/extending.md":
                 check_recipes(source, name, prose)
             if name.startswith("tools/manual/") or name == "README.md":
