@@ -29,6 +29,12 @@ import sys
 import tempfile
 import unicodedata
 
+try:
+    import yaml
+except ImportError:
+    print("PyYAML is missing: tools/setup tests")
+    sys.exit(77)
+
 SHORT_STEPS = 30
 FENCE = re.compile(r"^(\s*)(```+)\s*(\S*)\s*$")
 MARK = re.compile(r"^\s*<!--\s*(not run|run|output|scene|file)\s*(?::\s*(.*?))?\s*-->\s*$")
@@ -270,7 +276,6 @@ def check_messages(name, prose, sources):
 
 def dotted_keys(yaml_text):
     """Paths of a resolved scene such as contact.normal; lists count from 0."""
-    import yaml
     paths = set()
 
     def visit(value, path):
