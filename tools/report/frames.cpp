@@ -104,6 +104,17 @@ std::string bytes_of(const std::vector<T>& values) {
   return take_bytes(values.data(), values.size() * sizeof(T));
 }
 
+/// Ids that count from 0 are left out.
+std::vector<std::pair<std::string, std::string>> packed_constants(const Constants& constants,
+                                                                  const std::vector<std::uint32_t>& ids) {
+  std::vector<std::pair<std::string, std::string>> out{{"body", deflated(bytes_of(constants.body))},
+                                                       {"material", deflated(bytes_of(constants.material))},
+                                                       {"side_x", deflated(bytes_of(constants.side_x))},
+                                                       {"side_y", deflated(bytes_of(constants.side_y))}};
+  if (!ids.empty() && ids.back() + 1 != ids.size()) out.emplace_back("ids", deflated(bytes_of(ids)));
+  return out;
+}
+
 /// Reads the frames that a survey chose and packs them.
 class FramePacker {
  public:
@@ -115,6 +126,7 @@ class FramePacker {
     for (auto* numbers : {&constants_.side_x, &constants_.side_y}) numbers->resize(width_);
     constants_.known.resize(width_);
     for (std::size_t f = 0; f < survey_.frames.size(); ++f) read_frame(f);
+    constant_columns_ = packed_constants(constants_, survey_.ids);
     for (auto* columns : {&places_, &gradient_, &fields_})
       for (FrameColumn& column : *columns)
         column.packed = pack_levels(column.values, width_, column.levels.bits());
@@ -123,6 +135,7 @@ class FramePacker {
   /// What a page needs at least.
   std::size_t least_bytes() const {
     std::size_t bytes = 0;
+    for (const auto& column : constant_columns_) bytes += column.second.size();
     for (const FrameColumn& column : places_) bytes += column.packed.bytes.size();
     for (std::size_t k = 0; k < std::min(kKeptFields, fields_.size()); ++k)
       bytes += fields_[k].packed.bytes.size();
@@ -147,6 +160,7 @@ class FramePacker {
   int dimension_;
   std::size_t width_;  ///< particles that are ever shown
   Constants constants_;
+  std::vector<std::pair<std::string, std::string>> constant_columns_;  ///< name, packed
   std::vector<FrameColumn> places_, gradient_, fields_;
 };
 
@@ -217,12 +231,10 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
   std::vector<double> times;
   for (const SeriesFrame& frame : survey_.frames) times.push_back(frame.time);
   json["times"] = times;
-  const bool dense = survey_.ids.empty() || survey_.ids.back() + 1 == survey_.ids.size();
-  if (!dense) json["ids"] = chunks.add(deflated(bytes_of(survey_.ids)));
-  json["body"] = chunks.add(deflated(bytes_of(constants_.body)));
-  json["material"] = chunks.add(deflated(bytes_of(constants_.material)));
-  json["side_x"] = chunks.add(deflated(bytes_of(constants_.side_x)));
-  json["side_y"] = chunks.add(deflated(bytes_of(constants_.side_y)));
+  for (const auto& [name, packed] : constant_columns_) {
+    used += packed.size();
+    json[name] = chunks.add(packed);
+  }
   for (const FrameColumn& column : places_) used += column.packed.bytes.size();
   for (const FrameColumn& column : places_) json["places"].push_back(describe(column, chunks));
   json["fields"] = Json::array();

@@ -18,9 +18,11 @@ function energyBalance(history) {
 
 function energyWords(history, error) {
   const last = history.rows - 1, first = 0;
+  const most = Math.max(...['kinetic_J', 'stored_J', 'boundary_work_J'].map(name => Math.abs(history.columns.get(name)?.[last] ?? 0)));
   const change = name => {
     const column = history.columns.get(name);
-    return column ? column[last] - column[first] : 0;
+    const change = column ? column[last] - column[first] : 0;
+    return Math.abs(change) > 1e-9 * most ? change : 0;  // the rest is round-off
   };
   const energy = joule => valueText(Math.abs(joule), 'J', 3);
   const parts = [], came = change('boundary_work_J') + change('body_force_work_J');
@@ -33,7 +35,7 @@ function energyWords(history, error) {
     .map(([name, text]) => [change(name), text]).filter(([joule]) => joule !== 0).map(([joule, text]) => `${energy(joule)} went ${text}`);
   if (lost.length > 0) parts.push(lost.join(', ') + '.');
   const off = error[last];
-  parts.push(off === 0 ? 'The balance closes exactly.' :
+  parts.push(Math.abs(off) < 1e-9 ? 'The balance closes to round-off.' :
     `The balance is off by ${significant(100 * off, 3)} % of the energy at work: the method ${off < 0 ? 'lost' : 'made'} as much.`);
   return parts.join(' ');
 }

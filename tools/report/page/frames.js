@@ -35,14 +35,16 @@ class Frames {
     out[3] = f[3].value(f[3].levels[at]) * y;
   }
 
-  // Of all particles in all frames, with half a particle around.
-  boundingBox() {
+  // Of all particles, in all frames or in one, with half a particle around.
+  boundingBox(frame) {
+    const [from, to] = frame === undefined ? [0, this.axes[0].levels.length] : [frame * this.count, (frame + 1) * this.count];
     const lower = [], upper = [];
     let side = 0;
     for (const x of this.sideX) side = Math.max(side, x);
     for (const column of this.axes) {
       let least = Infinity, most = -Infinity;
-      for (const level of column.levels) {
+      for (let i = from; i < to; ++i) {
+        const level = column.levels[i];
         if (level === column.none) continue;
         if (level < least) least = level;
         if (level > most) most = level;

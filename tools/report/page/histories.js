@@ -49,6 +49,8 @@ class Histories {
   showUsual(usual) {
     this.press(this.tabs.find(([other]) => other === usual)[1]);
     let names = this.names.filter(usual.matches);
+    const telling = names.filter(name => this.history.columns.get(name).some(value => value !== 0));
+    if (telling.length > 0) names = telling;
     const together = names.filter(name => name.startsWith('all.'));
     if (names.length > MOST_CURVES && together.length > 0) names = together;
     this.chosen = names.slice(0, MOST_CURVES);

@@ -55,7 +55,7 @@ class LineChart {
 
   plot() {
     const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
-    return {left: 66, top: 14, right: width - 14, bottom: height - 40};
+    return {left: 66, top: 26, right: width - 14, bottom: height - 40};
   }
   toX(x) { const p = this.plot(), [a, b] = this.view.x; return p.left + (x - a) / (b - a) * (p.right - p.left); }
   toY(y) { const p = this.plot(), [a, b] = this.view.y; return p.bottom - (y - a) / (b - a) * (p.bottom - p.top); }
@@ -119,7 +119,7 @@ class LineChart {
       c.beginPath(); c.moveTo(p.left, py); c.lineTo(p.right, py); c.stroke();
       c.textAlign = 'right'; c.textBaseline = 'middle';
       c.fillText(text, p.left - 7, py);
-    }, unit => { c.textAlign = 'left'; c.textBaseline = 'top'; c.fillText(this.yName + (unit ? ` (${unit})` : ''), 0, p.bottom + 23); });
+    }, unit => { c.textAlign = 'left'; c.textBaseline = 'top'; c.fillText(this.yName + (unit ? ` (${unit})` : ''), 4, 3); });
     c.strokeStyle = themeColour('line');
     c.strokeRect(p.left + 0.5, p.top + 0.5, p.right - p.left - 1, p.bottom - p.top - 1);
   }

@@ -17,10 +17,11 @@ class PlaneView {
     new ResizeObserver(() => { if (first) this.fit(); first = false; this.draw(); }).observe(this.canvas);
   }
 
-  plot() { return {left: 62, top: 12, right: this.canvas.clientWidth - 12, bottom: this.canvas.clientHeight - 42}; }
+  plot() { return {left: 62, top: 26, right: this.canvas.clientWidth - 12, bottom: this.canvas.clientHeight - 42}; }
 
-  fit() {
-    const p = this.plot(), [[x0, y0], [x1, y1]] = this.whole;
+  // To all frames, or to the one that is shown.
+  fit(box = this.whole) {
+    const p = this.plot(), [[x0, y0], [x1, y1]] = box;
     this.centre = [(x0 + x1) / 2, (y0 + y1) / 2];
     this.scale = 0.96 * Math.min((p.right - p.left) / (x1 - x0), (p.bottom - p.top) / (y1 - y0));
     this.draw();
@@ -73,13 +74,14 @@ class PlaneView {
       frames.halfEdges(this.frame, i, edges);
       const ax = edges[0] * scale, ay = -edges[2] * scale, bx = edges[1] * scale, by = -edges[3] * scale;
       const size = Math.min(Math.hypot(ax, ay), Math.hypot(bx, by));
+      const outer = 1 + 0.3 / Math.max(size, 0.3);  // slits thinner than a pixel would show as dots
       if (size < 5) {
-        this.fillDomain(px, py, ax, ay, bx, by, this.colours[i], i);
+        this.fillDomain(px, py, ax * outer, ay * outer, bx * outer, by * outer, this.colours[i], i);
         continue;
       }
       // From near, neighbours of one colour are told apart by a rim.
-      const inner = 1 - 0.7 * ratio / size;
-      this.fillDomain(px, py, ax, ay, bx, by, darker(this.colours[i]), i);
+      const inner = 1 - Math.min(0.9 * ratio, 0.12 * size) / size;
+      this.fillDomain(px, py, ax * outer, ay * outer, bx * outer, by * outer, darker(this.colours[i]), i);
       this.fillDomain(px, py, ax * inner, ay * inner, bx * inner, by * inner, this.colours[i], i);
     }
     this.raster.getContext('2d').putImageData(this.image, 0, 0);
@@ -142,9 +144,8 @@ class PlaneView {
       c.beginPath(); c.moveTo(p.left - 5, py); c.lineTo(p.left, py); c.stroke();
       c.fillText(tickLabel(tick, up.spacing), p.left - 9, py);
     }
-    c.textAlign = 'left';
     c.textBaseline = 'top';
-    c.fillText(`${report.axisymmetric ? 'z' : 'y'} (${unit.name})`, 4, p.bottom + 25);
+    c.fillText(`${report.axisymmetric ? 'z' : 'y'} (${unit.name})`, p.left - 9, 3);
   }
 
   // The particle under a place of the canvas, or -1.

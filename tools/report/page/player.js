@@ -35,7 +35,8 @@ class Player {
     this.rangeList = select([['all', 'of all frames'], ['frame', 'of this frame'], ['extremes', 'all, with outliers']], 'all', range => { this.range = range; this.colour(); });
     this.rangeList.id = 'range';
     this.controls = element('div', {class: 'bar'}, element('label', {}, 'colour', field), this.rangeLabel = element('label', {}, 'range', this.rangeList),
-      element('span', {class: 'grow'}), element('button', {id: 'fit', onclick: () => this.view?.fit(), title: 'show everything (double click)'}, 'Fit'));
+      element('span', {class: 'grow'}), element('button', {id: 'fit-frame', onclick: () => this.view?.fit(this.frames.boundingBox(this.frame)), title: 'show all of this frame'}, 'Fit frame'),
+      element('button', {id: 'fit', onclick: () => this.view?.fit(), title: 'show all of every frame (double click)'}, 'Fit all'));
     this.slides = element('div', {class: 'bar', style: 'margin:12px 0 0'}, this.play, element('span', {class: 'grow'}, this.slider), this.time);
   }
 

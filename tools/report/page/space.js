@@ -74,8 +74,11 @@ class SpaceView {
   }
 
   // As the pictures: from the front right and above, z up.
-  fit() {
-    Object.assign(this, {azimuth: -0.55, elevation: 0.42, distance: 3.4, shift: [0, 0]});
+  // To all frames, or to the one that is shown.
+  fit(box = this.frames.box) {
+    Object.assign(this, {azimuth: -0.55, elevation: 0.42, shift: [0, 0]});
+    this.look = box[0].map((x, d) => ((x + box[1][d]) / 2 - this.middle[d]) / this.unit);
+    this.distance = 2.9 * Math.hypot(...box[0].map((x, d) => box[1][d] - x)) / 2 / this.unit || 3;
     this.draw();
   }
 
@@ -99,13 +102,13 @@ class SpaceView {
     const ca = Math.cos(this.azimuth), sa = Math.sin(this.azimuth), ce = Math.cos(this.elevation), se = Math.sin(this.elevation);
     const right = [ca, -sa, 0], up = [-se * -sa, -se * -ca, ce];
     const back = [right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2], right[0] * up[1] - right[1] * up[0]];
+    const along = axis => axis[0] * this.look[0] + axis[1] * this.look[1] + axis[2] * this.look[2];
     this.view = new Float32Array([right[0], up[0], back[0], 0, right[1], up[1], back[1], 0, right[2], up[2], back[2], 0,
-      this.shift[0], this.shift[1], -this.distance, 1]);
+      this.shift[0] - along(right), this.shift[1] - along(up), -this.distance - along(back), 1]);
     const aspect = this.canvas.clientWidth / Math.max(1, this.canvas.clientHeight), f = 1 / Math.tan(0.31);
-    const near = Math.max(0.02, this.distance - 2), far = this.distance + 2;
-    this.projection = new Float32Array([f / Math.max(1, aspect) * Math.min(1, 1 / 1) , 0, 0, 0, 0, f, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0]);
-    this.projection[0] = f / aspect;
-    if (aspect < 1) { this.projection[0] = f; this.projection[5] = f * aspect; }
+    const near = Math.max(0.02, this.distance - 2.5), far = this.distance + 2.5;
+    const narrow = Math.min(1, aspect);
+    this.projection = new Float32Array([f / aspect * narrow, 0, 0, 0, 0, f * narrow, 0, 0, 0, 0, (far + near) / (near - far), -1, 0, 0, 2 * far * near / (near - far), 0]);
   }
 
   // Where a point (in units of the box) is on the canvas, in CSS pixels, and how far from the eye.
@@ -188,7 +191,7 @@ class SpaceView {
         c.fillText(text, x + away * dx / far, y + away * dy / far);
       };
       for (const tick of ticks.at) label(tick * unit.size, tickLabel(tick, ticks.spacing), 16);
-      label((lower + upper) / 2, `${'xyz'[d]} (${unit.name})`, 38);
+      label((lower + upper) / 2, `${'xyz'[d]} (${unit.name})`, 50);
     }
   }
 
