@@ -216,9 +216,20 @@ def check_view(browser, name, canvas, other_field):
     check("left" in browser.find_element(By.ID, "key").text, f"{name}: the bodies are not named")
 
 
+# How many pixels of a canvas have the colour of its first curve.
+CURVE = """
+const canvas = document.querySelector(arguments[0]), data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+const [red, green, blue] = rgb(parseInt(CURVES[0].slice(1), 16));
+let count = 0;
+for (let i = 0; i < data.length; i += 4) count += Math.abs(data[i] - red) + Math.abs(data[i + 1] - green) + Math.abs(data[i + 2] - blue) < 24;
+return count;
+"""
+
+
 def check_charts(browser, name):
     for chart in ["#histories .chart canvas", "#energy .chart canvas"]:
-        check(pixels(browser, chart)[0] > 10, f"{name}: {chart} is blank")
+        browser.execute_async_script(SETTLED)
+        check(browser.execute_script(CURVE, chart) > 100, f"{name}: {chart} has no curve")
     chart = "#histories .chart canvas"
     before = pixels(browser, chart)[1]
     browser.find_element(By.CSS_SELECTOR, "#histories .legend button").click()

@@ -38,11 +38,17 @@ double determinant(const double* f) {
 
 }  // namespace
 
-std::vector<double> FrameField::values(const VtuReader& file) const {
-  const VtuArray* found = file.find(array);
+const std::vector<double>& FrameFile::values(const VtuArray& array) const {
+  const auto known = unpacked_.find(array.name);
+  if (known != unpacked_.end()) return known->second;
+  return unpacked_.emplace(array.name, reader_.values(array)).first->second;
+}
+
+std::vector<double> FrameField::values(const FrameFile& file) const {
+  const VtuArray* found = file.reader().find(array);
   std::vector<double> out(file.size(), std::numeric_limits<double>::quiet_NaN());
   if (found == nullptr || component >= found->components) return out;
-  const std::vector<double> all = file.values(*found);
+  const std::vector<double>& all = file.values(*found);
   const std::size_t n = found->components;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double* tuple = all.data() + n * i;

@@ -29,10 +29,10 @@ void merge(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& mo
   all = std::move(both);
 }
 
-void look_at(const VtuReader& file, std::size_t frames, FrameSurvey& survey) {
+void look_at(const FrameFile& file, std::size_t frames, FrameSurvey& survey) {
   const std::size_t stride = file.size() * frames / kSample + 1;
-  merge(survey.ids, shown_ids(file, survey.particle_stride));
-  const std::vector<double> points = file.points();
+  merge(survey.ids, shown_ids(file.reader(), survey.particle_stride));
+  const std::vector<double> points = file.reader().points();
   for (std::size_t d = 0; d < 3; ++d) {
     std::vector<double> x(file.size());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = points[3 * i + d];
@@ -62,8 +62,8 @@ FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t pa
   survey.particle_stride = particle_stride;
   for (const SeriesFrame& frame : frames) {
     try {
-      const VtuReader file(frame.file);
-      if (survey.frames.empty()) survey.fields = frame_fields(file, dimension, picture);
+      const FrameFile file(frame.file);
+      if (survey.frames.empty()) survey.fields = frame_fields(file.reader(), dimension, picture);
       survey.extents.resize(survey.fields.size());
       look_at(file, frames.size(), survey);
       survey.frames.push_back(frame);

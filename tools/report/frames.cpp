@@ -5,11 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "engine/errors.hpp"
+#include "frame_constants.hpp"
 #include "frame_survey.hpp"
 #include "pack.hpp"
 
@@ -33,62 +32,6 @@ struct FrameColumn {
   Packed packed = {};
 };
 
-/// What does not change as a particle moves.
-struct Constants {
-  std::vector<std::uint16_t> body, material;
-  std::vector<float> side_x, side_y;  ///< m, of the undeformed domain; in 3-D of a cube, x alone
-  std::vector<bool> known;
-};
-
-/// The undeformed sides of the domains of a file's particles, from their volumes, F and how they were seeded.
-class Sides {
- public:
-  Sides(const VtuReader& file, const std::optional<Scene>& scene, int dimension)
-      : scene_(scene),
-        dimension_(dimension),
-        points_(file.points()),
-        volume_(FrameField{"", "", "volume", 0, FrameField::Kind::component}.values(file)),
-        ratio_(FrameField{"", "", "deformation_gradient", 0, FrameField::Kind::determinant}.values(file)),
-        across_(FrameField{"", "", "deformation_gradient", 8, FrameField::Kind::component}.values(file)) {}
-
-  std::array<double, 2> of(std::size_t i, std::size_t body) const {
-    double size = std::isfinite(ratio_[i]) && ratio_[i] > 0 ? volume_[i] / ratio_[i] : volume_[i];
-    if (!(size > 0)) return {0, 0};
-    if (dimension_ == 3) return {std::cbrt(size), 0};
-    size /= scene_ ? scene_->thickness : 1;
-    // Of a ring, the square that is turned about the axis.
-    if (scene_ && scene_->space == Space::axisymmetric)
-      size *= across_[i] / (2 * std::numbers::pi * points_[3 * i]);
-    double aspect = 1;
-    if (scene_ && body < scene_->bodies.size()) {
-      const auto& per_cell = scene_->bodies[body].particles_per_cell;
-      aspect = static_cast<double>(per_cell[1]) / per_cell[0];
-    }
-    return {std::sqrt(size * aspect), std::sqrt(size / aspect)};
-  }
-
- private:
-  const std::optional<Scene>& scene_;
-  int dimension_;
-  std::vector<double> points_, volume_, ratio_, across_;
-};
-
-void note_constants(const VtuReader& file, const Places& places, const std::optional<Scene>& scene,
-                    int dimension, Constants& constants) {
-  const Sides sides(file, scene, dimension);
-  const auto body = file.read<std::uint16_t>("body"), material = file.read<std::uint16_t>("material");
-  for (std::size_t k = 0; k < places.in_file.size(); ++k) {
-    const std::size_t i = places.in_file[k], p = places.in_page[k];
-    if (constants.known[p]) continue;
-    constants.known[p] = true;
-    constants.body[p] = body[i];
-    constants.material[p] = material[i];
-    const auto [x, y] = sides.of(i, body[i]);
-    constants.side_x[p] = static_cast<float>(x);
-    constants.side_y[p] = static_cast<float>(y);
-  }
-}
-
 Levels levels_of(const Extent& extent, bool fine) {
   if (extent.empty()) return Levels::even(0, 1, 8);
   if (fine) return Levels::even(extent.lower, extent.upper, 16);
@@ -96,35 +39,17 @@ Levels levels_of(const Extent& extent, bool fine) {
                                : Levels::crowded(extent.sample, extent.lower, extent.upper);
 }
 
-std::string take_bytes(const void* data, std::size_t bytes) {
-  return {static_cast<const char*>(data), bytes};
-}
-template <class T>
-std::string bytes_of(const std::vector<T>& values) {
-  return take_bytes(values.data(), values.size() * sizeof(T));
-}
-
-/// Ids that count from 0 are left out.
-std::vector<std::pair<std::string, std::string>> packed_constants(const Constants& constants,
-                                                                  const std::vector<std::uint32_t>& ids) {
-  std::vector<std::pair<std::string, std::string>> out{{"body", deflated(bytes_of(constants.body))},
-                                                       {"material", deflated(bytes_of(constants.material))},
-                                                       {"side_x", deflated(bytes_of(constants.side_x))},
-                                                       {"side_y", deflated(bytes_of(constants.side_y))}};
-  if (!ids.empty() && ids.back() + 1 != ids.size()) out.emplace_back("ids", deflated(bytes_of(ids)));
-  return out;
-}
-
 /// Reads the frames that a survey chose and packs them.
 class FramePacker {
  public:
   FramePacker(FrameSurvey survey, const std::optional<Scene>& scene, int dimension)
-      : survey_(std::move(survey)), scene_(scene), dimension_(dimension), width_(survey_.ids.size()) {
+      : survey_(std::move(survey)),
+        scene_(scene),
+        dimension_(dimension),
+        width_(survey_.ids.size()),
+        constants_(width_) {
     const std::size_t values = width_ * survey_.frames.size();
     plan_columns(values <= kFineValues, values <= kCloseValues ? kCloseSteps : kFarSteps);
-    for (auto* numbers : {&constants_.body, &constants_.material}) numbers->resize(width_);
-    for (auto* numbers : {&constants_.side_x, &constants_.side_y}) numbers->resize(width_);
-    constants_.known.resize(width_);
     for (std::size_t f = 0; f < survey_.frames.size(); ++f) read_frame(f);
     constant_columns_ = packed_constants(constants_, survey_.ids);
     for (auto* columns : {&places_, &gradient_, &fields_})
@@ -159,7 +84,7 @@ class FramePacker {
   const std::optional<Scene>& scene_;
   int dimension_;
   std::size_t width_;  ///< particles that are ever shown
-  Constants constants_;
+  FrameConstants constants_;
   std::vector<std::pair<std::string, std::string>> constant_columns_;  ///< name, packed
   std::vector<FrameColumn> places_, gradient_, fields_;
 };
@@ -191,8 +116,8 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
 }
 
 void FramePacker::read_frame(std::size_t frame) {
-  const VtuReader file(survey_.frames[frame].file);
-  const Places places = find_places(file, survey_);
+  const FrameFile file(survey_.frames[frame].file);
+  const Places places = find_places(file.reader(), survey_);
   note_constants(file, places, scene_, dimension_, constants_);
   for (FrameColumn* column : all_columns()) {
     const std::vector<double> values = column->field.values(file);

@@ -31,6 +31,7 @@ class Column {
     Object.assign(this, described);
     this.levels = levels;
     this.none = this.bits === 16 ? 0xffff : 0xff;
+    if (this.table) this.table = Float64Array.from(this.table);
   }
   static async read(described, width) { return new Column(described, await unpackLevels(described, width)); }
   value(level) {

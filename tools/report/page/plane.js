@@ -73,7 +73,7 @@ class PlaneView {
       const px = wide / 2 + (x - cx) * scale, py = high / 2 - (y - cy) * scale;
       frames.halfEdges(this.frame, i, edges);
       const ax = edges[0] * scale, ay = -edges[2] * scale, bx = edges[1] * scale, by = -edges[3] * scale;
-      const size = Math.min(Math.hypot(ax, ay), Math.hypot(bx, by));
+      const size = Math.sqrt(Math.min(ax * ax + ay * ay, bx * bx + by * by));
       const outer = 1 + 0.3 / Math.max(size, 0.3);  // slits thinner than a pixel would show as dots
       if (size < 5) {
         this.fillDomain(px, py, ax * outer, ay * outer, bx * outer, by * outer, this.colours[i], i);
@@ -112,9 +112,10 @@ class PlaneView {
         right = Math.min(right, middle + half);
       }
       const from = Math.max(0, Math.ceil(px + left - 0.5)), to = Math.min(wide - 1, Math.floor(px + right - 0.5));
-      if (from > to) continue;
-      this.pixels.fill(colour, row * wide + from, row * wide + to + 1);
-      this.picked.fill(particle, row * wide + from, row * wide + to + 1);
+      for (let at = row * wide + from, end = row * wide + to; at <= end; ++at) {
+        this.pixels[at] = colour;
+        this.picked[at] = particle;
+      }
     }
   }
 
