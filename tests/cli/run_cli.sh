@@ -71,7 +71,8 @@ check_words() {
   says out 'run'
   run 2
   run 2 rnu scene.yaml
-  says err "unknown command 'rnu' (one of run, resume, check, study, plot, list, man, completion). Did you mean 'run'?"
+  says err "unknown command 'rnu' (one of run, resume, "
+  says err "). Did you mean 'run'?"
   run 2 run
   says err 'SCENE is required'
   run 2 run scene.yaml --thread 2
@@ -262,6 +263,36 @@ check_plot() {
   rm -rf plotted
 }
 
+# What the page shows is the business of browse_report.py.
+check_report() {
+  run 0 run scene.yaml --steps 4 --out reported --progress none
+  says out 'a page of it     mpmfast report reported'
+  run 0 report reported
+  says out 'report           reported/report.html ('
+  [[ $(tail -n 1 reported/report.html) == '</html>' ]] || fail 'report.html is not whole'
+  run 0 report reported --out elsewhere.html
+  [[ -s elsewhere.html ]] || fail 'report --out wrote nothing'
+  run 4 report nowhere
+  says err 'nowhere: no such folder (the output folder of a run was expected)'
+  mkdir empty
+  run 4 report empty
+  says err 'empty is not the output folder of a run: it holds no scene.yaml'
+  cp reported/scene.yaml empty/
+  run 4 report empty
+  says err 'it holds no history.csv'
+  [[ $(ls empty) == scene.yaml ]] || fail 'a refused report wrote into the folder'
+  run 4 report reported --out /dev/null/page.html
+  printf 'cut' >reported/particles/000000.vtu
+  run 0 report reported
+  says err 'A frame is left out: cannot read reported/particles/000000.vtu'
+  printf '{"status":' >reported/run.json
+  run 4 report reported
+  says err 'reported/run.json is no run.json of a run'
+  run 2 report
+  says err 'DIR is required'
+  rm -rf reported empty elsewhere.html
+}
+
 check_broken_scenes
 check_unreadable_scenes
 write_good_scene
@@ -275,5 +306,6 @@ check_stopped_study
 check_study_without_gnuplot
 check_wrong_study
 check_plot
+check_report
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]

@@ -74,6 +74,8 @@ std::string check_set(std::string& text) {
 
 std::string check_out(std::string& text) { return text.empty() ? "a folder was expected, got ''" : ""; }
 
+std::string check_out_file(std::string& text) { return text.empty() ? "a file was expected, got ''" : ""; }
+
 void add_scene_options(CLI::App& command, RawOptions& raw) {
   command.add_option("SCENE", raw.scene, "The scene, a YAML file")->required()->type_name("");
   // One value each time: a list option would swallow the scene that follows it.
@@ -150,10 +152,17 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->type_name("LOW:HIGH");
 }
 
+void add_report_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
+  command.add_option("--out", raw.out, "The page; DIR/report.html if not given")
+      ->check(CLI::Validator(check_out_file, ""))
+      ->type_name("FILE");
+}
+
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *resume, *check, *study, *plot, *list, *man, *completion;
+  CLI::App *run, *resume, *check, *study, *plot, *report, *list, *man, *completion;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
@@ -164,6 +173,7 @@ struct Commands {
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
     study = app.add_subcommand("study", "Run the variants of a scene; table and chart of error against cost");
     plot = app.add_subcommand("plot", "Draw the history and the particles of a run");
+    report = app.add_subcommand("report", "Write a page that shows a run: its histories and its particles");
     list = app.add_subcommand("list", "What this build offers");
     man = app.add_subcommand("man", "Print the man page: mpmfast man | man -l -");
     completion =
@@ -173,6 +183,7 @@ struct Commands {
     add_resume_options(*resume, raw);
     add_study_options(*study, raw);
     add_plot_options(*plot, raw);
+    add_report_options(*report, raw);
     add_out(*run, raw, "Output folder; runs/<scene> if not given");
     add_threads(*run, raw);
     run->add_option("--steps", raw.steps, "Stop after so many steps")
@@ -233,6 +244,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
                  : *commands.check  ? Command::check
                  : *commands.study  ? Command::study
                  : *commands.plot   ? Command::plot
+                 : *commands.report ? Command::report
                                     : Command::list;
   line.scene = raw.scene;
   line.out = raw.out;

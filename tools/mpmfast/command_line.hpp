@@ -12,12 +12,12 @@
 
 namespace mpmfast {
 
-enum class Command { run, resume, check, study, plot, list };
+enum class Command { run, resume, check, study, plot, report, list };
 enum class ProgressStyle { automatic, plain, none };
 
 struct CommandLine {
   Command command = Command::run;
-  std::string scene;  ///< or the study, or the folder to plot or to go on with
+  std::string scene;  ///< or the study, or the folder to plot, to report or to go on with
   std::string out, topic, x = "time_s";
   std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
   std::vector<std::string> columns;  ///< of a plot, expressions

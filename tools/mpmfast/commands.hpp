@@ -11,6 +11,7 @@ int resume_command(const CommandLine& line);
 int check_command(const CommandLine& line);
 int study_command(const CommandLine& line);
 int plot_command(const CommandLine& line);
+int report_command(const CommandLine& line);
 int list_command(const CommandLine& line);
 
 }  // namespace mpmfast

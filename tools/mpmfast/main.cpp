@@ -28,6 +28,8 @@ int perform(const CommandLine& line) {
       return study_command(line);
     case Command::plot:
       return plot_command(line);
+    case Command::report:
+      return report_command(line);
     case Command::list:
       return list_command(line);
   }

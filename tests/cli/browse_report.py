@@ -1,0 +1,352 @@
+#!/usr/bin/python3
+"""Opens the pages of `mpmfast report` in a headless browser, as a user would, with the network off.
+
+usage: browse_report.py MPMFAST SOURCE_DIR [SCREENSHOTS]    exit 77 where Chromium, Selenium or VTK is missing
+"""
+import json
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+
+MISSING = 77
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.options import Options
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.support.ui import Select, WebDriverWait
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
+except ImportError as missing:
+    print(f"skipped: {missing}")
+    sys.exit(MISSING)
+
+PLANE = """
+title: "Two <b>blocks</b> & a {{wall}} </script>"
+space: plane_strain
+grid: {size: [12 mm, 8 mm], cell: 0.5 mm}
+time: {end: 60 us}
+materials:
+  soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}
+  stiff: {model: neo_hookean, density: 2400 kg/m^3, bulk: 160 MPa, shear: 60 MPa}
+bodies:
+  - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: soft, velocity: [40 m/s, 0 m/s]}
+  - {name: right, box: {from: [5.5 mm, 1 mm], to: [10 mm, 6 mm]}, material: stiff, velocity: [-40 m/s, 0 m/s]}
+output: {frames: 6, history: 30, picture: von_mises}
+"""
+SPACE = """
+title: Two balls
+space: 3d
+grid: {size: [12 mm, 8 mm, 8 mm], cell: 1 mm}
+time: {end: 60 us}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: left, sphere: {centre: [3.5 mm, 4 mm, 4 mm], radius: 2 mm}, material: soft, velocity: [30 m/s, 0, 0]}
+  - {name: right, sphere: {centre: [8 mm, 4 mm, 4 mm], radius: 2 mm}, material: soft, velocity: [-30 m/s, 0, 0]}
+output: {frames: 4, history: 10}
+"""
+FAILING = """
+title: A block that leaves the grid
+space: plane_strain
+grid: {size: [10 mm, 10 mm], cell: 1 mm}
+time: {end: 1 ms}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: missile, box: {from: [2 mm, 4 mm], to: [4 mm, 6 mm]}, material: m, velocity: [40 m/s, 0 m/s]}]
+output: {frames: 8, history: 10}
+"""
+
+failures = []
+checks = 0
+
+
+def check(holds, what):
+    global checks
+    checks += 1
+    if not holds:
+        failures.append(what)
+        print(f"FAILED: {what}")
+
+
+def start_browser():
+    """Without a network and a graphics card; nothing where there is no Chromium."""
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not chromium or not driver:
+        print("skipped: chromium or chromedriver is missing")
+        sys.exit(MISSING)
+    options = Options()
+    options.binary_location = chromium
+    for word in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
+                 "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1280,900"]:
+        options.add_argument(word)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    browser = webdriver.Chrome(service=Service(driver), options=options)
+    browser.execute_cdp_cmd("Network.enable", {})
+    browser.execute_cdp_cmd("Network.emulateNetworkConditions",
+                            {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
+    return browser
+
+
+def run(program, folder, name, scene, code=0, words=()):
+    (folder / f"{name}.yaml").write_text(scene)
+    done = subprocess.run([program, "run", folder / f"{name}.yaml", "--out", folder / name, "--progress", "none",
+                           *words], capture_output=True, text=True)
+    check(done.returncode == code, f"run {name}: exit {done.returncode}: {done.stderr}")
+    made = subprocess.run([program, "report", folder / name], capture_output=True, text=True)
+    check(made.returncode == 0, f"report {name}: exit {made.returncode}: {made.stderr}")
+    return folder / name
+
+
+def open_page(browser, folder):
+    """Loads the page; what it says on the console, and any other address in it, is a failure."""
+    page = folder / "report.html"
+    text = re.sub(r'<script type="text/plain".*?</script>', "", page.read_text(), flags=re.S)
+    check(not re.search(r'(https?:)?//[\w-]+\.[\w.-]+/|src=|@import|url\(', re.sub(r"^\s*//.*$", "", text, flags=re.M)),
+          f"{folder.name}: the page names another address")
+    browser.get(page.as_uri())
+    try:
+        WebDriverWait(browser, 60).until(lambda b: b.execute_script("return document.body.dataset.ready"))
+    except Exception:
+        check(False, f"{folder.name}: the page was not drawn")
+    quiet(browser, folder.name)
+
+
+def quiet(browser, name):
+    for entry in browser.get_log("browser"):
+        check(entry["level"] not in ("SEVERE", "ERROR"), f"{name}: console: {entry['message']}")
+
+
+# Distinct colours of a canvas, and a sum that changes with its pixels.
+PIXELS = """
+const canvas = document.querySelector(arguments[0]), copy = document.createElement('canvas');
+if (!canvas) return [0, 0];
+copy.width = canvas.width; copy.height = canvas.height;
+const context = copy.getContext('2d');
+context.drawImage(canvas, 0, 0);
+const data = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer), colours = new Set(data);
+let sum = 0;
+for (let i = 0; i < data.length; ++i) sum = (Math.imul(sum, 31) + data[i]) | 0;
+return [colours.size, sum];
+"""
+SETTLED = """
+const done = arguments[arguments.length - 1];
+requestAnimationFrame(() => requestAnimationFrame(done));
+"""
+
+
+def pixels(browser, selector):
+    browser.execute_async_script(SETTLED)
+    return browser.execute_script(PIXELS, selector)
+
+
+def choose(browser, field):
+    Select(browser.find_element(By.ID, "field")).select_by_value(field)
+    WebDriverWait(browser, 20).until(lambda b: b.execute_script(
+        "return player.column ? player.column.name === arguments[0] : ['body', 'material'].includes(arguments[0])", field))
+
+
+def read_frame(folder, frame):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / "particles" / f"{frame:06}.vtu"))
+    reader.Update()
+    grid = reader.GetOutput()
+    data = grid.GetPointData()
+    arrays = {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)) for k in range(data.GetNumberOfArrays())}
+    return vtk_to_numpy(grid.GetPoints().GetData()), arrays
+
+
+def check_hover(browser, folder, field, frame, values, names):
+    """Every 20th particle is pointed at through the page; the tip of one is read as a user would."""
+    points, arrays = read_frame(folder, frame)
+    browser.execute_script("player.stop(); player.go(arguments[0])", frame)
+    choose(browser, field)
+    rounding = browser.execute_script("return [player.frames.axes[0].rounding(), player.column.rounding()]")
+    seen = 0
+    for k in range(0, len(points), 20):
+        shown = browser.execute_script(
+            "player.pointer = player.view.find(arguments[0]).slice(0, 2); player.hover(); return player.hovered", k)
+        if shown is None:
+            continue
+        i = shown["particle"]  # in space another one may lie before it
+        seen += 1
+        check(shown["id"] == arrays["id"][i] and shown["body"] == arrays["body"][i], f"{folder.name}: who particle {i} is")
+        check(all(abs(a - b) <= 1.01 * rounding[0] for a, b in zip(shown["place"], points[i])), f"{folder.name}: where particle {i} is")
+        check(abs(shown["value"] - values(arrays)[i]) <= 1.01 * rounding[1], f"{folder.name}: {field} of particle {i}: "
+              f"{shown['value']}, but {values(arrays)[i]} in the file")
+    check(seen > 5, f"{folder.name}: hardly a particle can be pointed at")
+    spot = browser.execute_script("const [x, y] = player.view.find(arguments[0]), r = player.picture.getBoundingClientRect();"
+                                  "player.picture.scrollIntoView({block: 'center'});"
+                                  "return [x - r.width / 2, y - r.height / 2]", len(points) // 3)
+    picture = browser.find_element(By.ID, "picture")
+    ActionChains(browser).move_to_element_with_offset(picture, round(spot[0]), round(spot[1])).perform()
+    tip = browser.find_element(By.ID, "tip")
+    check(tip.is_displayed(), f"{folder.name}: no tip at a particle")
+    shown = browser.execute_script("return player.hovered")
+    check(shown and f"particle {shown['id']}" in tip.text and names[shown["body"]] in tip.text, f"{folder.name}: the tip says '{tip.text}'")
+
+
+def check_view(browser, name, canvas, other_field):
+    """The particles are there, and change with the frame, the field, the zoom and the play button."""
+    first = pixels(browser, canvas)
+    check(first[0] > 10, f"{name}: the particles are blank ({first[0]} colours)")
+    browser.find_element(By.ID, "play").click()
+    WebDriverWait(browser, 30).until(lambda b: b.execute_script("return player.frame > 0 && player.frame < player.frames.times.length - 1"))
+    browser.execute_script("player.stop()")
+    played = pixels(browser, canvas)
+    check(played[1] != first[1], f"{name}: play does not change the picture")
+    choose(browser, other_field)
+    check(pixels(browser, canvas)[1] != played[1], f"{name}: another field does not change the picture")
+    check(pixels(browser, "#key canvas")[0] > 30, f"{name}: the colour bar is blank")
+    before = pixels(browser, canvas)[1]
+    Select(browser.find_element(By.ID, "range")).select_by_value("frame")
+    check(pixels(browser, canvas)[1] != before, f"{name}: the range of the frame does not change the picture")
+    before = pixels(browser, canvas)[1]
+    browser.execute_script("document.querySelector(arguments[0]).dispatchEvent(new WheelEvent('wheel', "
+                           "{deltaY: -300, clientX: 400, clientY: 400, cancelable: true}))", canvas)
+    check(pixels(browser, canvas)[1] != before, f"{name}: the wheel does not zoom")
+    zoomed = pixels(browser, canvas)[1]
+    ActionChains(browser).drag_and_drop_by_offset(browser.find_element(By.CSS_SELECTOR, canvas), 60, 25).perform()
+    check(pixels(browser, canvas)[1] != zoomed, f"{name}: dragging does not move the picture")
+    browser.find_element(By.ID, "fit").click()
+    check(pixels(browser, canvas)[1] == before, f"{name}: 'Fit all' does not show all again")
+    choose(browser, "body")
+    check("left" in browser.find_element(By.ID, "key").text, f"{name}: the bodies are not named")
+
+
+# How many pixels of a canvas have the colour of its first curve.
+CURVE = """
+const canvas = document.querySelector(arguments[0]), data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+const [red, green, blue] = rgb(parseInt(CURVES[0].slice(1), 16));
+let count = 0;
+for (let i = 0; i < data.length; i += 4) count += Math.abs(data[i] - red) + Math.abs(data[i + 1] - green) + Math.abs(data[i + 2] - blue) < 24;
+return count;
+"""
+
+
+def check_charts(browser, name):
+    for chart in ["#histories .chart canvas", "#energy .chart canvas"]:
+        browser.execute_async_script(SETTLED)
+        check(browser.execute_script(CURVE, chart) > 100, f"{name}: {chart} has no curve")
+    chart = "#histories .chart canvas"
+    before = pixels(browser, chart)[1]
+    browser.find_element(By.CSS_SELECTOR, "#histories .legend button").click()
+    check(pixels(browser, chart)[1] != before, f"{name}: the legend does not switch a curve off")
+    canvas = browser.find_element(By.CSS_SELECTOR, chart)
+    ActionChains(browser).move_to_element(canvas).perform()
+    tip = browser.find_element(By.CSS_SELECTOR, "#histories .tip")
+    check(tip.is_displayed() and "J" in tip.text, f"{name}: hovering over a chart shows '{tip.text}'")
+    before = pixels(browser, chart)[1]
+    browser.find_element(By.ID, "choose").click()
+    browser.find_element(By.CSS_SELECTOR, "#histories .chooser input[value='left.mass_kg']").click()
+    check(pixels(browser, chart)[1] != before, f"{name}: choosing a column does not draw it")
+
+
+def check_words(browser, folder):
+    run_json = json.loads((folder / "run.json").read_text())
+    text = browser.find_element(By.TAG_NAME, "body").text
+    for word in [f"{run_json['particles']:,} particles", run_json["cpu"], run_json["checksum"], "Energy balance"]:
+        check(word in text, f"{folder.name}: '{word}' is missing")
+    rows = browser.find_elements(By.CSS_SELECTOR, "#passes tr")
+    check(len(rows) == len(run_json["seconds"]), f"{folder.name}: {len(rows)} rows of passes")
+    error = browser.execute_script("return readHistory().then(h => energyBalance(h).at(-1))")
+    check(abs(error - run_json["energy_error"]) < 1e-6, f"{folder.name}: an energy error of {error}, not {run_json['energy_error']}")
+    browser.find_element(By.CSS_SELECTOR, "#scene summary").click()
+    check((folder / "scene.yaml").read_text().strip() == browser.execute_script("return document.querySelector('#scene pre').textContent").strip(),
+          f"{folder.name}: the scene is not the one that was run")
+
+
+def picture_of(browser, shots, name):
+    if shots:
+        high = browser.execute_script("window.scrollTo(0, 0); return document.documentElement.scrollHeight")
+        browser.set_window_size(1280, high + 140)
+        browser.execute_async_script(SETTLED)
+        browser.save_screenshot(str(pathlib.Path(shots) / f"{name}.png"))
+        browser.set_window_size(1280, 900)
+
+
+def check_plane(browser, program, folder, shots):
+    out = run(program, folder, "plane", PLANE)
+    open_page(browser, out)
+    check(browser.title == "Two <b>blocks</b> & a {{wall}} </script>", f"the title is '{browser.title}'")
+    check(browser.find_element(By.ID, "status").text == "finished", "plane: not said to be finished")
+    check(browser.execute_script("return player.fieldName") == "von_mises", "plane: the scene's picture is not the first field")
+    picture_of(browser, shots, "plane")
+    check_view(browser, "plane", "#picture canvas", "velocity_x")
+    names = ["left", "right"]
+    check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
+    check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
+    check_charts(browser, "plane")
+    check_words(browser, out)
+    quiet(browser, "plane")
+
+
+def check_space(browser, program, folder, shots):
+    out = run(program, folder, "space", SPACE)
+    open_page(browser, out)
+    if browser.find_elements(By.ID, "no-webgl"):
+        print("this browser has no WebGL: the message is there, the view was not tried")
+        return
+    picture_of(browser, shots, "space")
+    check_view(browser, "space", "#picture canvas", "speed")
+    check_hover(browser, out, "velocity_z", 3, lambda arrays: arrays["velocity"][:, 2], ["left", "right"])
+    check_charts(browser, "space")
+    quiet(browser, "space")
+
+
+def check_without_webgl(browser, folder):
+    """A browser that has no WebGL says so, and shows the rest."""
+    script = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source":
+        "const before = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = "
+        "function (kind, ...rest) { return kind.startsWith('webgl') ? null : before.call(this, kind, ...rest); };"})
+    open_page(browser, folder / "space")
+    message = browser.find_elements(By.ID, "no-webgl")
+    check(message and "WebGL" in message[0].text, "space: nothing is said where there is no WebGL")
+    check(pixels(browser, "#histories .chart canvas")[0] > 10, "space: no charts where there is no WebGL")
+    browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+
+def check_failed(browser, program, folder, shots):
+    out = run(program, folder, "failing", FAILING, code=3)
+    open_page(browser, out)
+    reason = json.loads((out / "run.json").read_text())["reason"]
+    check(browser.find_element(By.ID, "status").text == "failed", "failing: not said to have failed")
+    check(reason and reason in browser.find_element(By.ID, "ending").text, "failing: the reason is missing")
+    check(pixels(browser, "#picture canvas")[0] > 3, "failing: the particles are blank")
+    picture_of(browser, shots, "failing")
+
+
+def check_bare(browser, program, folder):
+    """Without particle files, and while the run goes on."""
+    out = run(program, folder, "bare", PLANE, words=["--set", "output.frames=0"])
+    open_page(browser, out)
+    check("There are no particle files" in browser.find_element(By.ID, "particles").text, "bare: why there is no view is not said")
+    check(pixels(browser, "#histories .chart canvas")[0] > 10, "bare: the charts are blank")
+    (out / "run.json").unlink()
+    made = subprocess.run([program, "report", out, "--out", out / "report.html"], capture_output=True, text=True)
+    check(made.returncode == 0, f"bare: a run that goes on: exit {made.returncode}: {made.stderr}")
+    open_page(browser, out)
+    check(browser.find_element(By.ID, "status").text == "not ended", "bare: a run that goes on is not said to")
+
+
+def main():
+    program, shots = str(pathlib.Path(sys.argv[1]).resolve()), sys.argv[3] if len(sys.argv) > 3 else None
+    browser = start_browser()
+    try:
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            check_plane(browser, program, folder, shots)
+            check_space(browser, program, folder, shots)
+            check_without_webgl(browser, folder)
+            check_failed(browser, program, folder, shots)
+            check_bare(browser, program, folder)
+    finally:
+        browser.quit()
+    print(f"{checks} checks, {len(failures)} failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

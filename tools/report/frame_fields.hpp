@@ -1,0 +1,42 @@
+#pragma once
+
+/// @file Which scalars a page shows of a particle file, and their values.
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/output/read_vtu.hpp"
+
+namespace mpmfast {
+
+/// A particle file of which each array is unpacked once, however many fields are made of it.
+class FrameFile {
+ public:
+  explicit FrameFile(const std::filesystem::path& path) : reader_(path) {}
+  const VtuReader& reader() const { return reader_; }
+  std::size_t size() const { return reader_.size(); }
+  const std::vector<double>& values(const VtuArray& array) const;
+
+ private:
+  VtuReader reader_;
+  mutable std::map<std::string, std::vector<double>> unpacked_;
+};
+
+/// A scalar of every particle: a component of an array, or what is made of all of them.
+struct FrameField {
+  enum class Kind { component, magnitude, determinant };
+  std::string name, unit;
+  std::string array;
+  std::size_t component = 0;
+  Kind kind = Kind::component;
+
+  /// NaN where the file has no such array.
+  std::vector<double> values(const FrameFile& file) const;
+};
+
+/// Those of a file, the ones that are looked at most first. @param picture  the field that the scene names
+std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const std::string& picture);
+
+}  // namespace mpmfast

@@ -1,0 +1,51 @@
+#pragma once
+
+/// @file A first look at the frames of a run: which can be read, who is in them, and the range of every
+/// field.
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "engine/output/read_vtu.hpp"
+#include "frame_fields.hpp"
+
+namespace mpmfast {
+
+/// The finite values of one column in all frames.
+struct Extent {
+  double lower = std::numeric_limits<double>::infinity(), upper = -lower;
+  std::vector<double> sample;  ///< some of them
+  bool empty() const { return !(lower <= upper); }
+  /// @param stride  every so many are kept as the sample
+  void include(const std::vector<double>& values, std::size_t stride);
+};
+
+struct FrameSurvey {
+  std::vector<SeriesFrame> frames;  ///< that are shown
+  std::vector<std::uint32_t> ids;   ///< of all particles that are ever shown, ascending
+  std::vector<FrameField> fields;
+  std::vector<Extent> extents;     ///< of the fields
+  std::array<Extent, 3> box;       ///< m, of the particles' centres
+  std::array<Extent, 4> gradient;  ///< F in the plane: xx xy yx yy
+  std::size_t particle_stride = 1;
+};
+
+/// Of every `particle_stride`-th particle by its id. A frame that cannot be read is left out and named in
+/// `notices`.
+FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t particle_stride, int dimension,
+                          const std::string& picture, std::vector<std::string>& notices);
+
+/// Where the particles of a file that are shown lie: in the file, and in the survey's ids.
+struct Places {
+  std::vector<std::size_t> in_file, in_page;
+};
+Places find_places(const VtuReader& file, const FrameSurvey& survey);
+
+/// F in the plane, an entry each: xx xy yx yy; NaN without one.
+std::array<FrameField, 4> gradient_fields();
+
+}  // namespace mpmfast

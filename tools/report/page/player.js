@@ -1,0 +1,186 @@
+// The card of the particles: frames, time, field, range, and what lies under the pointer.
+
+class Player {
+  constructor(frames) {
+    this.frames = frames;
+    this.frame = frames.times.length - 1;
+    this.range = 'all';
+    this.pixels = new Uint32Array(frames.count);
+    this.picture = element('div', {class: 'picture', id: 'picture'});
+    this.tip = element('div', {class: 'tip', id: 'tip', hidden: true});
+    this.key = element('div', {class: 'key', id: 'key'});
+    this.makeControls();
+    this.root = element('section', {class: 'card', id: 'particles'}, element('h2', {}, 'Particles'), this.controls,
+      element('div', {class: 'stage'}, this.picture, this.key), this.slides, this.notes = element('ul', {class: 'notes'}));
+    try {
+      this.view = frames.dimension === 3 ? new SpaceView(this.picture, frames) : new PlaneView(this.picture, frames);
+    } catch (error) {
+      this.picture.replaceChildren(element('p', {class: 'message', id: 'no-webgl'},
+        'The particles cannot be shown here: this browser has no WebGL 2, or it is switched off. ParaView opens particles.pvd.'));
+    }
+    this.picture.append(this.tip);
+    this.listen();
+    new ResizeObserver(() => this.drawKey()).observe(this.key);
+  }
+
+  makeControls() {
+    const names = [...this.frames.fields.map(field => field.name), ...NAMED_FIELDS];
+    this.fieldName = names.includes(report.picture) ? report.picture : names[0];
+    this.play = element('button', {class: 'main', id: 'play', onclick: () => this.toggle()}, '\u25b6 Play');
+    this.slider = element('input', {type: 'range', id: 'frame', min: 0, max: this.frames.times.length - 1, value: this.frame, 'aria-label': 'frame',
+      oninput: () => { this.stop(); this.go(Number(this.slider.value)); }});
+    this.time = element('span', {class: 'time', id: 'time'});
+    const field = select(names.map(name => [name, fieldLabel(name)]), this.fieldName, name => this.choose(name));
+    field.id = 'field';
+    this.rangeList = select([['all', 'of all frames'], ['frame', 'of this frame'], ['extremes', 'all, with outliers']], 'all', range => { this.range = range; this.colour(); });
+    this.rangeList.id = 'range';
+    this.controls = element('div', {class: 'bar'}, element('label', {}, 'colour', field), this.rangeLabel = element('label', {}, 'range', this.rangeList),
+      element('span', {class: 'grow'}), element('button', {id: 'fit-frame', onclick: () => this.view?.fit(this.frames.boundingBox(this.frame)), title: 'show all of this frame'}, 'Fit frame'),
+      element('button', {id: 'fit', onclick: () => this.view?.fit(), title: 'show all of every frame (double click)'}, 'Fit all'));
+    this.slides = element('div', {class: 'bar', style: 'margin:12px 0 0'}, this.play, element('span', {class: 'grow'}, this.slider), this.time);
+  }
+
+  async choose(name) {
+    this.fieldName = name;
+    const column = NAMED_FIELDS.includes(name) ? null : await this.frames.field(name);
+    if (this.fieldName !== name) return;  // another one was chosen meanwhile
+    this.column = column;
+    this.rangeLabel.hidden = column === null;
+    this.colour();
+  }
+
+  numbers() { return this.fieldName === 'body' ? this.frames.bodies : this.frames.materials; }
+
+  // The range of the colours; then all that depends on it.
+  colour() {
+    if (this.column) {
+      const n = this.frames.count, all = this.column.levels.length;
+      const [from, to] = this.range === 'frame' ? [this.frame * n, (this.frame + 1) * n] : [0, all];
+      this.scale = colourScale(...this.column.range(from, to, this.range === 'extremes' ? 0 : 0.005));
+      this.table = new Uint32Array(this.column.none + 1);
+      const last = this.column.table ? this.column.table.length : this.column.none;
+      for (let level = 0; level < last; ++level) this.table[level] = pixel(this.scale.colour(this.column.value(level)));
+      this.table[this.column.none] = pixel(NO_NUMBER);
+    }
+    this.drawKey();
+    this.go(this.frame, false);
+  }
+
+  go(frame, recolour = true) {
+    this.frame = frame;
+    this.slider.value = frame;
+    const last = this.frames.times[this.frames.times.length - 1], unit = displayUnit(last, 's'), digits = Math.max(0, 3 - Math.ceil(Math.log10(last / unit.size || 1)));
+    this.time.textContent = `${(this.frames.times[frame] / unit.size).toFixed(digits)} ${unit.name} \u00b7 ${frame + 1}/${this.frames.times.length}`;
+    if (recolour && this.range === 'frame' && this.column) return this.colour();
+    if (!this.view) return;
+    const n = this.frames.count;
+    if (this.column) {
+      const levels = this.column.levels, table = this.table, from = frame * n;
+      for (let i = 0; i < n; ++i) this.pixels[i] = table[levels[from + i]];
+    } else {
+      const numbers = this.numbers();
+      for (let i = 0; i < n; ++i) this.pixels[i] = pixel(bodyColour(numbers[i]));
+    }
+    this.view.show(frame, this.pixels);
+    this.hover();
+    this.note();
+  }
+
+  toggle() {
+    if (this.timer) return this.stop();
+    if (this.frame + 1 >= this.frames.times.length) this.go(0);
+    const wait = Math.min(200, Math.max(50, 5000 / this.frames.times.length));
+    this.play.textContent = '\u275a\u275a Pause';
+    this.timer = setInterval(() => this.frame + 1 < this.frames.times.length ? this.go(this.frame + 1) : this.stop(), wait);
+  }
+  stop() {
+    clearInterval(this.timer);
+    this.timer = null;
+    this.play.textContent = '\u25b6 Play';
+  }
+
+  drawKey() {
+    if (!this.column) return this.drawNames();
+    let canvas = this.key.querySelector('canvas');
+    if (!canvas) this.key.replaceChildren(canvas = element('canvas', {}));
+    const {context: c, width, height} = fitCanvas(canvas), top = 46, bottom = height - 46, wide = 20;
+    c.clearRect(0, 0, width, height);
+    if (bottom <= top || !this.scale) return;
+    const {lower, upper, colour} = this.scale, at = value => bottom - (value - lower) / (upper - lower) * (bottom - top);
+    for (let y = top; y < bottom; ++y) {
+      c.fillStyle = css(colour(lower + (bottom - y - 0.5) / (bottom - top) * (upper - lower)));
+      c.fillRect(0, y, wide, 1.5);
+    }
+    const unit = displayUnit(Math.max(Math.abs(lower), Math.abs(upper)), this.column.unit), ticks = roundTicks(lower / unit.size, upper / unit.size, (bottom - top) / 50);
+    c.font = '12px ' + getComputedStyle(document.body).fontFamily;
+    c.fillStyle = themeColour('soft');
+    c.strokeStyle = themeColour('soft');
+    c.textBaseline = 'middle';
+    for (const tick of ticks.at) {
+      const y = Math.round(at(tick * unit.size)) + 0.5;
+      c.beginPath(); c.moveTo(wide, y); c.lineTo(wide + 4, y); c.stroke();
+      c.fillText(tickLabel(tick, ticks.spacing), wide + 8, y);
+    }
+    c.fillStyle = themeColour('ink');
+    c.textBaseline = 'top';
+    c.fillText(fieldLabel(this.fieldName), 0, 4);
+    c.fillStyle = themeColour('soft');
+    if (unit.name) c.fillText('in ' + unit.name, 0, 21);
+    if (this.range !== 'extremes') c.fillText('beyond: end colours', 0, bottom + 10);
+  }
+
+  drawNames() {
+    const name = this.fieldName === 'body' ? bodyName : materialName, present = [...new Set(this.numbers())].sort((a, b) => a - b);
+    this.key.replaceChildren(element('ul', {}, ...present.map(k =>
+      element('li', {}, element('span', {class: 'swatch', style: `background:${css(bodyColour(k))}`}), name(k)))));
+  }
+
+  listen() {
+    this.picture.addEventListener('pointermove', event => {
+      const room = this.picture.getBoundingClientRect();
+      this.pointer = event.buttons ? null : [event.clientX - room.left, event.clientY - room.top];
+      this.hover();
+    });
+    this.picture.addEventListener('pointerleave', () => { this.pointer = null; this.hover(); });
+    this.root.addEventListener('keydown', event => {
+      if (event.target.closest('select, input, button')) return;
+      const steps = {ArrowLeft: -1, ArrowRight: 1};
+      if (event.key === ' ') this.toggle();
+      else if (event.key in steps) { this.stop(); this.go(Math.min(Math.max(this.frame + steps[event.key], 0), this.frames.times.length - 1)); }
+      else return;
+      event.preventDefault();
+    });
+  }
+
+  // The values of the particle under the pointer.
+  hover() {
+    const particle = this.pointer && this.view ? this.view.pick(...this.pointer) : -1;
+    this.hovered = particle < 0 ? null : this.describe(particle);
+    if (!this.hovered) { this.tip.hidden = true; return; }
+    const {id, body, material, place, value} = this.hovered, axes = report.axisymmetric ? 'rz' : 'xyz', lines = element('table', {});
+    const line = (name, text) => lines.append(element('tr', {}, element('td', {}, name), element('td', {}, text)));
+    line('body', bodyName(body));
+    if (report.materials.length > 1) line('material', materialName(material));
+    place.forEach((x, d) => line(axes[d], valueText(x, 'm', 5)));
+    if (this.column) line(fieldLabel(this.fieldName), valueText(value, this.column.unit, this.column.bits === 16 ? 5 : 3));
+    this.tip.replaceChildren(element('b', {}, 'particle ' + id), lines);
+    placeTip(this.tip, ...this.pointer);
+  }
+
+  describe(particle) {
+    const at = this.frame * this.frames.count + particle;
+    return {particle, id: this.frames.id(particle), body: this.frames.bodies[particle], material: this.frames.materials[particle],
+      place: this.frames.axes.map((column, d) => this.frames.place(d, this.frame, particle)),
+      value: this.column ? this.column.value(this.column.levels[at]) : this.numbers()[particle]};
+  }
+
+  // What the page leaves out and how far its numbers may be off.
+  note() {
+    const notes = [...report.notices], places = this.frames.axes[0].rounding();
+    const field = this.column ? `, ${fieldLabel(this.fieldName)} within ${this.column.table ? 'at most ' : ''}${valueText(this.column.rounding(), this.column.unit, 2)}` : '';
+    notes.push(`Rounded for this page: places within ${valueText(places, 'm', 2)}${field}. The particle files hold all digits.`);
+    notes.push(this.frames.dimension === 3 ? 'Balls have the volume that a particle began with. Drag to turn, shift-drag to move, wheel to zoom.' :
+      'Drag to move, wheel to zoom, space to play, arrow keys for single frames.');
+    this.notes.replaceChildren(...notes.map(text => element('li', {}, text)));
+  }
+}
