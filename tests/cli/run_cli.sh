@@ -71,7 +71,7 @@ check_words() {
   says out 'run'
   run 2
   run 2 rnu scene.yaml
-  says err "unknown command 'rnu' (one of run, resume, check, study, plot, list). Did you mean 'run'?"
+  says err "unknown command 'rnu' (one of run, resume, check, study, plot, list, schema). Did you mean 'run'?"
   run 2 run
   says err 'SCENE is required'
   run 2 run scene.yaml --thread 2

@@ -12,7 +12,7 @@
 
 namespace mpmfast {
 
-enum class Command { run, resume, check, study, plot, list };
+enum class Command { run, resume, check, study, plot, list, schema };
 enum class ProgressStyle { automatic, plain, none };
 
 struct CommandLine {
@@ -27,7 +27,8 @@ struct CommandLine {
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;
   bool force = false;
-  std::string text;  ///< the whole command, quoted for a shell
+  bool markdown = false;  ///< the reference page in place of the schema
+  std::string text;       ///< the whole command, quoted for a shell
 
   std::vector<Override> overrides() const;
 };

@@ -12,5 +12,6 @@ int check_command(const CommandLine& line);
 int study_command(const CommandLine& line);
 int plot_command(const CommandLine& line);
 int list_command(const CommandLine& line);
+int schema_command(const CommandLine& line);
 
 }  // namespace mpmfast

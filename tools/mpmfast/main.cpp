@@ -30,6 +30,8 @@ int perform(const CommandLine& line) {
       return plot_command(line);
     case Command::list:
       return list_command(line);
+    case Command::schema:
+      return schema_command(line);
   }
   return kExitWrongInput;
 }
