@@ -19,7 +19,9 @@ std::vector<CatalogueEntry> words_of(const std::array<Word<E>, N>& words) {
 
 std::string sentence_on(const std::string& pattern) {
   const KeyNote* note = note_on(pattern);
-  return note ? note->says : "";
+  std::string says = note ? note->says : "";
+  if (!says.empty()) says.pop_back();  // the full stop
+  return says;
 }
 
 /// Materials and shapes: a name, its keys, a line. The map of the keys stands at before + name + after.
@@ -40,8 +42,8 @@ std::vector<CatalogueEntry> laws() {
 
 std::vector<CatalogueEntry> boundaries() {
   std::vector<CatalogueEntry> out = words_of(kFaceKinds);
-  for (const char* map : {"boundaries.FACE", "boundaries.NAME"})
-    out.push_back({"{…}", keys_text(map), sentence_on(map)});
+  out.push_back({"{…}", keys_text("boundaries.FACE"), sentence_on("boundaries.FACE")});
+  out.push_back({"NAME: {…}", keys_text("boundaries.NAME"), sentence_on("boundaries.NAME")});
   return out;
 }
 

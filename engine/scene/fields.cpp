@@ -319,25 +319,6 @@ int MapReader::one_of(const KeyGroups& groups) {
   return touched == 1 ? chosen : -1;
 }
 
-void MapReader::expects(const std::string& key, const Form& form) const {
-  if (Recorder* recorder = value_.problems().recorder()) recorder->note(join(value_.path(), key), form);
-}
-
-void MapReader::otherwise(const std::string& key, std::string_view text) const {
-  if (Recorder* recorder = value_.problems().recorder())
-    recorder->note_standard(join(value_.path(), key), std::string(text));
-}
-
-void MapReader::otherwise(const std::string& key, double value, Measure kind) const {
-  if (Recorder* recorder = value_.problems().recorder())
-    recorder->note_standard(join(value_.path(), key), quantity_text(value, kind));
-}
-
-void MapReader::otherwise(const std::string& key, const Vec3& vector, Measure kind, int count) const {
-  if (Recorder* recorder = value_.problems().recorder())
-    recorder->note_standard(join(value_.path(), key), vector_text(vector, kind, count));
-}
-
 void MapReader::finish() {
   if (!valid_) return;
   if (Recorder* recorder = value_.problems().recorder()) recorder->note_closed(value_.path());
@@ -348,15 +329,6 @@ void MapReader::finish() {
         key.place, join(value_.path(), key.text),
         hint.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key", hint);
   }
-}
-
-When::When(const Value& map, const std::string& condition)
-    : recorder_(condition.empty() ? nullptr : map.problems().recorder()), path_(map.path()) {
-  if (recorder_) recorder_->enter(path_, condition);
-}
-
-When::~When() {
-  if (recorder_) recorder_->leave(path_);
 }
 
 }  // namespace mpmfast
