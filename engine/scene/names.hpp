@@ -153,6 +153,27 @@ inline constexpr std::array<const char*, 11> kPictures{"pressure",  "von_mises",
                                                        "stress_zz", "stress_xy", "stress_yz", "stress_xz",
                                                        "speed",     "body",      "none"};
 
+/// What a face of the grid is in a word.
+enum class FaceKind { wall, symmetry, fixed, free };
+inline constexpr std::array<Word<FaceKind>, 4> kFaceKinds{{
+    {FaceKind::wall, "wall", "nothing moves through it, it slides freely"},
+    {FaceKind::symmetry, "symmetry", "another word for wall"},
+    {FaceKind::fixed, "fixed", "a wall that also holds sideways"},
+    {FaceKind::free, "free", "no condition (default)"},
+}};
+
+/// Does a wall hold sideways?
+inline constexpr std::array<Word<bool>, 2> kWallKinds{{
+    {false, "sliding", "it slides freely"},
+    {true, "held", "it also holds sideways"},
+}};
+
+/// Do particles lie on rings?
+inline constexpr std::array<Word<bool>, 2> kSeedings{{
+    {false, "lattice", "on the grid's lattice, of a box on one of its own (default)"},
+    {true, "rings", "about the centre of a disk or a ring, so that its outline is smooth"},
+}};
+
 struct FaceName {
   const char* name;
   int axis;

@@ -1,9 +1,11 @@
 #include "engine/scene/quantity.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 namespace mpmfast {
 
@@ -134,6 +136,13 @@ std::optional<double> parse_number(std::string_view text) {
 std::string quantity_text(double value, Measure quantity) {
   const char* unit = kind_of(quantity).si;
   return *unit ? fmt::format("{} {}", value, unit) : fmt::format("{}", value);
+}
+
+std::string vector_text(const std::array<double, 3>& vector, Measure quantity, int count) {
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    parts.push_back(quantity_text(vector[k], quantity));
+  return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
 }  // namespace mpmfast

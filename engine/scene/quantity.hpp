@@ -3,10 +3,12 @@
 /// @file Numbers with units: "5 mm", "2.78 g/cm^3", "1/70 mm", or a bare number in SI.
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 namespace mpmfast {
 
@@ -46,6 +48,27 @@ struct Unit {
   Dimensions dimensions{};
 };
 
+/// The interval a number must lie in, and its name in messages.
+struct Limit {
+  const char* says;  ///< "positive"
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  bool lower_open = false, upper_open = false;
+  bool moves = false;  ///< the bounds follow from another key
+
+  bool holds(double value) const {
+    return (lower_open ? value > lower : value >= lower) && (upper_open ? value < upper : value <= upper);
+  }
+  bool same(const Limit& other) const {
+    return lower == other.lower && upper == other.upper && lower_open == other.lower_open &&
+           upper_open == other.upper_open;
+  }
+};
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr Limit kAny{"finite"};
+inline constexpr Limit kPositive{"positive", 0, kInfinity, true};
+inline constexpr Limit kNotNegative{"zero or more", 0};
+
 struct QuantityError {
   std::string message;  ///< without the value, which the caller shows
   std::string hint;
@@ -53,6 +76,11 @@ struct QuantityError {
 
 /// "g/cm^3" → its factor and dimensions.
 std::variant<Unit, QuantityError> parse_unit(std::string_view text, Measure expected);
+
+/// Symbols of units of this measure alone: m, km, … for a length.
+std::vector<std::string> unit_symbols(Measure quantity);
+/// All symbols.
+std::vector<std::string> unit_symbols();
 
 /// "5 mm" → 0.005.
 std::variant<double, QuantityError> parse_quantity(std::string_view text, Measure expected);
@@ -62,5 +90,7 @@ std::optional<double> parse_number(std::string_view text);
 
 /// "0.005 m": the shortest text that reads back as the same number, with the SI unit.
 std::string quantity_text(double value, Measure quantity);
+/// "[0.005 m, 0 m]": the first `count` components.
+std::string vector_text(const std::array<double, 3>& vector, Measure quantity, int count);
 
 }  // namespace mpmfast

@@ -39,7 +39,7 @@ std::array<bool, kLevels> levels_of(const GreyImage& image) {
 void remove_skipped(MapReader& body, std::array<bool, kLevels>& present) {
   const auto skip = body.find("skip");
   if (!skip) return;
-  if (!skip->is(Node::Kind::list)) return skip->complain("not a list of grey levels");
+  if (!skip->is_list()) return skip->complain("not a list of grey levels");
   for (std::size_t k = 0; k < skip->size(); ++k) {
     if (const auto level = skip->item(k).integer(0, kLevels - 1))
       present[static_cast<std::size_t>(*level)] = false;
@@ -52,18 +52,22 @@ std::map<int, Value> materials_by_level(MapReader& body, const std::array<bool, 
   if (!section) return out;
   MapReader map(*section, "a map {GREY: NAME}");
   if (!map.valid()) return out;
-  for (const Key& key : section->node().keys) {
+  for (std::size_t k = 0; k < section->size(); ++k) {
+    const Key& key = section->node().keys[k];
+    const Value material = section->entry(k, "GREY");
+    material.offers_name();
     Node level_node;
     level_node.kind = Node::Kind::scalar;
     level_node.place = key.place;
     level_node.scalar = key.text;
-    const Value level_value(level_node, join(section->path(), key.text), section->problems());
+    const Value level_value(level_node, material.path(), section->problems());
+    const Silence of_the_key(section->problems().recorder());
     const auto level = level_value.integer(0, kLevels - 1);
     if (!level) continue;
     if (!present[static_cast<std::size_t>(*level)]) {
       level_value.report("the image has no such grey level, or it is skipped");
     }
-    out.emplace(*level, *map.find(key.text));
+    out.emplace(*level, material);
   }
   return out;
 }
@@ -72,11 +76,12 @@ std::map<int, Value> materials_by_level(MapReader& body, const std::array<bool, 
 
 std::vector<BitmapPart> read_bitmap(MapReader& body, const Value& bitmap, const Scene& scene) {
   BitmapShape shape;
+  const auto path = image_path(bitmap, scene);
+  const When beside(body.value(), "bitmap");
   const auto extent_value = body.need("extent", "a list of 2 lengths");
   const auto extent = extent_value ? extent_value->vector(Measure::length, 2, kPositive) : std::nullopt;
   const auto origin_value = body.find("origin");
   const auto origin = origin_value ? origin_value->vector(Measure::length, 2) : scene.grid.origin;
-  const auto path = image_path(bitmap, scene);
   if (path) {
     std::string why_not;
     shape.file = *path;

@@ -27,6 +27,16 @@ const std::vector<std::string>& shape_names() {
   return kNames;
 }
 
+/// A body has one of them.
+const KeyGroups& shape_keys() {
+  static const KeyGroups kKeys = [] {
+    KeyGroups groups;
+    for (const std::string& name : shape_names()) groups.push_back({name});
+    return groups;
+  }();
+  return kKeys;
+}
+
 /// The same shape's name in the other dimension.
 std::string counterpart(const std::string& name) {
   static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},       {"sphere", "disk"},
@@ -36,40 +46,46 @@ std::string counterpart(const std::string& name) {
   return found == kPairs.end() ? "" : fmt::format("Did you mean '{}'?", found->second);
 }
 
+/// A body with no shape, or with several.
+void report_shapes(MapReader& map) {
+  std::vector<Value> chosen;
+  for (const ShapeKind& kind : shape_kinds())
+    if (const auto value = map.find(kind.name)) chosen.push_back(*value);
+  if (chosen.empty())
+    map.value().report(fmt::format("a body needs a shape (one of {})", fmt::join(shape_names(), ", ")));
+  else
+    chosen[1].report(fmt::format("a body has one shape, and it is already a {}",
+                                 chosen[0].path().substr(chosen[0].path().rfind('.') + 1)));
+}
+
 /// The one shape key of a body.
 struct ChosenShape {
   const ShapeKind* kind;
   Value value;
 };
 std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
-  std::vector<ChosenShape> chosen;
-  for (const ShapeKind& kind : shape_kinds()) {
-    if (const auto value = map.find(kind.name)) chosen.push_back({&kind, *value});
-  }
-  if (chosen.empty()) {
-    map.value().report(fmt::format("a body needs a shape (one of {})", fmt::join(shape_names(), ", ")));
+  const int which = map.one_of(shape_keys());
+  if (which < 0) {
+    report_shapes(map);
     return std::nullopt;
   }
-  if (chosen.size() > 1) {
-    chosen[1].value.report(fmt::format("a body has one shape, and it is already a {}", chosen[0].kind->name));
-    return std::nullopt;
-  }
-  const ShapeKind& kind = *chosen[0].kind;
+  const ShapeKind& kind = shape_kinds()[static_cast<std::size_t>(which)];
+  const Value value = *map.find(kind.name);
   if (kind.dimension != 0 && kind.dimension != dimension) {
-    chosen[0].value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension),
-                           counterpart(kind.name));
+    value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension), counterpart(kind.name));
     return std::nullopt;
   }
-  return chosen[0];
+  return ChosenShape{&kind, value};
 }
 
 void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
   constexpr int kMost = 8;
   if (dimension == 2) body.particles_per_cell[2] = 1;
   const auto value = map.find("particles_per_cell");
+  map.otherwise("particles_per_cell", body.particles_per_cell[0], Measure::number);
   if (!value) return;
   const bool list = value->is(Node::Kind::list);
-  if (list && value->size() != static_cast<std::size_t>(dimension)) {
+  if (list && !value->is_list(dimension, dimension)) {
     return value->complain(
         fmt::format("not a whole number or a list of {} (particles along a cell's side)", dimension));
   }
@@ -82,6 +98,8 @@ void read_particles_per_cell(MapReader& map, int dimension, BodySpec& body) {
 
 void read_seeding(MapReader& map, BodySpec& body) {
   const auto value = map.find("seeding");
+  map.otherwise("seeding", "lattice");
+  if (value) value->offers(kSeedings);
   if (!value || value->is_word("lattice")) return;
   body.seeding.rings = value->is_word("rings");
   if (body.seeding.rings) return;
@@ -93,15 +111,13 @@ void read_seeding(MapReader& map, BodySpec& body) {
 
 void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   const auto value = map.find("velocity");
+  map.otherwise("velocity", body.velocity, Measure::velocity, dimension);
   if (!value) return;
-  if (!value->is(Node::Kind::list) || value->size() != static_cast<std::size_t>(dimension)) {
+  if (!value->is_list(dimension, dimension)) {
     return value->complain(fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension));
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-    const Value component = value->item(k);
-    if (component.is(Node::Kind::scalar)) {
-      body.velocity[k] = component.quantity(Measure::velocity).value_or(0);
-    } else if (const auto table = component.table(Measure::velocity)) {
+    if (const auto table = value->item(k).table(Measure::velocity)) {
       body.velocity[k] = table->value.front();
       if (table->time.size() > 1) body.rigid_velocity[k] = *table;  // one point is a constant
     }
@@ -143,6 +159,7 @@ class BodyReader {
     read_velocity(map, dimension, body);
     read_rotation(map, dimension, body);
     if (map.find("bitmap")) {
+      const When beside(entry, "bitmap");
       for (const char* key : {"extent", "origin", "skip", "materials"})
         map.find(key);  // known, whatever else is wrong
     }
@@ -151,8 +168,7 @@ class BodyReader {
     if (chosen && !chosen->kind->read) {
       read_parts(map, chosen->value, body, place);
     } else {
-      const auto material = map.need("material", "the name of a material");
-      const auto index = material ? material_index(*material) : std::nullopt;
+      const auto index = need_material(map);
       const auto shape = chosen ? chosen->kind->read(chosen->value, scene_) : std::nullopt;
       if (index && shape) {
         body.material = *index;
@@ -165,12 +181,19 @@ class BodyReader {
 
  private:
   std::optional<int> material_index(const Value& value) const {
-    const int index = value.word_index(materials_);
+    const int index = value.reference(materials_);
     return index < 0 ? std::nullopt : std::optional<int>(index);
+  }
+
+  std::optional<int> need_material(MapReader& map) const {
+    const When beside(map.value(), "!bitmap");
+    const auto material = map.need("material", "the name of a material");
+    return material ? material_index(*material) : std::nullopt;
   }
 
   void read_parts(MapReader& map, const Value& bitmap, const BodySpec& common, const BodyPlace& place) {
     const std::vector<BitmapPart> parts = read_bitmap(map, bitmap, scene_);
+    const When beside(map.value(), "bitmap");
     const auto shared = map.find("material");
     const auto shared_index = shared ? material_index(*shared) : std::nullopt;
     if (!shared && parts.empty()) return;
@@ -303,9 +326,10 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
 void read_bodies(MapReader& top, bool grid_known, Scene& scene) {
   const auto section = top.need("bodies", "a list of maps {box | disk | …, material, …}");
   if (!section) return;
-  if (!section->is(Node::Kind::list))
+  if (!section->is_list(1)) {
+    if (section->is(Node::Kind::list)) return section->report("no bodies");
     return section->complain("not a list of maps {box | disk | …, material, …}");
-  if (section->size() == 0) return section->report("no bodies");
+  }
   std::vector<BodyPlace> places;
   BodyReader reader(scene, places);
   for (std::size_t k = 0; k < section->size(); ++k) reader.read(section->item(k), k);

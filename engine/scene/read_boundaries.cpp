@@ -61,13 +61,12 @@ class BoundaryReader {
   void read_face(const FaceName& face, const Value& value) {
     WallSpec wall = wall_on(face, scene_.grid);
     if (value.is(Node::Kind::map)) return read_wall_map(face, value, wall);
-    static const std::vector<std::string> kWords{"wall", "symmetry", "fixed", "free"};
     if (!value.is(Node::Kind::scalar)) {
       return value.complain("not a wall (wall, symmetry, fixed, free, or a map {piston, direction, …})");
     }
-    const int word = value.word_index(kWords);
-    if (word < 0 || kWords[static_cast<std::size_t>(word)] == "free") return;
-    wall.held = value.is_word("fixed");
+    const auto kind = value.word(kFaceKinds);
+    if (!kind || *kind == FaceKind::free) return;
+    wall.held = *kind == FaceKind::fixed;
     add(face.name, value, wall);
   }
 
@@ -76,15 +75,15 @@ class BoundaryReader {
     MapReader map(value);
     const auto piston = map.find("piston");
     const auto kind = map.find("wall");
-    if (!piston == !kind) {
+    if (map.one_of({{"wall"}, {"piston"}}) < 0) {
       map.finish();
       return value.report("needs either piston (a speed) or wall (held or sliding)");
     }
     if (kind) {
-      static const std::vector<std::string> kWords{"sliding", "held"};
-      wall.held = kind->word_index(kWords) == 1;
+      wall.held = kind->word(kWallKinds).value_or(false);
     } else {
       if (const auto speed = piston->table(Measure::velocity)) wall.speed = *speed;
+      const When beside(value, "piston");
       const double sign = read_sense(face, map);
       for (double& speed : wall.speed.value) speed = sign * speed + 0.0;  // no −0
       map.boolean("held", wall.held);
@@ -124,10 +123,10 @@ class BoundaryReader {
     MapReader map(value);
     VelocityBoxSpec spec;
     spec.speed = TimeTable{{0}, {0}};
-    if (const auto node = map.find("node"))
-      read_node(*node, spec);
-    else if (const auto box = map.need("box", "a map {from, to}"))
-      read_corners(*box, spec);
+    const int which = map.one_of({{"box"}, {"node"}});
+    if (which < 0) value.report("needs either box (a map {from, to}) or node (a point)");
+    if (which == 0) read_corners(*map.find("box"), spec);
+    if (which == 1) read_node(*map.find("node"), spec);
     if (const auto direction = map.need("direction", "x, y, z, left, up, … or a vector")) {
       spec.direction = read_direction(*direction, scene_.dimension(), true).value_or(Vec3{});
     }
@@ -195,7 +194,10 @@ void read_boundaries(MapReader& top, bool grid_known, Scene& scene) {
   MapReader map(*section, "a map {left: wall, …}");
   if (!map.valid()) return;
   BoundaryReader reader(grid_known, scene);
-  for (const Key& key : section->node().keys) reader.read(key.text, *map.find(key.text));
+  for (std::size_t k = 0; k < section->size(); ++k) {
+    const std::string& name = section->node().keys[k].text;
+    reader.read(name, section->entry(k, face_named(name) ? "FACE" : "NAME"));
+  }
 }
 
 }  // namespace mpmfast

@@ -42,8 +42,11 @@ void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
   MapReader map(*section, "none or a map {law, friction, normal, separation, …}");
   map.word("normal", kNormals, contact.normal);
   set_defaults(contact);
-  const auto normal = contact.normal == NormalKind::specified ? map.need("specified_normal", "a vector")
-                                                              : map.find("specified_normal");
+  const auto normal = map.find("specified_normal");
+  if (contact.normal == NormalKind::specified) {
+    const When specified(*section, "normal=specified");
+    map.need("specified_normal", "a vector");
+  }
   if (const auto vector = normal ? normal->vector(Measure::number, dimension) : std::nullopt) {
     const auto unit = unit_vector(*vector);
     if (!unit) normal->report("the zero vector has no direction");

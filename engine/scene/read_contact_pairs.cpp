@@ -44,8 +44,13 @@ void read_law(MapReader& map, LawSpec& law) {
   for (const LawParameter& parameter : law_parameters()) {
     const bool owns = has_parameter(law.law, parameter);
     const bool missing_allowed = !parameter.needed || law.law == inherited;
-    const auto value = owns && !missing_allowed ? map.need(parameter.name, kind_of(parameter.measure).name)
-                                                : map.find(parameter.name);
+    const auto value = map.find(parameter.name);
+    if (!value && owns && !missing_allowed) {
+      const Silence conditional(map.value().problems().recorder());  // the schema has it from the table
+      map.need(parameter.name, kind_of(parameter.measure).name);
+    }
+    map.expects(parameter.name, {Form::Kind::quantity, parameter.measure, parameter.limit});
+    if (owns && !parameter.needed) map.otherwise(parameter.name, law.*parameter.value, parameter.measure);
     if (!value) continue;
     if (!owns && parameter.value != &LawSpec::friction) {
       value->report(fmt::format("the law '{}' has no {}", name_of(kLaws, law.law), parameter.name));
@@ -82,7 +87,8 @@ class PairReader {
     const auto bodies = map.find("between"), materials = map.find("materials");
     read_law(map, pair.law);
     map.finish();
-    if (!bodies == !materials) return entry.report("a pair is either between two bodies or of two materials");
+    if (map.one_of({{"between"}, {"materials"}}) < 0)
+      return entry.report("a pair is either between two bodies or of two materials");
     pair.materials = materials.has_value();
     const Value& who = materials ? *materials : *bodies;
     if (!read_two(who, pair)) return;
@@ -104,13 +110,13 @@ class PairReader {
   const std::string& field(int body) const { return scene_.bodies[static_cast<std::size_t>(body)].field; }
 
   bool read_two(const Value& who, ContactPair& pair) const {
-    if (!who.is(Node::Kind::list) || who.size() != 2) {
+    if (!who.is_list(2, 2)) {
       who.complain(pair.materials ? "not a list of two materials" : "not a list of two bodies");
       return false;
     }
     bool good = true;
     for (std::size_t k = 0; k < 2; ++k) {
-      const int index = who.item(k).word_index(pair.materials ? materials_ : names_);
+      const int index = who.item(k).reference(pair.materials ? materials_ : names_);
       good &= index >= 0;
       if (index >= 0) pair.between[k] = pair.materials ? index : body_[static_cast<std::size_t>(index)];
     }
@@ -157,7 +163,7 @@ void read_contact_pairs(MapReader& top, Scene& scene) {
   if (index < 0) return;
   const Value pairs(section->node().items[static_cast<std::size_t>(index)], join(section->path(), "pairs"),
                     section->problems());
-  if (!pairs.is(Node::Kind::list)) return pairs.complain("not a list of maps {between: …, law: …}");
+  if (!pairs.is_list()) return pairs.complain("not a list of maps {between: …, law: …}");
   PairReader reader(scene);
   for (std::size_t k = 0; k < pairs.size(); ++k) reader.read(pairs.item(k));
 }
@@ -172,9 +178,11 @@ void read_rotation(MapReader& body, int dimension, BodySpec& spec) {
   if (const auto about = map.need("about", "a point"))
     rotation.about = about->vector(Measure::length, dimension).value_or(Vec3{});
   if (dimension == 3) {
+    const When solid(*section, "3d");
     if (const auto axis = map.need("axis", "x, y, z or a vector"))
       rotation.axis = read_direction(*axis, dimension, true).value_or(Vec3{0, 0, 1});
   }
+  map.otherwise("speed", 0, Measure::angular_velocity);
   if (const auto speed = map.find("speed"))
     rotation.speed = speed->table(Measure::angular_velocity).value_or(rotation.speed);
   map.finish();

@@ -37,12 +37,7 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid) {
   if (!section) return false;
   MapReader map(*section, "a map {origin, size, cell, leaving}");
   if (!map.valid()) return false;
-  bool good = true;
-  if (const auto value = map.find("origin")) {
-    const auto origin = value->vector(Measure::length, dimension);
-    good = origin.has_value();
-    grid.origin = origin.value_or(Vec3{});
-  }
+  bool good = map.vector("origin", Measure::length, dimension, kAny, grid.origin);
   const auto size_value = map.need("size", fmt::format("a list of {} lengths", dimension));
   const auto size = size_value ? size_value->vector(Measure::length, dimension, kPositive) : std::nullopt;
   map.need_quantity("cell", Measure::length, kPositive, grid.cell);
@@ -69,6 +64,7 @@ void read_time(MapReader& top, TimeSpec& time) {
   map.quantity("cfl", Measure::number, kCourant, time.cfl);
   map.quantity("collapse", Measure::number, kShare, time.collapse);
   const auto longest = map.find("max_step");
+  map.otherwise("max_step", "none");
   if (longest && !longest->is_word("none")) {
     time.max_step = longest->quantity(Measure::time, kPositive).value_or(time.max_step);
   }
@@ -100,8 +96,10 @@ void read_checkpoint(const Value& value, CheckpointSpec& checkpoint) {
   if (!map.valid()) return;
   constexpr int kMostSteps = 2000000000;
   const auto every = map.find("every"), steps = map.find("steps");
+  map.otherwise("every", checkpoint.every, Measure::time);
+  map.otherwise("steps", "none");
   if (steps && !steps->is_word("none")) checkpoint.steps = steps->integer(1, kMostSteps).value_or(0);
-  if (every || steps) checkpoint.every = 0;
+  if (every || checkpoint.steps > 0) checkpoint.every = 0;
   if (every && !every->is_word("none"))
     checkpoint.every = every->quantity(Measure::time, kPositive).value_or(0);
   map.finish();
@@ -116,11 +114,11 @@ void read_output(MapReader& top, int dimension, OutputSpec& output) {
   map.integer("frames", 0, kMostFrames, output.frames);
   map.integer("history", 1, kMostRows, output.history);
   map.boolean("grid", output.grid);
-  if (const auto overlap = map.find("overlap")) {
-    output.overlap = overlap->boolean().value_or(false);
-    if (output.overlap && dimension == 3) overlap->complain("the overlap of bodies is measured in 2-D only");
-  }
+  map.boolean("overlap", output.overlap);
+  if (output.overlap && dimension == 3)
+    map.find("overlap")->complain("the overlap of bodies is measured in 2-D only");
   if (const auto checkpoint = map.find("checkpoint")) read_checkpoint(*checkpoint, output.checkpoint);
+  map.otherwise("picture", output.picture);
   if (const auto picture = map.find("picture")) {
     std::vector<std::string> known;
     for (const char* name : kPictures) {

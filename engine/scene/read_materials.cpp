@@ -45,10 +45,11 @@ void read_moduli(MapReader& map, const char* volumetric, double& modulus, double
   const auto first = map.find(volumetric), second = map.find("shear");
   const auto young = map.find("young"), poisson = map.find("poisson");
   const bool lame = std::string(volumetric) == "lambda";
-  if (first && second && !young && !poisson) {
+  const int given = map.one_of({{volumetric, "shear"}, {"young", "poisson"}});
+  if (given == 0) {
     modulus = first->quantity(Measure::pressure, lame ? kNotNegative : kPositive).value_or(0);
     shear = second->quantity(Measure::pressure, kPositive).value_or(0);
-  } else if (young && poisson && !first && !second) {
+  } else if (given == 1) {
     const double e = young->quantity(Measure::pressure, kPositive).value_or(0);
     const double ratio = poisson->quantity(Measure::number, kPoisson).value_or(0);
     shear = e / (2 * (1 + ratio));
@@ -64,26 +65,15 @@ void read_moduli(MapReader& map, const char* volumetric, double& modulus, double
 
 const std::vector<MaterialKind>& material_kinds() {
   static const std::vector<MaterialKind> kKinds{
-      {"neo_hookean", "density, bulk, shear (or young, poisson)", "large elastic strains", read_neo_hookean},
-      {"linear_elastic", "density, young, poisson", "infinitesimal strains and turns only",
-       read_linear_elastic},
-      {"logarithmic_neo_hookean", "density, lambda, shear (or young, poisson)",
-       "large elastic strains, pressure by ln J", read_logarithmic},
-      {"mie_gruneisen",
-       "density, bulk, gruneisen, hugoniot_slope, heat_capacity, shear = 0, linear_viscosity = 0, "
-       "quadratic_viscosity = 0, temperature = 293 K",
-       "shocks: equation of state, elastic shear, artificial viscosity", read_mie_gruneisen},
+      {"neo_hookean", "large elastic strains", read_neo_hookean},
+      {"linear_elastic", "infinitesimal strains and turns only", read_linear_elastic},
+      {"logarithmic_neo_hookean", "large elastic strains, pressure by ln J", read_logarithmic},
+      {"mie_gruneisen", "shocks: equation of state, elastic shear, artificial viscosity", read_mie_gruneisen},
       {"j2_plasticity",
-       "density, bulk, shear (or young, poisson), yield, hardening = 0, equation_of_state: {gruneisen, "
-       "hugoniot_slope, linear_viscosity, quadratic_viscosity}, taylor_quinney = 0.9",
        "metal with linear hardening at large strains; with heat_capacity under an equation of state",
        read_j2_plasticity},
-      {"johnson_cook",
-       "density, bulk, shear (or young, poisson), yield, hardening, exponent, melt, heat_capacity, "
-       "rate_factor = 0, reference_rate = 1 s^-1, softening = 1, taylor_quinney = 0.9, temperature = 293 K, "
-       "reference = temperature, equation_of_state",
-       "metal whose strength depends on strain, rate and heat", read_johnson_cook},
-      {"rigid", "density = 1000 kg/m^3", "moves as its body's velocity says, never deforms", read_rigid},
+      {"johnson_cook", "metal whose strength depends on strain, rate and heat", read_johnson_cook},
+      {"rigid", "moves as its body's velocity says, never deforms", read_rigid},
   };
   return kKinds;
 }
@@ -91,18 +81,19 @@ const std::vector<MaterialKind>& material_kinds() {
 void read_materials(MapReader& top, std::vector<MaterialSpec>& materials) {
   const auto section = top.need("materials", "a map of names, each {model: …}");
   if (!section) return;
-  if (!section->is(Node::Kind::map)) return section->complain("not a map of names, each {model: …}");
+  if (!MapReader(*section, "a map of names, each {model: …}").valid()) return;
   std::vector<std::string> models;
   for (const MaterialKind& kind : material_kinds()) models.emplace_back(kind.name);
   for (std::size_t k = 0; k < section->size(); ++k) {
     const Key& key = section->node().keys[k];
-    const Value value(section->node().items[k], join(section->path(), key.text), section->problems());
+    const Value value = section->entry(k, "NAME");
     MaterialSpec material{key.text, NeoHookeanSpec{}};
     if (!is_name(key.text)) value.report("not a name (letters, digits, '_' and '-')");
     MapReader map(value, "a map {model, density, …}");
     const auto model = map.need("model", fmt::format("one of {}", fmt::join(models, ", ")));
-    const int index = model ? model->word_index(models) : -1;
+    const int index = model ? model->choice(material_kinds()) : -1;
     if (index >= 0) {
+      const When chosen(value, "model=" + models[static_cast<std::size_t>(index)]);
       material.model = material_kinds()[static_cast<std::size_t>(index)].read(map);
       map.finish();
     }

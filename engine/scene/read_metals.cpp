@@ -13,8 +13,9 @@ void read_state(MapReader& map, EquationOfStateSpec& state) {
   map.quantity("quadratic_viscosity", Measure::number, kNotNegative, state.quadratic_viscosity);
 }
 
-/// The keys that every metal with yield has.
-void read_metal(MapReader& map, bool heats, MetalSpec& metal) {
+/// The keys that every metal with yield has; it heats always, or with an equation of state.
+void read_metal(MapReader& map, bool always, MetalSpec& metal) {
+  bool heats = always;
   map.need_quantity("density", Measure::density, kPositive, metal.density);
   read_moduli(map, "bulk", metal.bulk, metal.shear);
   if (const auto section = map.find("equation_of_state")) {
@@ -28,6 +29,7 @@ void read_metal(MapReader& map, bool heats, MetalSpec& metal) {
   }
   map.quantity("taylor_quinney", Measure::number, kShare, metal.taylor_quinney);
   if (!heats) return;
+  const When stated(map.value(), always ? "" : "equation_of_state");
   map.need_quantity("heat_capacity", Measure::heat_capacity, kPositive, metal.heat_capacity);
   map.quantity("temperature", Measure::temperature, kPositive, metal.temperature);
 }
@@ -67,7 +69,7 @@ decltype(MaterialSpec::model) read_johnson_cook(MapReader& map) {
   map.quantity("reference_rate", Measure::rate, kPositive, strength.reference_rate);
   map.quantity("softening", Measure::number, kPositive, strength.softening);
   map.quantity("reference", Measure::temperature, kPositive, strength.reference);
-  const Limit hotter{"above the reference temperature", strength.reference, kInfinity, true};
+  const Limit hotter{"above the reference temperature", strength.reference, kInfinity, true, false, true};
   map.need_quantity("melt", Measure::temperature, hotter, strength.melt);
   metal.strength = strength;
   return metal;

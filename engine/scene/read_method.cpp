@@ -7,8 +7,11 @@ namespace mpmfast {
 
 namespace {
 
+constexpr int kLeastOrder = 2, kMostOrder = 20;
+
 /// flip, pic, apic, xpic(m) or fmpm(m).
 void read_update(const Value& value, MethodSpec& method) {
+  value.offers(kUpdates, kLeastOrder, kMostOrder);
   constexpr const char* kExpected = "not an update (flip, pic, apic, or xpic(m) or fmpm(m) with m = 2..20)";
   if (!value.is(Node::Kind::scalar)) return value.complain(kExpected);
   const std::string& text = value.node().scalar;
@@ -39,7 +42,7 @@ void read_update(const Value& value, MethodSpec& method) {
   const bool closed = text.size() > name.size() + 2 && text.back() == ')';
   const char* const last = text.data() + text.size() - 1;
   const bool whole = closed && std::from_chars(first, last, order).ptr == last && *first != '0';
-  if (!whole || order < 2 || order > 20) {
+  if (!whole || order < kLeastOrder || order > kMostOrder) {
     return value.complain(name + " needs its order (" + name + "(m) with m = 2..20)",
                           order == 1 ? name + "(1) is pic" : "");
   }
@@ -54,9 +57,11 @@ void read_method(MapReader& top, MethodSpec& method) {
   if (!section) return;
   MapReader map(*section, "a map {basis, update, …}");
   map.word("basis", kBases, method.basis);
+  map.otherwise("update", name_of(kUpdates, method.update));
   if (const auto update = map.find("update")) read_update(*update, method);
   map.word("strain", kStrains, method.strain);
   const auto position = map.find("position");
+  map.otherwise("position", name_of(kPositions, method.position));
   if (const auto chosen = position ? position->word(kPositions) : std::nullopt) {
     if (method.update == UpdateKind::flip && *chosen != PositionKind::grid &&
         *chosen != PositionKind::grid_end) {

@@ -73,6 +73,14 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   return parse_scene(read_text(file), file, overrides);
 }
 
+void record_scene(const std::string& text, const std::string& file, Recorder& recorder) {
+  Problems problems({file});
+  problems.set_recorder(&recorder);
+  Scene scene;
+  scene.file = file;
+  if (const std::optional<Node> root = parse_tree(text, 0, problems)) read_sections(*root, scene, problems);
+}
+
 Scene parse_scene(const std::string& text, const std::filesystem::path& file,
                   const std::vector<Override>& overrides) {
   std::vector<std::string> sources{file.string()};

@@ -11,6 +11,7 @@ namespace {
 
 std::optional<Vec3> need_vector(MapReader& map, const char* key, int dimension, const Limit& limit = kAny) {
   const auto value = map.need(key, fmt::format("a list of {} lengths", dimension));
+  map.expects(key, {Form::Kind::vector, Measure::length, limit, dimension, dimension});
   return value ? value->vector(Measure::length, dimension, limit) : std::nullopt;
 }
 
@@ -73,7 +74,7 @@ std::optional<Shape> read_ring(const Value& value, const Scene& scene) {
 }
 
 std::optional<std::vector<std::array<double, 2>>> read_points(const Value& list) {
-  if (!list.is(Node::Kind::list) || list.size() < 3) {
+  if (!list.is_list(3)) {
     list.complain("not a list of three or more points [x, y]");
     return std::nullopt;
   }
@@ -107,6 +108,7 @@ std::optional<Shape> read_polygon(const Value& value, const Scene& scene) {
   const auto points = list ? read_points(*list) : std::nullopt;
   bool good = points.has_value();
   if (dimension == 3) {
+    const When solid(value, "3d");
     const auto range = map.need("z", "a list [lower, upper]");
     const auto ends = range ? range->vector(Measure::length, 2) : std::nullopt;
     if (ends && (*ends)[0] >= (*ends)[1]) range->report("the upper end must lie above the lower");
@@ -126,18 +128,19 @@ std::optional<Shape> read_polygon(const Value& value, const Scene& scene) {
 
 const std::vector<ShapeKind>& shape_kinds() {
   static const std::vector<ShapeKind> kKinds{
-      {"box", 0, "from, to", "edges along the axes; its volume is exact", read_box},
-      {"disk", 2, "centre, radius", "2-D", read_round},
-      {"sphere", 3, "centre, radius", "3-D", read_round},
-      {"ellipse", 2, "centre, radii, angle = 0", "2-D, turned by angle", read_ellipsoid},
-      {"ellipsoid", 3, "centre, radii, angle = 0", "3-D, turned by angle about z", read_ellipsoid},
-      {"ring", 2, "centre, inner, outer", "2-D", read_ring},
-      {"tube", 3, "centre, inner, outer, length", "3-D, along z; a cylinder when inner is 0", read_ring},
-      {"polygon", 0, "points (3-D also z: [lower, upper])",
-       "simple, closed by itself; in 3-D extruded along z", read_polygon},
-      {"bitmap", 2, "FILE (beside it: extent, origin, skip, materials)",
-       "2-D, an 8-bit grey PNG: each grey level is a body NAME_LEVEL", nullptr},
-      {"stl", 3, "file, scale, angle = 0, axis = z, translate = 0",
+      {"box", 0, "edges along the axes; its volume is exact", read_box},
+      {"disk", 2, "2-D", read_round},
+      {"sphere", 3, "3-D", read_round},
+      {"ellipse", 2, "2-D, turned by angle", read_ellipsoid},
+      {"ellipsoid", 3, "3-D, turned by angle about z", read_ellipsoid},
+      {"ring", 2, "2-D", read_ring},
+      {"tube", 3, "3-D, along z; a cylinder when inner is 0", read_ring},
+      {"polygon", 0, "simple, closed by itself; in 3-D extruded along z", read_polygon},
+      {"bitmap", 2,
+       "2-D, an 8-bit grey PNG (beside it extent, origin, skip, materials): each grey level is a body "
+       "NAME_LEVEL",
+       nullptr},
+      {"stl", 3,
        "3-D, a closed surface: scale is the length of the file's unit; turned about its origin, then moved",
        read_stl},
   };

@@ -17,9 +17,9 @@ std::optional<Shape> read_stl(const Value& value, const Scene& scene) {
   // The format knows no units, and metres are rarely meant.
   map.need_quantity("scale", Measure::length, kPositive, shape.scale);
   map.quantity("angle", Measure::angle, kAny, shape.angle);
+  map.otherwise("axis", "z");
   if (const auto axis = map.find("axis")) shape.axis = read_direction(*axis, 3, true).value_or(shape.axis);
-  if (const auto translate = map.find("translate"))
-    shape.translate = translate->vector(Measure::length, 3).value_or(Vec3{});
+  map.vector("translate", Measure::length, 3, kAny, shape.translate);
   map.finish();
   if (!path) return std::nullopt;
   shape.file = std::filesystem::absolute(scene.file.parent_path() / *path).lexically_normal();

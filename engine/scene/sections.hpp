@@ -45,7 +45,6 @@ void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene);
 struct ShapeKind {
   const char* name;
   int dimension;  ///< 2, 3, or 0 for both
-  const char* keys;
   const char* says;
   std::optional<Shape> (*read)(const Value& value, const Scene& scene);  ///< needs the head of the scene
 };
@@ -74,7 +73,6 @@ std::shared_ptr<const Surface> decode_stl(std::span<const unsigned char> bytes, 
 
 struct MaterialKind {
   const char* name;
-  const char* keys;
   const char* says;
   decltype(MaterialSpec::model) (*read)(MapReader& map);
 };

@@ -139,6 +139,19 @@ std::optional<Factor> next_factor(const std::string& text, std::size_t& at) {
 
 const QuantityKind& kind_of(Measure quantity) { return kKinds[static_cast<std::size_t>(quantity)]; }
 
+std::vector<std::string> unit_symbols(Measure quantity) {
+  std::vector<std::string> out;
+  for (const NamedUnit& named : kUnits)
+    if (named.unit.dimensions == kind_of(quantity).dimensions) out.emplace_back(named.symbol);
+  return out;
+}
+
+std::vector<std::string> unit_symbols() {
+  std::vector<std::string> out;
+  for (const NamedUnit& named : kUnits) out.emplace_back(named.symbol);
+  return out;
+}
+
 std::variant<Unit, QuantityError> parse_unit(std::string_view written, Measure expected) {
   const std::string text = plain_spelling(written);
   const auto skip_blanks = [&](std::size_t& at) {

@@ -34,13 +34,6 @@ std::string name_text(const std::string& name) {
   return null || name.front() == '-' ? quoted(name) : name;
 }
 
-std::string vector_text(const Vec3& vector, Measure kind, int count) {
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-    parts.push_back(quantity_text(vector[k], kind));
-  return fmt::format("[{}]", fmt::join(parts, ", "));
-}
-
 /// The extent that, added to `lower`, rounds to `upper` again.
 double extent_between(double lower, double upper) {
   const double extent = upper - lower;

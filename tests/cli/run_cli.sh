@@ -106,6 +106,16 @@ check_lists() {
   says err "Did you mean 'laws'?"
 }
 
+check_schema() {
+  run 0 schema
+  says out '"$schema": "http://json-schema.org/draft-07/schema#"'
+  run 0 schema --markdown
+  cmp -s out "$source_dir/tools/manual/scene.md" || fail 'tools/manual/scene.md is not what schema --markdown prints'
+  run 2 schema scene.yaml
+  run 2 schema --markdwon
+  says err "Did you mean '--markdown'?"
+}
+
 check_overrides() {
   run 0 check scene.yaml
   run 0 check --set time.cfl=0.3 scene.yaml --set 'grid.size=[12 mm, 12 mm]'
@@ -298,6 +308,7 @@ check_unreadable_scenes
 write_good_scene
 check_words
 check_lists
+check_schema
 check_overrides
 check_output_folder
 check_failed_run

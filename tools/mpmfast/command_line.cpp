@@ -26,7 +26,7 @@ struct RawOptions {
   std::string scene, out, topic, threads, jobs, steps, until, x = "time_s", progress = "auto";
   std::string frame, range;
   std::vector<std::string> set, columns, fields;
-  bool force = false;
+  bool force = false, markdown = false;
 };
 
 template <class Number>
@@ -162,7 +162,7 @@ void add_report_options(CLI::App& command, RawOptions& raw) {
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *resume, *check, *study, *plot, *report, *list, *man, *completion;
+  CLI::App *run, *resume, *check, *study, *plot, *report, *list, *schema, *man, *completion;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
@@ -192,6 +192,8 @@ struct Commands {
     add_until(*run, raw, "Stop at this time, such as \"5 us\"");
     add_progress(*run, raw);
     run->add_flag("--force", raw.force, "Replace what an earlier run left in the output folder");
+    schema = app.add_subcommand("schema", "The format of a scene as JSON Schema, for editors");
+    schema->add_flag("--markdown", raw.markdown, "As a page to read: all keys, with examples");
     list->add_option("TOPIC", raw.topic, fmt::format("One of {}", fmt::join(catalogue_topics(), ", ")))
         ->type_name("");
   }
@@ -245,6 +247,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
                  : *commands.study  ? Command::study
                  : *commands.plot   ? Command::plot
                  : *commands.report ? Command::report
+                 : *commands.schema ? Command::schema
                                     : Command::list;
   line.scene = raw.scene;
   line.out = raw.out;
@@ -256,6 +259,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.range = raw.range;
   line.x = raw.x;
   line.force = raw.force;
+  line.markdown = raw.markdown;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
   if (!raw.jobs.empty()) read_whole(raw.jobs, line.jobs);
   if (!raw.steps.empty()) read_whole(raw.steps, line.steps);

@@ -12,7 +12,7 @@
 
 namespace mpmfast {
 
-enum class Command { run, resume, check, study, plot, report, list };
+enum class Command { run, resume, check, study, plot, report, list, schema };
 enum class ProgressStyle { automatic, plain, none };
 
 struct CommandLine {
@@ -29,7 +29,8 @@ struct CommandLine {
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;
   bool force = false;
-  std::string text;  ///< the whole command, quoted for a shell
+  bool markdown = false;  ///< the reference page in place of the schema
+  std::string text;       ///< the whole command, quoted for a shell
 
   std::vector<Override> overrides() const;
 };

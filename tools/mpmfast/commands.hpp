@@ -13,5 +13,6 @@ int study_command(const CommandLine& line);
 int plot_command(const CommandLine& line);
 int report_command(const CommandLine& line);
 int list_command(const CommandLine& line);
+int schema_command(const CommandLine& line);
 
 }  // namespace mpmfast

@@ -32,6 +32,8 @@ int perform(const CommandLine& line) {
       return report_command(line);
     case Command::list:
       return list_command(line);
+    case Command::schema:
+      return schema_command(line);
   }
   return kExitWrongInput;
 }
