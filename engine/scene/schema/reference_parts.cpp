@@ -59,7 +59,7 @@ const std::vector<ReferencePart>& parts() {
        "    material: copper\n"
        "    seeding: rings                 # particles along the outline\n"
        "    velocity: [10 m/s, 0 m/s]\n"
-       "    rotation: {about: [10 mm, 9 mm], speed: -3000 rad/s}\n"
+       "    rotation: {about: [10 mm, 9 mm], speed: -300 rad/s}\n"
        "  - name: wedge\n"
        "    polygon: [[24 mm, 2 mm], [32 mm, 2 mm], [28 mm, 8 mm]]\n"
        "    material: tool                 # rigid: its velocity may be a table in time\n"

@@ -208,6 +208,33 @@ bool is_elsewhere(const ReferencePart& part, const std::string& map, const std::
   });
 }
 
+/// "Exactly one of `box`, `node` must be there."
+std::string choice_text(const ReferencePart& part, const std::string& map) {
+  std::string keys;
+  for (const auto& group : known_at(map).one_of)
+    keys += fmt::format("{}`{}`", keys.empty() ? "" : ", ", group.front());
+  if (keys.empty() || part.list == ReferencePart::List::shapes) return "";
+  return fmt::format("\nExactly one of {} must be there.\n", keys);
+}
+
+/// Lines of at most 120 bytes.
+std::string wrapped(const std::string& text) {
+  constexpr std::size_t kWidest = 120;
+  std::string out, word;
+  std::size_t width = 0;
+  const auto flush = [&](char after) {
+    if (width + word.size() > kWidest) {
+      if (!out.empty() && out.back() == ' ') out.back() = '\n';
+      width = 0;
+    }
+    out += word + after;
+    width = after == '\n' ? 0 : width + word.size() + 1;
+    word.clear();
+  };
+  for (const char c : text) c == ' ' || c == '\n' ? flush(c) : word.push_back(c);
+  return out + word;
+}
+
 std::string table_text(const ReferencePart& part, const KeyTable& table) {
   KeyRows rows(part, table);
   const std::vector<KnownKey> keys = all_keys(table.map);
@@ -220,19 +247,19 @@ std::string table_text(const ReferencePart& part, const KeyTable& table) {
   if (table.keys.empty())
     for (const KnownKey& key : keys)
       if (!is_elsewhere(part, table.map, key.name)) rows.add(key, key.name);
-  return (*table.says ? fmt::format("\n{}\n", table.says) : "") + rows.text();
+  return (*table.says ? fmt::format("\n{}\n", table.says) : "") + choice_text(part, table.map) + rows.text();
 }
 
 }  // namespace
 
 std::string write_reference() {
-  std::string out = kIntroduction;
+  std::string out = wrapped(kIntroduction);
   for (const ReferencePart& part : reference_parts()) {
     out += fmt::format("\n## {}\n", part.title);
     if (*part.key)
       out += fmt::format("\n`{}` ({}{}): {}\n", part.key, form_text(part.key, false),
                          known_at(part.key).needed ? ", needed" : "", sentence_on(part.key));
-    if (*part.says) out += fmt::format("\n{}\n", part.says);
+    if (*part.says) out += wrapped(fmt::format("\n{}\n", part.says));
     if (*part.example) out += fmt::format("\n```yaml\n{}```\n", part.example);
     out += list_text(part.list);
     for (const KeyTable& table : part.tables) out += table_text(part, table);
