@@ -214,6 +214,10 @@ def check_view(browser, name, canvas, other_field):
     check(pixels(browser, canvas)[1] == before, f"{name}: 'Fit all' does not show all again")
     choose(browser, "body")
     check("left" in browser.find_element(By.ID, "key").text, f"{name}: the bodies are not named")
+    browser.execute_script("player.go(0)")
+    before = pixels(browser, canvas)[1]
+    browser.execute_script("player.go(player.frames.times.length - 1)")
+    check(pixels(browser, canvas)[1] != before, f"{name}: the particles do not move from frame to frame")
 
 
 # How many pixels of a canvas have the colour of its first curve.
@@ -325,10 +329,13 @@ def check_bare(browser, program, folder):
     check("There are no particle files" in browser.find_element(By.ID, "particles").text, "bare: why there is no view is not said")
     check(pixels(browser, "#histories .chart canvas")[0] > 10, "bare: the charts are blank")
     (out / "run.json").unlink()
+    history = out / "history.csv"
+    history.write_text(history.read_text().splitlines(keepends=True)[0])
     made = subprocess.run([program, "report", out, "--out", out / "report.html"], capture_output=True, text=True)
     check(made.returncode == 0, f"bare: a run that goes on: exit {made.returncode}: {made.stderr}")
     open_page(browser, out)
     check(browser.find_element(By.ID, "status").text == "not ended", "bare: a run that goes on is not said to")
+    check("no row yet" in browser.find_element(By.ID, "histories").text, "bare: a history without rows is not said to be")
 
 
 def main():

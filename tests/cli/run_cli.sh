@@ -276,10 +276,10 @@ check_plot() {
 # What the page shows is the business of browse_report.py.
 check_report() {
   run 0 run scene.yaml --steps 4 --out reported --progress none
-  says out 'a page of it     mpmfast report reported'
+  says out 'report           mpmfast report reported'
   run 0 report reported
   says out 'report           reported/report.html ('
-  [[ $(tail -n 1 reported/report.html) == '</html>' ]] || fail 'report.html is not whole'
+  grep -q '^</html>$' reported/report.html || fail 'report.html is not whole'
   run 0 report reported --out elsewhere.html
   [[ -s elsewhere.html ]] || fail 'report --out wrote nothing'
   run 4 report nowhere
@@ -295,6 +295,9 @@ check_report() {
   printf 'cut' >reported/particles/000000.vtu
   run 0 report reported
   says err 'A frame is left out: cannot read reported/particles/000000.vtu'
+  rm reported/particles.pvd
+  run 0 report reported
+  says err 'There are no particle files'
   printf '{"status":' >reported/run.json
   run 4 report reported
   says err 'reported/run.json is no run.json of a run'

@@ -44,7 +44,7 @@ struct PackedRun {
 
 PackedRun pack(const std::filesystem::path& folder, const Scene& scene, FrameLimits limits) {
   PackedRun run;
-  run.json = pack_frames(folder, scene, limits, run.chunks, run.notices);
+  run.json = pack_frames(folder, scene, 2, limits, run.chunks, run.notices);
   return run;
 }
 

@@ -52,7 +52,7 @@ void print_files(const fs::path& folder) {
   const fs::path series = folder / "particles.pvd";
   if (fs::exists(series, error)) fmt::print("particles        {}\n", series.string());
   fmt::print("output           {}\n", folder.string());
-  fmt::print("a page of it     mpmfast report {}\n", folder.string());
+  fmt::print("report           mpmfast report {}\n", folder.string());
 }
 
 void print_summary(const RunSummary& summary, const fs::path& folder) {

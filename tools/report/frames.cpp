@@ -197,7 +197,7 @@ std::vector<SeriesFrame> thinned(const std::vector<SeriesFrame>& frames, std::si
   return out;
 }
 
-/// Particles of the last frame that can be read: the others have as many or more.
+/// Particles of the first frame that can be read: later ones have as many or fewer.
 std::size_t particles_of(const std::vector<SeriesFrame>& frames) {
   for (const SeriesFrame& frame : frames) {
     try {
@@ -211,8 +211,8 @@ std::size_t particles_of(const std::vector<SeriesFrame>& frames) {
 
 }  // namespace
 
-Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, const FrameLimits& limits,
-                 Chunks& chunks, std::vector<std::string>& notices) {
+Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int dimension,
+                 const FrameLimits& limits, Chunks& chunks, std::vector<std::string>& notices) {
   std::error_code error;
   if (!fs::exists(folder / "particles.pvd", error)) {
     notices.push_back(
@@ -225,7 +225,6 @@ Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, cons
   const std::size_t few = 2;  // frames that a page shows at least: the first and the last
   const std::size_t particle_stride = particles * few / limits.values + 1;
   std::size_t frame_stride = particles / particle_stride * all.size() / limits.values + 1;
-  const int dimension = scene ? scene->dimension() : 2;
   const std::string picture = scene ? scene->output.picture : "pressure";
   for (;; frame_stride *= 2) {
     std::vector<std::string> own;

@@ -35,7 +35,7 @@ struct FrameLimits {
 /// the reason in `notices`. A frame that cannot be read is left out, with a notice.
 /// @param scene  for names and the shapes of particles; nothing where it could not be read
 nlohmann::ordered_json pack_frames(const std::filesystem::path& folder, const std::optional<Scene>& scene,
-                                   const FrameLimits& limits, Chunks& chunks,
+                                   int dimension, const FrameLimits& limits, Chunks& chunks,
                                    std::vector<std::string>& notices);
 
 }  // namespace mpmfast

@@ -65,8 +65,8 @@ std::optional<Scene> read_names(const fs::path& folder, std::vector<std::string>
     std::string why = error.what();
     why = why.substr(0, why.find('\n'));
     notices.push_back(
-        fmt::format("The scene could not be read again, so materials have numbers for names and all "
-                    "particles are taken for squares in the plane: {}",
+        fmt::format("The scene could not be read again, so materials have numbers for names and undeformed "
+                    "particles are taken for squares: {}",
                     why));
     return std::nullopt;
   }
@@ -121,6 +121,9 @@ std::vector<std::string> body_names(const Table& history) {
       names.push_back(name.substr(0, name.size() - end.size()));
   return names;
 }
+
+/// Only in space is there a shear stress across the plane.
+int dimension_of(const Table& history) { return history.find("all.mean_stress_yz_Pa") ? 3 : 2; }
 
 /// JSON that no text in it can end the script of.
 std::string script_text(const Json& json) {
@@ -184,7 +187,8 @@ ReportResult write_report(const fs::path& folder, const fs::path& html) {
   const std::optional<Scene> scene = read_names(folder, result.notices);
   const std::string scene_text = read_text(folder / "scene.yaml");
   Json json;
-  const std::string name = fs::weakly_canonical(folder).filename().string();
+  std::error_code error;
+  const std::string name = fs::weakly_canonical(folder, error).filename().string();
   json["title"] = scene && !scene->title.empty() ? scene->title : name;
   json["folder"] = name;
   json["program"] = fmt::format("mpmfast {} ({})", kVersion, kGit);
@@ -196,14 +200,14 @@ ReportResult write_report(const fs::path& folder, const fs::path& html) {
     for (const auto& material : scene->materials) json["materials"].push_back(material.name);
   json["axisymmetric"] = scene && scene->space == Space::axisymmetric;
   json["picture"] = scene ? scene->output.picture : "pressure";
-  json["failed_file"] = fs::exists(folder / "failed.vtu");
+  json["failed_file"] = fs::exists(folder / "failed.vtu", error);
   json["history"] = pack_history(history, chunks, result.notices);
   std::size_t used = script_text(json).size() + report_assets::kScript.size() + report_assets::kStyle.size();
   for (const std::string& chunk : chunks.all()) used += base64_size(chunk.size());
   FrameLimits limits;
   limits.bytes =
       (kPageBytes - std::min(kPageBytes, used)) / 100 * 74;  // of base64, and what names the columns
-  json["frames"] = pack_frames(folder, scene, limits, chunks, result.notices);
+  json["frames"] = pack_frames(folder, scene, dimension_of(history), limits, chunks, result.notices);
   json["notices"] = result.notices;
   const std::string page =
       filled(report_assets::kTemplate, {{"title", escaped(json["title"])},
