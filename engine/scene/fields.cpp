@@ -49,7 +49,7 @@ void Value::complain(const std::string& message, const std::string& hint) const 
 }
 
 void Value::report(const std::string& message, const std::string& hint) const {
-  problems_->add(node_->place, path_, message, hint);
+  if (!node_->faulty) problems_->add(node_->place, path_, message, hint);
 }
 
 Value Value::item(std::size_t index) const {

@@ -62,7 +62,7 @@ void apply_override(Node& root, const std::string& path, const std::string& valu
     problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
     return;
   }
-  std::optional<Node> parsed = parse_tree(value, source, problems);
+  std::optional<Node> parsed = parse_tree(value, source, problems, "no value after '='");
   if (!parsed) return;
   Node* node = &root;
   std::string parent;

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "engine/errors.hpp"
+#include "engine/scene/include.hpp"
 #include "engine/scene/sections.hpp"
+#include "engine/scene/variables.hpp"
 
 namespace mpmfast {
 
@@ -46,9 +48,29 @@ void read_head(MapReader& top, Scene& scene) {
   }
 }
 
+/// What the readers see: with included files merged in, overrides in place and expressions computed.
+std::optional<Node> read_tree(const std::string& text, const std::filesystem::path& file,
+                              const std::vector<Override>& overrides, Problems& problems) {
+  std::optional<Node> root = parse_tree(text, 0, problems);
+  if (!root) return root;
+  const auto apply = [&](bool includes) {
+    for (std::size_t k = 0; k < overrides.size(); ++k) {
+      const auto& [path, value] = overrides[k];
+      if ((path.substr(0, path.find('.')) == "include") == includes)
+        apply_override(*root, path, value, static_cast<int>(k) + 1, problems);
+    }
+  };
+  apply(true);
+  merge_includes(*root, file, problems);
+  apply(false);
+  if (root->kind == Node::Kind::map) expand_variables(*root, problems);
+  return root;
+}
+
 void read_sections(const Node& root, Scene& scene, Problems& problems) {
   MapReader top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
   if (!top.valid()) return;
+  for (const char* key : {"include", "variables"}) top.find(key);  // done with (read_tree)
   read_head(top, scene);
   const int dimension = scene.dimension();
   const bool grid_known = read_grid(top, dimension, scene.grid);
@@ -80,12 +102,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file,
   Problems problems(sources);
   Scene scene;
   scene.file = file;
-  if (std::optional<Node> root = parse_tree(text, 0, problems)) {
-    for (std::size_t k = 0; k < overrides.size(); ++k) {
-      apply_override(*root, overrides[k].first, overrides[k].second, static_cast<int>(k) + 1, problems);
-    }
-    read_sections(*root, scene, problems);
-  }
+  if (const auto root = read_tree(text, file, overrides, problems)) read_sections(*root, scene, problems);
   if (!problems.empty()) throw SceneError(problems.sorted());
   scene.resolved_yaml = write_scene(scene);
   return scene;
