@@ -34,6 +34,9 @@ inline constexpr Limit kAny{"finite"};
 inline constexpr Limit kPositive{"positive", 0, kInfinity, true};
 inline constexpr Limit kNotNegative{"zero or more", 0};
 
+/// "a length: m, cm, mm, um": what a message says was expected.
+std::string expected_of(Measure kind);
+
 /// May this head a column of a table, name a field, stand in a dotted path? Letters, digits, '_' and '-'.
 bool is_name(const std::string& text);
 

@@ -57,7 +57,8 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
       return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected),
                            ""};
     }
-    return QuantityError{fmt::format("not a number ({})", expected), ""};
+    const bool plain = kind.dimensions == Dimensions{};
+    return QuantityError{plain ? "not a number" : fmt::format("not a number ({})", expected), ""};
   }
   std::string_view number = text.substr(0, length);
   text.remove_prefix(length);
@@ -120,7 +121,7 @@ std::variant<Written, QuantityError> parse_written(std::string_view written, Mea
   }
   Unit unit;
   if (!text.empty()) {
-    if (text.front() == '_' || text.front() == ',') {
+    if (text.front() == '_' || text.front() == ',' || is_digit(text.front())) {
       return QuantityError{"digits take no separator, and the decimal sign is a point", ""};
     }
     auto parsed = parse_unit(text, expected);

@@ -56,8 +56,10 @@ std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
   }
   const ShapeKind& kind = *chosen[0].kind;
   if (kind.dimension != 0 && kind.dimension != dimension) {
-    chosen[0].value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension),
-                           counterpart(kind.name));
+    const bool vowel = kind.name[0] == 'e' || std::string_view(kind.name) == "stl";
+    chosen[0].value.report(
+        fmt::format("{} {} exists in {}-D only", vowel ? "an" : "a", kind.name, kind.dimension),
+        counterpart(kind.name));
     return std::nullopt;
   }
   return chosen[0];
@@ -95,7 +97,11 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   const auto value = map.find("velocity");
   if (!value) return;
   if (!value->is(Node::Kind::list) || value->size() != static_cast<std::size_t>(dimension)) {
-    return value->complain(fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension));
+    return value->complain(
+        fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension),
+        value->is(Node::Kind::scalar)
+            ? fmt::format("Write [{}, 0{}]", value->node().scalar, dimension == 3 ? ", 0" : "")
+            : "");
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     const Value component = value->item(k);
@@ -213,14 +219,17 @@ void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& pla
                         !std::holds_alternative<BoxShape>(body.shape);
     const double below = halved ? 0 : scene.grid.origin[k] - box.lower[k];
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
-    if (below > slack) {
+    const auto report = [&](double by, const char* where) {
+      const double size = scene.grid.size[k];
       place.entry.report(
-          fmt::format("body '{}' lies {:.6g} m outside the grid, below in {}", body.name, below, "xyz"[k]));
-    }
-    if (above > slack) {
-      place.entry.report(
-          fmt::format("body '{}' lies {:.6g} m outside the grid, above in {}", body.name, above, "xyz"[k]));
-    }
+          fmt::format("body '{}' lies {:.6g} m outside the grid, {} in {} (the body is at {:.6g} to "
+                      "{:.6g} m, the grid at {:.6g} to {:.6g} m)",
+                      body.name, by, where, "xyz"[k], box.lower[k], box.upper[k], scene.grid.origin[k],
+                      scene.grid.origin[k] + size),
+          by > 10 * size ? "A bare number is in metres" : "");
+    };
+    if (below > slack) report(below, "below");
+    if (above > slack) report(above, "above");
   }
 }
 
@@ -291,7 +300,7 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     check_inside(scene, body, places[b]);
     check_count(scene, body, places[b]);
   }
-  check_rigid(scene, places);
+  if (names.size() == scene.bodies.size()) check_rigid(scene, places);  // two of one name share a field too
   constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
   if (scene.bodies.size() > kMostBodies) {
     places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));

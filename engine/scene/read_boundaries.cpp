@@ -40,8 +40,10 @@ class BoundaryReader {
     if (!value.is(Node::Kind::map)) {
       std::vector<std::string> faces;
       for (const FaceName& known : kFaces) faces.emplace_back(known.name);
-      return value.complain("not a face of the grid, and not a map {box | node, direction, speed}",
-                            did_you_mean(name, faces));
+      const std::string meant = did_you_mean(name, faces);
+      return value.complain(
+          "not a face of the grid, and not a map {box | node, direction, speed}",
+          meant.empty() ? "The faces are left, right, bottom, top, in 3-D also back and front" : meant);
     }
     if (!is_name(name)) value.report("not a name (letters, digits, '_' and '-')");
     read_box(name, value);
@@ -196,6 +198,7 @@ void read_boundaries(MapReader& top, bool grid_known, Scene& scene) {
   if (!map.valid()) return;
   BoundaryReader reader(grid_known, scene);
   for (const Key& key : section->node().keys) reader.read(key.text, *map.find(key.text));
+  if (grid_known && section->problems().empty()) check_walls(map, scene);
 }
 
 }  // namespace mpmfast

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/scene/text_check.hpp"
+#include "engine/scene/yaml_fault.hpp"
 
 namespace mpmfast {
 
@@ -278,7 +279,8 @@ std::optional<Node> parse_tree(const std::string& text, int source, Problems& pr
   } catch (const StopParsing&) {
     return std::nullopt;
   } catch (const YAML::Exception& error) {
-    problems.add({error.mark.line + 1, error.mark.column + 1, source}, "", "not valid YAML: " + error.msg);
+    const YamlFault fault = yaml_fault(text, error.mark.line + 1, error.mark.column + 1, error.msg);
+    problems.add({fault.line, fault.column, source}, "", fault.message, fault.hint);
     return std::nullopt;
   }
 }

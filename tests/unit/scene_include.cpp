@@ -99,7 +99,7 @@ TEST_CASE("what is wrong in an included file is told with its name, line and col
         "'210 "
         "GPA'. Did you mean 'GPa'?");
   folder.write("lib/steel.yaml", "materials: [\n");
-  CHECK(holds(folder.faults("scene.yaml"), "lib/steel.yaml:2:1: not valid YAML"));
+  CHECK(holds(folder.faults("scene.yaml"), "lib/steel.yaml:1:12: not valid YAML: this '[' is not closed"));
   folder.write("lib/steel.yaml", "# nothing\n");
   CHECK(holds(folder.faults("scene.yaml"), "lib/steel.yaml: empty (a map of sections was expected)"));
   folder.write("lib/steel.yaml", "- 1\n");

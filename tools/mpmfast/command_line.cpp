@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/quantity.hpp"
@@ -67,7 +69,8 @@ std::string check_progress(std::string& text) {
 std::string check_set(std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos && equals > 0) return "";
-  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'", text);
+  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'{}", text,
+                     equals == std::string::npos ? ". No blanks may stand around '='" : "");
 }
 
 std::string check_out(std::string& text) { return text.empty() ? "a folder was expected, got ''" : ""; }
@@ -194,6 +197,13 @@ int refuse(const std::string& message, const std::string& hint) {
   return kExitWrongInput;
 }
 
+/// Is the word more likely a scene than a command?
+bool file_like(const std::string& word) {
+  const std::string end = std::filesystem::path(word).extension().string();
+  std::error_code error;
+  return end == ".yaml" || end == ".yml" || std::filesystem::is_regular_file(word, error);
+}
+
 /// The command as a shell would take it again.
 std::string shell_text(int count, const char* const* arguments) {
   std::string out;
@@ -255,7 +265,8 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
   if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end()) {
     return {std::nullopt,
             refuse(fmt::format("unknown command '{}' (one of {})", first, fmt::join(names, ", ")),
-                   did_you_mean(first, names))};
+                   file_like(first) ? fmt::format("Did you mean 'mpmfast run {}'?", first)
+                                    : did_you_mean(first, names))};
   }
   try {
     commands.app.parse(count, arguments);
