@@ -15,6 +15,7 @@
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
 #include "mpmfast_version.hpp"
+#include "starters.hpp"
 
 namespace mpmfast {
 
@@ -24,7 +25,7 @@ constexpr int kMostThreads = 4096;
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, threads, jobs, steps, until, x = "time_s", progress = "auto";
+  std::string scene, out, topic, like, threads, jobs, steps, until, x = "time_s", progress = "auto";
   std::vector<std::string> set, columns;
   bool force = false;
 };
@@ -138,21 +139,34 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
 }
 
+void add_new_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("NAME", raw.scene, "The scene's name: NAME.yaml is written")->required()->type_name("");
+  std::vector<std::string> kinds;
+  for (const Starter& starter : kStarters) kinds.emplace_back(starter.name);
+  command
+      .add_option("--like", raw.like,
+                  fmt::format("One of {}; {} if not given", fmt::join(kinds, ", "), kinds[0]))
+      ->type_name("KIND");
+  command.add_flag("--force", raw.force, "Replace a file of that name");
+}
+
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *resume, *check, *study, *plot, *list;
+  CLI::App *begin, *run, *resume, *check, *study, *plot, *list;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
                          fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
     app.require_subcommand(1);
+    begin = app.add_subcommand("new", "Write a scene to begin with");
     run = app.add_subcommand("run", "Run a scene");
     resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
     study = app.add_subcommand("study", "Run the variants of a scene; table and chart of error against cost");
     plot = app.add_subcommand("plot", "Draw the history of a run");
     list = app.add_subcommand("list", "What this build offers");
+    add_new_options(*begin, raw);
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
     add_resume_options(*resume, raw);
@@ -220,7 +234,8 @@ std::string shell_text(int count, const char* const* arguments) {
 
 CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   CommandLine line;
-  line.command = *commands.run      ? Command::run
+  line.command = *commands.begin    ? Command::new_scene
+                 : *commands.run    ? Command::run
                  : *commands.resume ? Command::resume
                  : *commands.check  ? Command::check
                  : *commands.study  ? Command::study
@@ -229,6 +244,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.scene = raw.scene;
   line.out = raw.out;
   line.topic = raw.topic;
+  line.like = raw.like;
   line.set = raw.set;
   line.columns = raw.columns;
   line.x = raw.x;
