@@ -14,16 +14,22 @@ namespace mpmfast {
 
 namespace {
 
-std::string expected_of(Measure kind) {
-  const QuantityKind& known = kind_of(kind);
-  return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
-}
-
 /// The first of them: a message for each of thousands of values must not name thousands of words.
 std::string list_text(std::span<const std::string> words) {
   constexpr std::size_t kMost = 50;
   if (words.size() <= kMost) return fmt::format("{}", fmt::join(words, ", "));
   return fmt::format("{}, … {} in all", fmt::join(words.first(kMost), ", "), words.size());
+}
+
+/// What else an unknown key may be: half a number, two words run together, a key of another section.
+std::string hint_for_key(const Key& key, const Node& value, std::span<const std::string> known) {
+  const std::string& text = key.text;
+  if (value.kind == Node::Kind::null && text.find_first_not_of("0123456789") == std::string::npos)
+    return "The decimal sign is a point, not a comma";
+  const std::string first = text.substr(0, text.find(':'));
+  if (first.size() < text.size() && std::find(known.begin(), known.end(), first) != known.end())
+    return fmt::format("A blank is missing after '{}:'", first);
+  return home_of(text);
 }
 
 /// Of the first hundred problems: a hint looks at all known words, which may be thousands themselves.
@@ -33,6 +39,11 @@ std::string hint_for(const std::string& word, std::span<const std::string> known
 }
 
 }  // namespace
+
+std::string expected_of(Measure kind) {
+  const QuantityKind& known = kind_of(kind);
+  return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
+}
 
 bool is_name(const std::string& text) {
   constexpr std::size_t kLongest = 80;
@@ -49,7 +60,7 @@ void Value::complain(const std::string& message, const std::string& hint) const 
 }
 
 void Value::report(const std::string& message, const std::string& hint) const {
-  problems_->add(node_->place, path_, message, hint);
+  if (!node_->faulty) problems_->add(node_->place, path_, message, hint);
 }
 
 bool Value::is_word(const std::string& word) const {
@@ -324,10 +335,12 @@ void MapReader::finish() {
   if (Recorder* recorder = value_.problems().recorder()) recorder->note_closed(value_.path());
   for (const Key& key : value_.node().keys) {
     if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
-    const std::string hint = hint_for(key.text, known_, value_.problems());
+    const std::string meant = hint_for(key.text, known_, value_.problems());
+    const Node& node = value_.node().items[static_cast<std::size_t>(&key - value_.node().keys.data())];
     value_.problems().add(
         key.place, join(value_.path(), key.text),
-        hint.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key", hint);
+        meant.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key",
+        meant.empty() ? hint_for_key(key, node, known_) : meant);
   }
 }
 

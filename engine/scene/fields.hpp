@@ -19,6 +19,9 @@
 
 namespace mpmfast {
 
+/// "a length: m, cm, mm, um": what a message says was expected.
+std::string expected_of(Measure kind);
+
 /// May this head a column of a table, name a field, stand in a dotted path? Letters, digits, '_' and '-'.
 bool is_name(const std::string& text);
 

@@ -45,9 +45,16 @@ Node* descend(Node& node, const std::string& part, const std::string& parent, co
   if (error == std::errc() && end == part.data() + part.size() && index < node.items.size()) {
     return &node.items[index];
   }
+  std::string hint;
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    const int name = index_of(node.items[k], "name");
+    if (name >= 0 && node.items[k].items[static_cast<std::size_t>(name)].scalar == part)
+      hint = fmt::format("Did you mean '{}'?", join(parent, std::to_string(k)));
+  }
   problems.add(place, join(parent, part),
                fmt::format("no such entry ({} is a list, its entries are 0 to {})", label,
-                           static_cast<long>(node.items.size()) - 1));
+                           static_cast<long>(node.items.size()) - 1),
+               hint);
   return nullptr;
 }
 
@@ -62,7 +69,7 @@ void apply_override(Node& root, const std::string& path, const std::string& valu
     problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
     return;
   }
-  std::optional<Node> parsed = parse_tree(value, source, problems);
+  std::optional<Node> parsed = parse_tree(value, source, problems, "no value after '='");
   if (!parsed) return;
   Node* node = &root;
   std::string parent;

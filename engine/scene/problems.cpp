@@ -5,10 +5,15 @@
 
 namespace mpmfast {
 
+int Problems::add_file(std::string name) {
+  sources_.push_back(std::move(name));
+  return static_cast<int>(sources_.size()) - 1;
+}
+
 void Problems::add(const Place& place, std::string path, std::string message, std::string hint) {
   Diagnostic diagnostic;
   diagnostic.file = sources_[static_cast<std::size_t>(place.source)];
-  if (place.source == 0) {  // a place within a --set argument would say nothing
+  if (place.source == 0 || is_included(place.source)) {  // a place within a --set argument would say nothing
     diagnostic.line = place.line;
     diagnostic.column = place.column;
   }

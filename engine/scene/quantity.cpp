@@ -59,7 +59,8 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
       return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected),
                            ""};
     }
-    return QuantityError{fmt::format("not a number ({})", expected), ""};
+    const bool plain = kind.dimensions == Dimensions{};
+    return QuantityError{plain ? "not a number" : fmt::format("not a number ({})", expected), ""};
   }
   std::string_view number = text.substr(0, length);
   text.remove_prefix(length);
@@ -75,26 +76,35 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
   return value;
 }
 
-std::string name_of(const Dimensions& dimensions) {
+const QuantityKind* kind_with(const Dimensions& dimensions) {
   for (int k = 1; k < kMeasures; ++k) {
     const QuantityKind& kind = kind_of(static_cast<Measure>(k));
-    if (kind.dimensions == dimensions) return kind.name;
+    if (kind.dimensions == dimensions) return &kind;
   }
-  return "";
+  return nullptr;
 }
 
 QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions,
                               const QuantityKind& expected) {
-  const std::string actual = name_of(dimensions);
+  const QuantityKind* actual = kind_with(dimensions);
   const std::string wanted =
       *expected.units ? fmt::format("{}: {}", expected.name, expected.units) : "a number without a unit";
-  if (actual.empty()) return {fmt::format("'{}' is not a unit of {} ({})", unit, expected.name, wanted), ""};
-  return {fmt::format("'{}' is {} ({})", unit, actual, wanted), ""};
+  if (!actual) return {fmt::format("'{}' is not a unit of {} ({})", unit, expected.name, wanted), ""};
+  Dimensions unturned = expected.dimensions;
+  unturned[kRadian] = 0;
+  const bool turns = expected.dimensions[kRadian] != 0 && dimensions == unturned;
+  return {fmt::format("'{}' is {} ({})", unit, actual->name, wanted),
+          turns ? "Write rad/s, or multiply by 1 rad where it is computed" : ""};
 }
 
-}  // namespace
+/// A number with the unit that it was written with.
+struct Written {
+  double value = 0;  ///< SI
+  Dimensions dimensions{};
+  std::string_view unit;  ///< empty: none
+};
 
-std::variant<double, QuantityError> parse_quantity(std::string_view written, Measure expected) {
+std::variant<Written, QuantityError> parse_written(std::string_view written, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
   std::string_view text = trimmed(written);
   const auto numerator = take_number(text, kind);
@@ -113,18 +123,34 @@ std::variant<double, QuantityError> parse_quantity(std::string_view written, Mea
   }
   Unit unit;
   if (!text.empty()) {
-    if (text.front() == '_' || text.front() == ',') {
+    if (text.front() == '_' || text.front() == ',' || is_digit(text.front())) {
       return QuantityError{"digits take no separator, and the decimal sign is a point", ""};
     }
     auto parsed = parse_unit(text, expected);
     if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;
     unit = std::get<Unit>(parsed);
-    if (unit.dimensions != kind.dimensions) return wrong_dimension(text, unit.dimensions, kind);
   }
   // One multiplication or one division in all common cases: as exact as the decimal text allows.
   const double value = std::get<double>(numerator) * unit.multiplier / (over * unit.divisor);
   if (!std::isfinite(value)) return QuantityError{fmt::format("a number out of range ({})", kind.name), ""};
+  return Written{value, unit.dimensions, text};
+}
+
+}  // namespace
+
+std::variant<double, QuantityError> parse_quantity(std::string_view text, Measure expected) {
+  const auto parsed = parse_written(text, expected);
+  if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;
+  const auto& [value, dimensions, unit] = std::get<Written>(parsed);
+  const QuantityKind& kind = kind_of(expected);
+  if (!unit.empty() && dimensions != kind.dimensions) return wrong_dimension(unit, dimensions, kind);
   return value;
+}
+
+std::variant<Amount, QuantityError> parse_amount(std::string_view text) {
+  const auto parsed = parse_written(text, Measure::number);
+  if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;
+  return Amount{std::get<Written>(parsed).value, std::get<Written>(parsed).dimensions};
 }
 
 std::optional<double> parse_number(std::string_view text) {
@@ -143,6 +169,29 @@ std::string vector_text(const std::array<double, 3>& vector, Measure quantity, i
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
     parts.push_back(quantity_text(vector[k], quantity));
   return fmt::format("[{}]", fmt::join(parts, ", "));
+}
+
+std::string unit_text(const Dimensions& dimensions) {
+  if (const QuantityKind* kind = kind_with(dimensions)) return kind->si;
+  constexpr std::array<const char*, 5> kBase{"m", "kg", "s", "rad", "K"};
+  std::string out;
+  for (std::size_t k = 0; k < kBase.size(); ++k) {
+    if (dimensions[k] == 0) continue;
+    if (!out.empty()) out += '*';
+    out += dimensions[k] == 1 ? kBase[k] : fmt::format("{}^{}", kBase[k], dimensions[k]);
+  }
+  return out;
+}
+
+std::string kind_text(const Dimensions& dimensions) {
+  if (dimensions == Dimensions{}) return "a number";
+  const QuantityKind* kind = kind_with(dimensions);
+  return kind ? kind->name : "a quantity in " + unit_text(dimensions);
+}
+
+std::string amount_text(const Amount& amount) {
+  const std::string unit = unit_text(amount.dimensions);
+  return unit.empty() ? fmt::format("{}", amount.value) : fmt::format("{} {}", amount.value, unit);
 }
 
 }  // namespace mpmfast

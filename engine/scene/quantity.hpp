@@ -3,6 +3,7 @@
 /// @file Numbers with units: "5 mm", "2.78 g/cm^3", "1/70 mm", or a bare number in SI.
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ inline constexpr int kMeasures = 14;
 
 /// Exponents of metre, kilogram, second, radian and kelvin.
 using Dimensions = std::array<int, 5>;
+inline constexpr std::size_t kRadian = 3;
 
 struct QuantityKind {
   const char* name;   ///< "a length"
@@ -84,6 +86,20 @@ std::vector<std::string> unit_symbols();
 
 /// "5 mm" → 0.005.
 std::variant<double, QuantityError> parse_quantity(std::string_view text, Measure expected);
+
+/// A number of whatever dimensions, SI. A bare number has none.
+struct Amount {
+  double value = 0;
+  Dimensions dimensions{};
+};
+std::variant<Amount, QuantityError> parse_amount(std::string_view text);
+
+/// "m^2": in SI; empty for a pure number.
+std::string unit_text(const Dimensions& dimensions);
+/// "a velocity", "a quantity in m^2".
+std::string kind_text(const Dimensions& dimensions);
+/// "0.005 m", as quantity_text.
+std::string amount_text(const Amount& amount);
 
 /// A decimal number that is the whole of `text`; nothing when it is none, is not finite or has leading zeros.
 std::optional<double> parse_number(std::string_view text);

@@ -72,7 +72,9 @@ std::optional<ChosenShape> choose_shape(MapReader& map, int dimension) {
   const ShapeKind& kind = shape_kinds()[static_cast<std::size_t>(which)];
   const Value value = *map.find(kind.name);
   if (kind.dimension != 0 && kind.dimension != dimension) {
-    value.report(fmt::format("a {} exists in {}-D only", kind.name, kind.dimension), counterpart(kind.name));
+    const bool vowel = kind.name[0] == 'e' || std::string_view(kind.name) == "stl";
+    value.report(fmt::format("{} {} exists in {}-D only", vowel ? "an" : "a", kind.name, kind.dimension),
+                 counterpart(kind.name));
     return std::nullopt;
   }
   return ChosenShape{&kind, value};
@@ -114,7 +116,11 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   map.otherwise("velocity", body.velocity, Measure::velocity, dimension);
   if (!value) return;
   if (!value->is_list(dimension, dimension)) {
-    return value->complain(fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension));
+    return value->complain(
+        fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension),
+        value->is(Node::Kind::scalar)
+            ? fmt::format("Write [{}, 0{}]", value->node().scalar, dimension == 3 ? ", 0" : "")
+            : "");
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     if (const auto table = value->item(k).table(Measure::velocity)) {
@@ -236,14 +242,17 @@ void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& pla
                         !std::holds_alternative<BoxShape>(body.shape);
     const double below = halved ? 0 : scene.grid.origin[k] - box.lower[k];
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
-    if (below > slack) {
+    const auto report = [&](double by, const char* where) {
+      const double size = scene.grid.size[k];
       place.entry.report(
-          fmt::format("body '{}' lies {:.6g} m outside the grid, below in {}", body.name, below, "xyz"[k]));
-    }
-    if (above > slack) {
-      place.entry.report(
-          fmt::format("body '{}' lies {:.6g} m outside the grid, above in {}", body.name, above, "xyz"[k]));
-    }
+          fmt::format("body '{}' lies {:.6g} m outside the grid, {} in {} (the body is at {:.6g} to "
+                      "{:.6g} m, the grid at {:.6g} to {:.6g} m)",
+                      body.name, by, where, "xyz"[k], box.lower[k], box.upper[k], scene.grid.origin[k],
+                      scene.grid.origin[k] + size),
+          by > 10 * size ? "A bare number is in metres" : "");
+    };
+    if (below > slack) report(below, "below");
+    if (above > slack) report(above, "above");
   }
 }
 
@@ -314,7 +323,7 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     check_inside(scene, body, places[b]);
     check_count(scene, body, places[b]);
   }
-  check_rigid(scene, places);
+  if (names.size() == scene.bodies.size()) check_rigid(scene, places);  // two of one name share a field too
   constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
   if (scene.bodies.size() > kMostBodies) {
     places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));

@@ -40,8 +40,10 @@ class BoundaryReader {
     if (!value.is(Node::Kind::map)) {
       std::vector<std::string> faces;
       for (const FaceName& known : kFaces) faces.emplace_back(known.name);
-      return value.complain("not a face of the grid, and not a map {box | node, direction, speed}",
-                            did_you_mean(name, faces));
+      const std::string meant = did_you_mean(name, faces);
+      return value.complain(
+          "not a face of the grid, and not a map {box | node, direction, speed}",
+          meant.empty() ? "The faces are left, right, bottom, top, in 3-D also back and front" : meant);
     }
     if (!is_name(name)) value.report("not a name (letters, digits, '_' and '-')");
     read_box(name, value);
@@ -198,6 +200,7 @@ void read_boundaries(MapReader& top, bool grid_known, Scene& scene) {
     const std::string& name = section->node().keys[k].text;
     reader.read(name, section->entry(k, face_named(name) ? "FACE" : "NAME"));
   }
+  if (grid_known && section->problems().empty()) check_walls(map, scene);
 }
 
 }  // namespace mpmfast

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "engine/scene/sections.hpp"
@@ -47,7 +48,7 @@ void read_law(MapReader& map, LawSpec& law) {
     const auto value = map.find(parameter.name);
     if (!value && owns && !missing_allowed) {
       const Silence conditional(map.value().problems().recorder());  // the schema has it from the table
-      map.need(parameter.name, kind_of(parameter.measure).name);
+      map.need(parameter.name, expected_of(parameter.measure));
     }
     map.expects(parameter.name, {Form::Kind::quantity, parameter.measure, parameter.limit});
     if (owns && !parameter.needed) map.otherwise(parameter.name, law.*parameter.value, parameter.measure);
@@ -73,7 +74,8 @@ namespace {
 /// Reads `contact.pairs`, one entry at a time.
 class PairReader {
  public:
-  explicit PairReader(Scene& scene) : scene_(scene) {
+  /// @param unread  names of bodies that the scene states but that could not be read
+  PairReader(Scene& scene, std::vector<std::string> unread) : scene_(scene), unread_(std::move(unread)) {
     for (const MaterialSpec& material : scene.materials) materials_.push_back(material.name);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) name(scene.bodies[b].name, b);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) name(scene.bodies[b].field, b);
@@ -95,7 +97,8 @@ class PairReader {
     if (pair.materials)
       check_mixed(who, pair);
     else if (field(pair.between[0]) == field(pair.between[1]))
-      return who.report(fmt::format("the velocity field '{}' does not meet itself", field(pair.between[0])));
+      return who.report(fmt::format("the velocity field '{}' does not meet itself", field(pair.between[0])),
+                        "A pair is of two bodies; two parts of one body that meet must be two bodies");
     check_twin(who, pair);
     scene_.contact.pairs.push_back(pair);
   }
@@ -116,11 +119,22 @@ class PairReader {
     }
     bool good = true;
     for (std::size_t k = 0; k < 2; ++k) {
+      if (!pair.materials && states_unread(who.item(k).node())) {
+        good = false;  // told where the body stands
+        continue;
+      }
       const int index = who.item(k).reference(pair.materials ? materials_ : names_);
       good &= index >= 0;
       if (index >= 0) pair.between[k] = pair.materials ? index : body_[static_cast<std::size_t>(index)];
     }
     return good;
+  }
+
+  /// Also a level of a bitmap, NAME_LEVEL.
+  bool states_unread(const Node& node) const {
+    return std::any_of(unread_.begin(), unread_.end(), [&](const std::string& name) {
+      return node.scalar == name || node.scalar.rfind(name + "_", 0) == 0;
+    });
   }
 
   /// A field of several materials has no single one that a pair of materials could mean.
@@ -150,9 +164,29 @@ class PairReader {
   }
 
   Scene& scene_;
-  std::vector<std::string> materials_, names_;
+  std::vector<std::string> materials_, names_, unread_;
   std::vector<int> body_;  ///< of each name
 };
+
+/// Names of bodies that are stated and have not become bodies.
+std::vector<std::string> unread_bodies(MapReader& top, const Scene& scene) {
+  std::vector<std::string> out;
+  const auto bodies = top.find("bodies");
+  if (!bodies || !bodies->is(Node::Kind::list)) return out;
+  std::set<std::string> read;
+  for (const BodySpec& body : scene.bodies) read.insert(body.name);
+  for (const Node& entry : bodies->node().items) {
+    const int index = index_of(entry, "name");
+    if (index < 0) continue;
+    const std::string& name = entry.items[static_cast<std::size_t>(index)].scalar;
+    if (is_name(name) && !read.contains(name) && index_of(entry, "bitmap") < 0) out.push_back(name);
+    if (index_of(entry, "bitmap") >= 0 && is_name(name) &&
+        std::none_of(read.begin(), read.end(),
+                     [&](const auto& one) { return one.rfind(name + "_", 0) == 0; }))
+      out.push_back(name);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -164,7 +198,7 @@ void read_contact_pairs(MapReader& top, Scene& scene) {
   const Value pairs(section->node().items[static_cast<std::size_t>(index)], join(section->path(), "pairs"),
                     section->problems());
   if (!pairs.is_list()) return pairs.complain("not a list of maps {between: …, law: …}");
-  PairReader reader(scene);
+  PairReader reader(scene, unread_bodies(top, scene));
   for (std::size_t k = 0; k < pairs.size(); ++k) reader.read(pairs.item(k));
 }
 

@@ -21,6 +21,9 @@ bool check_cells(const Value& size, int dimension, const GridSpec& grid) {
     if (cells > kMostCells) {
       edge.complain(fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
       good = false;
+    } else if (cells < 1 - 1e-6) {
+      edge.complain(fmt::format("smaller than one cell of {} m", grid.cell));
+      good = false;
     } else if (std::abs(cells - whole) > 1e-6 * whole) {
       edge.complain(fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell,
                                 whole * grid.cell));
@@ -92,6 +95,8 @@ void read_checkpoint(const Value& value, CheckpointSpec& checkpoint) {
     checkpoint.active = false;
     return;
   }
+  if (value.is(Node::Kind::scalar))
+    return value.complain("not none or a map {every, steps}", "Write {steps: 1000} or {every: 10 min}");
   MapReader map(value, "none or a map {every, steps}");
   if (!map.valid()) return;
   constexpr int kMostSteps = 2000000000;

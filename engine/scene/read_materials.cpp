@@ -9,7 +9,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr Limit kPoisson{"in (-1, 0.5)", -1, 0.5, true, true};
+constexpr Limit kPoisson{"in (-1, 0.5), and 0.49 is nearly incompressible", -1, 0.5, true, true};
 
 decltype(MaterialSpec::model) read_neo_hookean(MapReader& map) {
   NeoHookeanSpec spec;
@@ -59,7 +59,17 @@ void read_moduli(MapReader& map, const char* volumetric, double& modulus, double
       map.value().report(fmt::format("young and poisson give {} = {} Pa and shear = {} Pa: out of range",
                                      volumetric, modulus, shear));
   } else {
-    map.value().report(fmt::format("needs either {} and shear or young and poisson", volumetric));
+    std::string got;
+    for (const auto& [key, value] :
+         {std::pair{volumetric, &first}, {"shear", &second}, {"young", &young}, {"poisson", &poisson}})
+      if (*value) got += (got.empty() ? ", but has only " : " and ") + std::string(key);
+    const bool many =
+        int{first.has_value()} + int{second.has_value()} + int{young.has_value()} + int{poisson.has_value()} >
+        2;
+    map.value().report(fmt::format("needs either {} and shear or young and poisson{}", volumetric,
+                                   many          ? ", not more"
+                                   : got.empty() ? ", but has none"
+                                                 : got));
   }
 }
 

@@ -300,7 +300,7 @@ struct OutputSpec {
   int frames = 20;       ///< particle files, evenly spaced in time, beside the initial one; 0: none at all
   int history = 200;     ///< rows of history.csv beside the initial one
   bool overlap = false;  ///< 2-D: the history measures how much bodies enter each other
-  bool grid = false;     ///< with each frame after the first, a file of the nodes: masses, velocities, contact
+  bool grid = false;  ///< with each frame after the first, a file of the nodes: masses, velocities, contact
   CheckpointSpec checkpoint;
   std::string picture = "pressure";  ///< field of the second picture: pressure, von_mises, stress_xx, …
 };

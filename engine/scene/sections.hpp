@@ -33,6 +33,8 @@ void read_materials(MapReader& top, std::vector<MaterialSpec>& materials);
 void read_bodies(MapReader& top, bool grid_known, Scene& scene);
 /// Needs the grid and the bodies.
 void read_boundaries(MapReader& top, bool grid_known, Scene& scene);
+/// Refuses walls with bodies behind them, and pistons that would go through the wall on the other side.
+void check_walls(MapReader& boundaries, const Scene& scene);
 /// `grid.leaving: wall`: a wall on each face that `boundaries` says nothing of. Needs everything else.
 void close_faces(MapReader& top, Scene& scene);
 

@@ -1,8 +1,11 @@
 #include "engine/scene/suggest.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace mpmfast {
@@ -55,6 +58,25 @@ std::string closest(std::string_view word, std::span<const std::string> known) {
     }
   }
   return best ? *best : std::string();
+}
+
+std::string home_of(std::string_view key) {
+  // Only keys that one section alone has.
+  static constexpr std::pair<std::string_view, std::string_view> kHomes[] = {
+      {"size", "grid"},          {"cell", "grid"},          {"leaving", "grid"},
+      {"end", "time"},           {"cfl", "time"},           {"max_step", "time"},
+      {"basis", "method"},       {"update", "method"},      {"strain", "method"},
+      {"law", "contact"},        {"friction", "contact"},   {"normal", "contact"},
+      {"separation", "contact"}, {"pairs", "contact"},      {"corrections", "contact"},
+      {"frames", "output"},      {"history", "output"},     {"picture", "output"},
+      {"checkpoint", "output"},  {"overlap", "output"},     {"density", "a material"},
+      {"young", "a material"},   {"poisson", "a material"}, {"bulk", "a material"},
+      {"shear", "a material"},   {"velocity", "a body"},    {"rotation", "a body"},
+      {"seeding", "a body"},     {"piston", "boundaries"},  {"particles_per_cell", "a body"}};
+  for (const auto& [word, home] : kHomes)
+    if (word == key)
+      return "It belongs to " + (home[1] == ' ' ? std::string(home) : fmt::format("'{}'", home));
+  return "";
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> known) {

@@ -18,4 +18,7 @@ std::string closest(std::string_view word, std::span<const std::string> known);
 /// "Did you mean 'x'?" or nothing.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
+/// "It belongs into 'method'": the section that has such a key, or nothing.
+std::string home_of(std::string_view key);
+
 }  // namespace mpmfast

@@ -37,7 +37,8 @@ bool check_text(const std::string& text, int source, Problems& problems) {
     const auto byte = static_cast<unsigned char>(text[at]);
     const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
     if (length == 0 || control) {
-      problems.add({line, column, source}, "", fmt::format("not UTF-8 text, got the byte 0x{:02X}", byte));
+      problems.add({line, column, source}, "", fmt::format("not UTF-8 text, got the byte 0x{:02X}", byte),
+                   at == 0 && byte >= 0xFE ? "It looks like UTF-16: save it as UTF-8" : "");
       return false;
     }
     if (byte == '\n') {

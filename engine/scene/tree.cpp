@@ -7,39 +7,41 @@
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <sstream>
 #include <utility>
 
 #include "engine/scene/text_check.hpp"
+#include "engine/scene/yaml_fault.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-// After aliases are expanded, whose copies take memory like what was written.
-constexpr std::size_t kDeepest = 32;         // levels; a scene has about six
-constexpr std::size_t kMostNodes = 200000;   // keys and values
-constexpr std::size_t kMostText = 16 << 20;  // bytes of keys and values, as a file may have
-
 /// Thrown inside the parser to leave it; the problem is already noted.
 struct StopParsing {};
 
-/// What a node and all that is in it take.
-struct Size {
-  std::size_t nodes = 0, text = 0, levels = 0;
-};
-Size size_of(const Node& node) {
-  Size size{1 + node.keys.size(), node.scalar.size(), 0};
-  for (const Key& key : node.keys) size.text += key.text.size();
-  for (const Node& item : node.items) {
-    const Size inner = size_of(item);
-    size.nodes += inner.nodes;
-    size.text += inner.text;
-    size.levels = std::max(size.levels, inner.levels);
+// yaml-cpp would take the braces and commas of `${min(a, b)}` for those of a map. Text has no control
+// characters (text_check), so three of them stand in until the parser is past.
+constexpr std::array<std::pair<char, char>, 3> kShields{{{'{', '\1'}, {'}', '\2'}, {',', '\3'}}};
+
+std::string shielded(std::string text) {
+  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", at + 2)) {
+    const std::size_t end = text.find_first_of("{}\n\"#", at + 2);
+    if (end == std::string::npos || text[end] != '}') continue;
+    for (std::size_t k = at + 1; k <= end; ++k)
+      for (const auto& [mark, shield] : kShields)
+        if (text[k] == mark) text[k] = shield;
   }
-  if (node.kind == Node::Kind::list || node.kind == Node::Kind::map) ++size.levels;
-  return size;
+  return text;
+}
+
+std::string unshielded(std::string text) {
+  for (char& c : text)
+    for (const auto& [mark, shield] : kShields)
+      if (c == shield) c = mark;
+  return text;
 }
 
 /// Builds the tree from the parser's events. Aliases become copies of what they name.
@@ -59,7 +61,7 @@ class TreeBuilder : public YAML::EventHandler {
     refuse_tag(mark, tag);
     count({0, value.size(), 0}, at(mark));
     Node node = make(Node::Kind::scalar, mark);
-    node.scalar = value;
+    node.scalar = unshielded(value);
     quoted_ = tag == "!";
     finish(std::move(node), anchor);
   }
@@ -107,7 +109,7 @@ class TreeBuilder : public YAML::EventHandler {
   }
 
   /// Of what begins at the mark, inside all that is open.
-  void count(const Size& more, const Place& place) {
+  void count(const TreeSize& more, const Place& place) {
     nodes_ += more.nodes;
     text_ += more.text;
     if (nodes_ > kMostNodes)
@@ -125,7 +127,7 @@ class TreeBuilder : public YAML::EventHandler {
 
   void refuse_tag(const YAML::Mark& mark, const std::string& tag) {
     if (tag.empty() || tag == "?" || tag == "!") return;
-    problems_.add(at(mark), path(), fmt::format("tags are not supported, got '{}'", tag));
+    problems_.add(at(mark), path(), fmt::format("tags are not supported, got '{}'", unshielded(tag)));
   }
 
   void open(Node::Kind kind, const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor) {
@@ -214,8 +216,21 @@ int index_of(const Node& node, const std::string& key) {
   return -1;
 }
 
-std::string describe(const Node& node) {
+namespace {
+
+/// On one line, cut where it is long.
+std::string shown(const std::string& whole) {
   constexpr std::size_t kShown = 60;
+  std::string text = whole.substr(0, kShown);
+  for (char& c : text) {
+    if (c == '\n' || c == '\t') c = ' ';
+  }
+  return whole.size() > kShown ? text + "…" : text;
+}
+
+}  // namespace
+
+std::string describe(const Node& node) {
   switch (node.kind) {
     case Node::Kind::null:
       return "nothing";
@@ -226,25 +241,36 @@ std::string describe(const Node& node) {
     case Node::Kind::scalar:
       break;
   }
-  std::string text = node.scalar.substr(0, kShown);
-  for (char& c : text) {
-    if (c == '\n' || c == '\t') c = ' ';
+  if (node.written.empty()) return fmt::format("'{}'", shown(node.scalar));
+  return fmt::format("'{}', which is '{}'", shown(node.written), shown(node.scalar));
+}
+
+TreeSize size_of(const Node& node) {
+  TreeSize size{1 + node.keys.size(), node.scalar.size(), 0};
+  for (const Key& key : node.keys) size.text += key.text.size();
+  for (const Node& item : node.items) {
+    const TreeSize inner = size_of(item);
+    size.nodes += inner.nodes;
+    size.text += inner.text;
+    size.levels = std::max(size.levels, inner.levels);
   }
-  return node.scalar.size() > kShown ? "'" + text + "…'" : "'" + text + "'";
+  if (node.kind == Node::Kind::list || node.kind == Node::Kind::map) ++size.levels;
+  return size;
 }
 
 std::string join(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "." + key;
 }
 
-std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems) {
+std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems,
+                               const std::string& empty) {
   if (!check_text(text, source, problems)) return std::nullopt;
   TreeBuilder builder(source, problems);
   try {
-    std::istringstream stream(text);
+    std::istringstream stream(shielded(text));
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) {
-      problems.add({0, 0, source}, "", source == 0 ? "empty (a scene was expected)" : "no value after '='");
+      problems.add({0, 0, source}, "", empty);
       return std::nullopt;
     }
     Node root = builder.root();
@@ -253,7 +279,8 @@ std::optional<Node> parse_tree(const std::string& text, int source, Problems& pr
   } catch (const StopParsing&) {
     return std::nullopt;
   } catch (const YAML::Exception& error) {
-    problems.add({error.mark.line + 1, error.mark.column + 1, source}, "", "not valid YAML: " + error.msg);
+    const YamlFault fault = yaml_fault(text, error.mark.line + 1, error.mark.column + 1, error.msg);
+    problems.add({fault.line, fault.column, source}, "", fault.message, fault.hint);
     return std::nullopt;
   }
 }

@@ -4,6 +4,7 @@
 /// Closed here: duplicate keys, merge keys, tags, more than one document, empty files, text that is not
 /// UTF-8, control characters, deep nesting, aliases that multiply or contain themselves.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct Node {
   Kind kind = Kind::null;
   Place place;
   std::string scalar;
+  std::string written;      ///< where `scalar` was computed: what stood there, "${dx/2}"
+  bool faulty = false;      ///< reported already: readers keep silent
   std::vector<Key> keys;    ///< of a map; keys[i] names items[i]
   std::vector<Node> items;  ///< of a list or a map
 };
@@ -35,8 +38,22 @@ std::string describe(const Node& node);
 /// Joins a dotted path.
 std::string join(const std::string& path, const std::string& key);
 
-/// Parses one document. Adds to `problems`; returns nothing when the text cannot be read as YAML at all.
-std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems);
+/// Parses one document, in which `${…}` may stand anywhere in a value, braces and commas and all. Adds to
+/// `problems`; returns nothing when the text cannot be read as YAML at all.
+/// @param empty  what is said of a text that holds nothing
+std::optional<Node> parse_tree(const std::string& text, int source, Problems& problems,
+                               const std::string& empty = "empty (a scene was expected)");
+
+/// What a node and all that is in it take.
+struct TreeSize {
+  std::size_t nodes = 0, text = 0, levels = 0;
+};
+TreeSize size_of(const Node& node);
+
+// What a tree may take after aliases, expressions and included files are expanded.
+inline constexpr std::size_t kDeepest = 32;         ///< levels; a scene has about six
+inline constexpr std::size_t kMostNodes = 200000;   ///< keys and values
+inline constexpr std::size_t kMostText = 16 << 20;  ///< bytes of keys and values, as a file may have
 
 /// Replaces or adds the value at a dotted path (list entries by index). `source` is the override's number.
 void apply_override(Node& root, const std::string& path, const std::string& value, int source,

@@ -72,6 +72,20 @@ std::string plain_spelling(std::string_view text) {
   return out;
 }
 
+/// Words and symbols that people use for units, and what stands for them here.
+std::string other_spelling(const std::string& symbol) {
+  static const std::pair<std::string_view, std::string_view> kSpellings[] = {
+      {"sec", "s"},       {"second", "s"},   {"seconds", "s"},   {"msec", "ms"},    {"usec", "us"},
+      {"microns", "um"},  {"micron", "um"},  {"meter", "m"},     {"metre", "m"},    {"meters", "m"},
+      {"metres", "m"},    {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"}, {"radians", "rad"},
+      {"gram", "g"},      {"grams", "g"},    {"tonne", "t"},     {"tonnes", "t"},   {"pascal", "Pa"},
+      {"minutes", "min"}, {"hour", "h"},     {"hours", "h"},     {"kph", "km/h"},   {"kmh", "km/h"}};
+  for (const auto& [from, to] : kSpellings)
+    if (symbol == from) return fmt::format("Did you mean '{}'?", to);
+  if (symbol == "C" || symbol == "degC") return "Temperatures are in K: add 273.15";
+  return "";
+}
+
 QuantityError unknown_unit(const std::string& symbol, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
   std::vector<std::string> same_kind, all;
@@ -79,7 +93,8 @@ QuantityError unknown_unit(const std::string& symbol, Measure expected) {
     all.emplace_back(named.symbol);
     if (named.unit.dimensions == kind.dimensions) same_kind.emplace_back(named.symbol);
   }
-  std::string hint = did_you_mean(symbol, same_kind);
+  std::string hint = other_spelling(symbol);
+  if (hint.empty()) hint = did_you_mean(symbol, same_kind);
   if (hint.empty()) hint = did_you_mean(symbol, all);
   return {fmt::format("unknown unit '{}' ({}{})", symbol, kind.name,
                       *kind.units ? fmt::format(": {}", kind.units) : " without a unit"),

@@ -12,7 +12,8 @@ namespace mpmfast {
 
 namespace {
 
-/// Double quotes with the escapes of YAML; everything else stands as it is.
+/// Double quotes with the escapes of YAML, and one for what would be an expression; everything else stands as
+/// it is.
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -22,7 +23,10 @@ std::string quoted(const std::string& text) {
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
       out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
     } else {
-      out += c;
+      if (c == '{' && out.back() == '$')
+        out += "${";  // "$${" is read as "${"
+      else
+        out += c;
     }
   }
   return out + '"';

@@ -71,7 +71,7 @@ check_words() {
   says out 'run'
   run 2
   run 2 rnu scene.yaml
-  says err "unknown command 'rnu' (one of run, resume, "
+  says err "unknown command 'rnu' (one of new, run, resume, "
   says err "). Did you mean 'run'?"
   run 2 run
   says err 'SCENE is required'
@@ -253,6 +253,37 @@ check_wrong_study() {
   run 4 study scene_nowhere.yaml
 }
 
+# Every starter is written as it is, runs for a few steps and gives no warning.
+check_new() {
+  local kind
+  for kind in impact press sphere3d; do
+    run 0 new "scenes_$kind" --like "$kind"
+    cmp -s "scenes_$kind.yaml" "$source_dir/configs/starters/$kind.yaml" || fail "new --like $kind writes another text"
+    run 0 check "scenes_$kind.yaml"
+    grep -q warning err && fail "a starter gives warnings"
+    run 0 run "scenes_$kind.yaml" --steps 3 --progress none
+  done
+  run 0 new plain
+  says out 'mpmfast run plain.yaml'
+  cmp -s plain.yaml "$source_dir/configs/starters/impact.yaml" || fail 'the first starter is not the default'
+  echo precious >plain.yaml
+  run 2 new plain.yaml
+  says err 'plain.yaml exists (--force replaces it)'
+  [[ $(cat plain.yaml) == precious ]] || fail 'a refused new wrote into the file'
+  run 0 new plain.yaml --force
+  cmp -s plain.yaml "$source_dir/configs/starters/impact.yaml" || fail 'new --force does not replace'
+  for kind in '' . .. 'a b' '-x' 'a/' $'a\tb'; do
+    run 2 new -- "$kind"
+  done
+  run 2 new other --like impcat
+  says err "one of impact, press, sphere3d), got 'impcat'. Did you mean 'impact'?"
+  run 2 new
+  says err 'NAME is required'
+  run 4 new nowhere/scene
+  [[ ! -e other.yaml && ! -e nowhere ]] || fail 'a refused new wrote something'
+  rm -rf plain.yaml scenes_*.yaml runs
+}
+
 check_plot() {
   local chart
   run 0 run scene.yaml --steps 4 --out plotted --progress none
@@ -319,6 +350,7 @@ check_study
 check_stopped_study
 check_study_without_gnuplot
 check_wrong_study
+check_new
 check_plot
 check_report
 printf '%d checks, %d failures\n' "$checks" "$failures"

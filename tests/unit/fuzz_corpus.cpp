@@ -33,7 +33,8 @@ int replay(const fs::path& folder, void (*entry)(fuzz::Bytes)) {
 
 TEST_CASE("the scene reader takes the fuzzers' corpus and every scene of the repository") {
   CHECK(replay("tests/fuzz/corpus/scene", fuzz::read_scene_bytes) >= 3);
-  CHECK(replay("tests/cli/broken", fuzz::read_scene_bytes) > 40);
+  CHECK(replay("tests/cli/broken", fuzz::read_scene_bytes) > 30);
+  CHECK(replay("configs/starters", fuzz::read_scene_bytes) >= 3);
   CHECK(replay("configs", fuzz::read_scene_bytes) > 10);
 }
 

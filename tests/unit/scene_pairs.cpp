@@ -53,7 +53,7 @@ TEST_CASE("faults of laws and pairs are found where they stand") {
   const auto contact = [](const std::string& text) { return fault(three_bodies("contact: " + text + "\n")); };
   CHECK(holds(contact("{law: stick, viscosity: 1 Pa*s}"),
               "contact.viscosity: the law 'stick' has no viscosity"));
-  CHECK(holds(contact("{law: viscous, film: 1 mm}"), "contact.viscosity: missing (a viscosity)"));
+  CHECK(holds(contact("{law: viscous, film: 1 mm}"), "contact.viscosity: missing (a viscosity: Pa*s)"));
   CHECK(holds(contact("{law: viscous, film: 1 mm, viscosity: 1 Pa}"), "'Pa' is a pressure"));
   CHECK(holds(contact("{friction: 0.4, static_friction: 0.3}"), "static friction 0.3 is less than"));
   CHECK(holds(contact("{law: adhesion, normal_strength: 0 Pa, shear_strength: 1 Pa}"), "must be positive"));

@@ -216,7 +216,8 @@ TEST_CASE("rigid bodies may follow tables, and have a velocity field of their ow
 
 TEST_CASE("bodies stay in the grid, have names of their own and one shape each") {
   CHECK(fault(replaced(plain_scene(), "to: [4 mm", "to: [12 mm")) ==
-        "scene.yaml:7:5: bodies.0: body 'block' lies 0.002 m outside the grid, above in x");
+        "scene.yaml:7:5: bodies.0: body 'block' lies 0.002 m outside the grid, above in x (the body is at "
+        "0.001 to 0.012 m, the grid at 0 to 0.01 m)");
   CHECK(holds(fault(plain_scene() +
                     "  - {name: block, disk: {centre: [5 mm, 9 mm], radius: 1 mm}, material: steel}\n"),
               "scene.yaml:8:12: bodies.1.name: another body is called 'block'"));

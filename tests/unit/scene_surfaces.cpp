@@ -293,6 +293,6 @@ TEST_CASE("an STL body is scaled, turned and moved, and written so that reading 
   CHECK(holds(fault_with("scale: 1 mm", "scale: 1 m"), "m outside the grid, above in"));
   CHECK(holds(fault_with("angle: 90 deg", "axis: [0, 0, 0]"), "the zero vector has no direction"));
   CHECK(holds(fault(replaced(plain_scene(), "box: {from: [1 mm, 1 mm], to: [4 mm, 3 mm]}", stl)),
-              "bodies.0.stl: a stl exists in 3-D only"));
+              "bodies.0.stl: an stl exists in 3-D only"));
   fs::remove_all(folder);
 }

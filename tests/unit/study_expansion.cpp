@@ -98,6 +98,27 @@ TEST_CASE("constants of a variant reach the expressions of the study") {
   CHECK(runs.variants[1].let.at("shift") == 12);
 }
 
+TEST_CASE("a study sets the variables of its scene, and its values may name them") {
+  const StudyFolder folder;
+  write_text(folder.path() / "variable.yaml",
+             "variables: {v: 3 m/s}\ntitle: ${v}\n" + output_test::read_text(folder.path() / "scene.yaml"));
+  const StudyRuns runs =
+      expand_study(folder.study("scene: variable.yaml\n"
+                                "vary: {variables.v: [1 m/s, 2 m/s]}\n"
+                                "set: {bodies.0.velocity: [\"${-2*v}\", 0]}\n"
+                                "error: {quantity: block.vx, compare: final, expected: 0}\n"));
+  REQUIRE(runs.variants.size() == 2);
+  CHECK(runs.variants[0].scene.bodies[0].velocity[0] == -2);
+  CHECK(runs.variants[1].scene.bodies[0].velocity[0] == -4);
+  CHECK(folder.faults("scene: variable.yaml\n"
+                      "set: {bodies.0.velocity: [\"${-2*w}\", 0]}\n"
+                      "variants: [{name: a}]\n"
+                      "error: {quantity: block.vx, compare: final, expected: 0}\n") ==
+        std::vector<std::string>{
+            "2: set.bodies.0.velocity: the scene says: bodies.0.velocity.0: no variable 'w' "
+            "(one of v), got '${-2*w}'"});
+}
+
 TEST_CASE("the studies that come with the program can be read and expanded") {
   const std::filesystem::path studies = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs/studies";
   int count = 0;

@@ -6,7 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cstdio>
+#include <filesystem>
 #include <string_view>
+#include <system_error>
 
 #include "describe_command_line.hpp"
 #include "engine/scene/catalogue.hpp"
@@ -14,6 +16,7 @@
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
 #include "mpmfast_version.hpp"
+#include "starters.hpp"
 
 namespace mpmfast {
 
@@ -23,7 +26,7 @@ constexpr int kMostThreads = 4096;
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, threads, jobs, steps, until, x = "time_s", progress = "auto";
+  std::string scene, out, topic, like, threads, jobs, steps, until, x = "time_s", progress = "auto";
   std::string frame, range;
   std::vector<std::string> set, columns, fields;
   bool force = false, markdown = false;
@@ -69,7 +72,8 @@ std::string check_progress(std::string& text) {
 std::string check_set(std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals != std::string::npos && equals > 0) return "";
-  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'", text);
+  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'{}", text,
+                     equals == std::string::npos ? ". No blanks may stand around '='" : "");
 }
 
 std::string check_out(std::string& text) { return text.empty() ? "a folder was expected, got ''" : ""; }
@@ -159,15 +163,27 @@ void add_report_options(CLI::App& command, RawOptions& raw) {
       ->type_name("FILE");
 }
 
+void add_new_options(CLI::App& command, RawOptions& raw) {
+  command.add_option("NAME", raw.scene, "The scene's name: NAME.yaml is written")->required()->type_name("");
+  std::vector<std::string> kinds;
+  for (const Starter& starter : kStarters) kinds.emplace_back(starter.name);
+  command
+      .add_option("--like", raw.like,
+                  fmt::format("One of {}; {} if not given", fmt::join(kinds, ", "), kinds[0]))
+      ->type_name("KIND");
+  command.add_flag("--force", raw.force, "Replace a file of that name");
+}
+
 /// Builds the commands; `raw` receives the values.
 struct Commands {
   CLI::App app{"mpmfast: material point method with multimaterial contact", "mpmfast"};
-  CLI::App *run, *resume, *check, *study, *plot, *report, *list, *schema, *man, *completion;
+  CLI::App *begin, *run, *resume, *check, *study, *plot, *report, *list, *schema, *man, *completion;
 
   explicit Commands(RawOptions& raw) {
     app.set_version_flag("--version",
                          fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
     app.require_subcommand(1);
+    begin = app.add_subcommand("new", "Write a scene to begin with");
     run = app.add_subcommand("run", "Run a scene");
     resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
@@ -178,6 +194,7 @@ struct Commands {
     man = app.add_subcommand("man", "Print the man page: mpmfast man | man -l -");
     completion =
         app.add_subcommand("completion", "Print the completion for bash: source <(mpmfast completion)");
+    add_new_options(*begin, raw);
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
     add_resume_options(*resume, raw);
@@ -225,6 +242,13 @@ int refuse(const std::string& message, const std::string& hint) {
   return kExitWrongInput;
 }
 
+/// Is the word more likely a scene than a command?
+bool file_like(const std::string& word) {
+  const std::string end = std::filesystem::path(word).extension().string();
+  std::error_code error;
+  return end == ".yaml" || end == ".yml" || std::filesystem::is_regular_file(word, error);
+}
+
 /// The command as a shell would take it again.
 std::string shell_text(int count, const char* const* arguments) {
   std::string out;
@@ -241,7 +265,8 @@ std::string shell_text(int count, const char* const* arguments) {
 
 CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   CommandLine line;
-  line.command = *commands.run      ? Command::run
+  line.command = *commands.begin    ? Command::new_scene
+                 : *commands.run    ? Command::run
                  : *commands.resume ? Command::resume
                  : *commands.check  ? Command::check
                  : *commands.study  ? Command::study
@@ -252,6 +277,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.scene = raw.scene;
   line.out = raw.out;
   line.topic = raw.topic;
+  line.like = raw.like;
   line.set = raw.set;
   line.columns = raw.columns;
   line.fields = raw.fields;
@@ -292,7 +318,8 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
   if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end()) {
     return {std::nullopt,
             refuse(fmt::format("unknown command '{}' (one of {})", first, fmt::join(names, ", ")),
-                   did_you_mean(first, names))};
+                   file_like(first) ? fmt::format("Did you mean 'mpmfast run {}'?", first)
+                                    : did_you_mean(first, names))};
   }
   try {
     commands.app.parse(count, arguments);

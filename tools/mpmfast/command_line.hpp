@@ -12,13 +12,14 @@
 
 namespace mpmfast {
 
-enum class Command { run, resume, check, study, plot, report, list, schema };
+enum class Command { new_scene, run, resume, check, study, plot, report, list, schema };
 enum class ProgressStyle { automatic, plain, none };
 
 struct CommandLine {
   Command command = Command::run;
-  std::string scene;  ///< or the study, or the folder to plot, to report or to go on with
-  std::string out, topic, x = "time_s";
+  std::string
+      scene;  ///< or the study, the folder to plot, to report or to go on with, the name of a new scene
+  std::string out, topic, like, x = "time_s";
   std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
   std::vector<std::string> columns;  ///< of a plot, expressions
   std::vector<std::string> fields;   ///< of a plot, of the particles

@@ -6,6 +6,7 @@
 
 namespace mpmfast {
 
+int new_command(const CommandLine& line);
 int run_command(const CommandLine& line);
 int resume_command(const CommandLine& line);
 int check_command(const CommandLine& line);

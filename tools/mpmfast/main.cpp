@@ -18,6 +18,8 @@ using namespace mpmfast;
 
 int perform(const CommandLine& line) {
   switch (line.command) {
+    case Command::new_scene:
+      return new_command(line);
     case Command::run:
       return run_command(line);
     case Command::resume:

@@ -10,8 +10,6 @@ namespace mpmfast {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 double constant(const std::optional<Formula>& formula, double otherwise, const Constants& constants) {
   return formula ? evaluate(formula->expression, constants) : otherwise;
 }

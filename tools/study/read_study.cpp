@@ -146,6 +146,8 @@ bool names_every_scene(const Axis& axis) {
 void read_top(const Node& root, Study& study, Problems& problems) {
   MapReader top(Value(root, "", problems), "a map {title, scene, set, variants, vary, reference, error, …}");
   if (!top.valid()) return;
+  if (index_of(root, "bodies") >= 0 && index_of(root, "scene") < 0)
+    return top.value().report("this is a scene, not a study", "Run it with 'mpmfast run'");
   study.title = study.file.stem().string();
   if (const auto title = top.find("title")) study.title = title->text().value_or("");
   const std::filesystem::path folder = study.file.parent_path();

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "expression.hpp"
+#include "engine/scene/expression.hpp"
 
 namespace mpmfast {
 

@@ -54,6 +54,27 @@ TEST_CASE("the power of a unit is refused: it would be read as a power of the qu
   CHECK(wrong("5 mm ^ 2") == "a unit takes no power (write (5 mm)^2) at '^ 2'");
 }
 
+TEST_CASE("an amount carries its unit through the arithmetic, a plain value does not") {
+  const auto amount = [](const std::string& text) {
+    const auto out = parsed(text).amount({});
+    return std::holds_alternative<Amount>(out) ? amount_text(std::get<Amount>(out))
+                                               : std::get<std::string>(out);
+  };
+  CHECK(value("5 mm + 2 s") == 2.005);
+  CHECK(amount("5 mm + 2 s") == "a time cannot be added to a length");
+  CHECK(amount("5 mm + 2 m") == "2.005 m");
+  CHECK(amount("6 m / 2 s") == "3 m/s");
+  CHECK(amount("2 kg * (3 m)^2 / (1 s)^2 / (1 m)^3") == "18 Pa");
+  CHECK(amount("2 K * 3 kg") == "6 kg*K");
+  CHECK(amount("(4 m)^-0.5 * 1") == "a length to the power -0.5 has no unit");
+  CHECK(amount("sqrt((4 m)^2) + hypot(3 m, 4 m)") == "9 m");
+  CHECK(amount("sin(90 deg) + step(2 m) + cos(0)") == "3");
+  CHECK(amount("atan2(1 m, 1 m) * 4") == fmt::format("{} rad", std::numbers::pi));
+  CHECK(amount("atan2(1 m, 1 s)") == "a time cannot be compared with a length");
+  CHECK(amount("1 m / 0") == "division by zero");
+  CHECK(amount("0 * -1") == "0");
+}
+
 TEST_CASE("functions and pi are known to an expression") {
   CHECK(value("sin(pi / 6)") == doctest::Approx(0.5).epsilon(1e-15));
   CHECK(value("atan2(1, -1)") == doctest::Approx(0.75 * std::numbers::pi).epsilon(1e-15));

@@ -1,44 +1,19 @@
-#include "expression.hpp"
+#include "engine/scene/expression.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <numbers>
 
-#include "engine/scene/quantity.hpp"
+#include "engine/scene/expression_functions.hpp"
 #include "engine/scene/suggest.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-struct Function {
-  const char* name;
-  int arguments;
-  double (*of)(double, double);
-};
-
-constexpr std::array<Function, 14> kFunctions{{
-    {"abs", 1, [](double x, double) { return std::abs(x); }},
-    {"sqrt", 1, [](double x, double) { return std::sqrt(x); }},
-    {"exp", 1, [](double x, double) { return std::exp(x); }},
-    {"log", 1, [](double x, double) { return std::log(x); }},
-    {"sin", 1, [](double x, double) { return std::sin(x); }},
-    {"cos", 1, [](double x, double) { return std::cos(x); }},
-    {"tan", 1, [](double x, double) { return std::tan(x); }},
-    {"atan", 1, [](double x, double) { return std::atan(x); }},
-    {"atan2", 2, [](double y, double x) { return std::atan2(y, x); }},
-    {"erf", 1, [](double x, double) { return std::erf(x); }},
-    {"step", 1, [](double x, double) { return x > 0 ? 1.0 : 0.0; }},
-    {"hypot", 2, [](double x, double y) { return std::hypot(x, y); }},
-    {"min", 2, [](double x, double y) { return std::min(x, y); }},
-    {"max", 2, [](double x, double y) { return std::max(x, y); }},
-}};
 
 constexpr int kDeepest = 64;  // parentheses, signs and powers within each other
 
@@ -134,6 +109,7 @@ class ExpressionParser {
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
     if (error != std::errc()) return fail("not a number");
     at_ = static_cast<std::size_t>(end - text_.data());
+    Dimensions dimensions{};
     skip();
     std::size_t last = at_;
     while (last < text_.size() && std::isalpha(static_cast<unsigned char>(text_[last]))) ++last;
@@ -141,11 +117,21 @@ class ExpressionParser {
       const auto unit = parse_unit(text_.substr(at_, last - at_), Measure::number);
       if (!std::holds_alternative<Unit>(unit)) return fail("an operator or a unit was expected");
       value = value * std::get<Unit>(unit).multiplier / std::get<Unit>(unit).divisor;
+      dimensions = std::get<Unit>(unit).dimensions;
       at_ = last;
       skip();  // "5 mm^2" is meant as an area, but would be (5 mm)^2
       if (at_ < text_.size() && text_[at_] == '^') return fail("a unit takes no power (write (5 mm)^2)");
+      note_unit_like_name();
     }
-    out_.codes_.push_back({Kind::number, value});
+    out_.codes_.push_back({Kind::number, value, 0, dimensions});
+  }
+
+  /// "5 mm/h": is h a name or the hour? Kept for those who know the names.
+  void note_unit_like_name() {
+    if (at_ >= text_.size() || (text_[at_] != '/' && text_[at_] != '*')) return;
+    std::size_t last = at_ + 1;
+    while (last < text_.size() && std::isalpha(static_cast<unsigned char>(text_[last]))) ++last;
+    out_.after_units_.push_back(text_.substr(at_ + 1, last - at_ - 1));
   }
 
   void word() {
@@ -214,47 +200,6 @@ class ExpressionParser {
 
 std::variant<Expression, std::string> Expression::parse(const std::string& text) {
   return ExpressionParser(text).parse();
-}
-
-double Expression::value(std::span<const double> of_names) const {
-  std::vector<double> stack;
-  const auto pop = [&] {
-    const double top = stack.back();
-    stack.pop_back();
-    return top;
-  };
-  for (const Code& code : codes_) {
-    if (code.kind == Kind::number) {
-      stack.push_back(code.number);
-    } else if (code.kind == Kind::name) {
-      stack.push_back(of_names[code.index]);
-    } else if (code.kind == Kind::negate) {
-      stack.back() = -stack.back();
-    } else {
-      const bool one = code.kind == Kind::call && kFunctions[code.index].arguments == 1;
-      const double b = one ? 0 : pop(), a = pop();
-      switch (code.kind) {
-        case Kind::add:
-          stack.push_back(a + b);
-          break;
-        case Kind::subtract:
-          stack.push_back(a - b);
-          break;
-        case Kind::multiply:
-          stack.push_back(a * b);
-          break;
-        case Kind::divide:
-          stack.push_back(a / b);
-          break;
-        case Kind::power:
-          stack.push_back(std::pow(a, b));
-          break;
-        default:
-          stack.push_back(kFunctions[code.index].of(a, b));
-      }
-    }
-  }
-  return stack.back();
 }
 
 std::vector<std::string> expression_functions() {
