@@ -232,12 +232,12 @@ TEST_CASE("a VTU file that was altered is refused or read, and no size in it is 
     CHECK(refused(std::string(text).replace(data + 8 * word, 8, std::string(8, '\xff'))));
   // One bit anywhere else: whatever it meets, there is an answer.
   std::size_t found = 0;
-  for (std::size_t at = data; at < text.size() - 32; ++at) {
+  for (std::size_t at = data; at < text.size() - 32; at += 7) {
     std::string altered = text;
     altered[at] = static_cast<char>(altered[at] ^ (1 << at % 8));
     found += refused(altered) ? 1u : 0u;
   }
-  CHECK(found > (text.size() - 32 - data) / 2);
+  CHECK(found > (text.size() - 32 - data) / 14);
 }
 
 TEST_CASE("a PVD file that is none is refused") {

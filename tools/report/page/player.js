@@ -32,6 +32,7 @@ class Player {
     this.time = element('span', {class: 'time', id: 'time'});
     const field = select(names.map(name => [name, fieldLabel(name)]), this.fieldName, name => this.choose(name));
     field.id = 'field';
+    this.fieldList = field;
     this.rangeList = select([['all', 'of all frames'], ['frame', 'of this frame'], ['extremes', 'all, with outliers']], 'all', range => { this.range = range; this.colour(); });
     this.rangeList.id = 'range';
     this.controls = element('div', {class: 'bar'}, element('label', {}, 'colour', field), this.rangeLabel = element('label', {}, 'range', this.rangeList),
@@ -41,7 +42,7 @@ class Player {
   }
 
   async choose(name) {
-    this.fieldName = name;
+    this.fieldName = this.fieldList.value = name;
     const column = NAMED_FIELDS.includes(name) ? null : await this.frames.field(name);
     if (this.fieldName !== name) return;  // another one was chosen meanwhile
     this.column = column;
