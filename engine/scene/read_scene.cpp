@@ -56,7 +56,7 @@ void read_head(MapReader& top, Scene& scene) {
   scene.title = scene.file.stem().string();
   if (const auto title = top.find("title")) scene.title = title->text().value_or("");
   const auto space = top.need("space", "plane_strain, plane_stress, axisymmetric or 3d");
-  if (space && (space->is_word("2d") || space->is_word("2D")))
+  if (space && (space->node().scalar == "2d" || space->node().scalar == "2D"))  // no words that are known
     space->complain("not known here (one of plane_strain, plane_stress, axisymmetric, 3d)",
                     "plane_strain is the usual one of two dimensions");
   else if (space)
@@ -94,7 +94,10 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
   if (!top.valid()) return;
   if (index_of(root, "scene") >= 0 && index_of(root, "bodies") < 0)
     return top.value().report("this is a study, not a scene", "Run it with 'mpmfast study'");
-  for (const char* key : {"include", "variables"}) top.find(key);  // done with (read_tree)
+  {
+    const Silence early(problems.recorder());                        // the schema has them from elsewhere
+    for (const char* key : {"include", "variables"}) top.find(key);  // done with (read_tree)
+  }
   read_head(top, scene);
   const int dimension = scene.dimension();
   const bool grid_known = read_grid(top, dimension, scene.grid);
