@@ -15,6 +15,12 @@ std::string Diagnostic::text() const {
   return out;
 }
 
+std::string Diagnostic::warning() const {
+  Diagnostic marked = *this;
+  marked.path = path.empty() ? "warning" : "warning: " + path;
+  return marked.text();
+}
+
 namespace {
 
 std::string all_of(const std::vector<Diagnostic>& diagnostics) {

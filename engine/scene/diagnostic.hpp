@@ -17,6 +17,8 @@ struct Diagnostic {
   std::string hint;  ///< e.g. "Did you mean 'GPa'?"; may be empty
 
   std::string text() const;
+  /// The same of what is no error: "file:line:column: warning: path: message".
+  std::string warning() const;
 };
 
 /// Every error found in a scene. what() is all of them, a line each.

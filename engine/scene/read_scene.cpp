@@ -118,8 +118,9 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return parse_scene(read_text(file), file, overrides);
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 std::vector<Diagnostic>* warnings) {
+  return parse_scene(read_text(file), file, overrides, warnings);
 }
 
 void record_scene(const std::string& text, const std::string& file, Recorder& recorder) {
@@ -131,14 +132,19 @@ void record_scene(const std::string& text, const std::string& file, Recorder& re
 }
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& file,
-                  const std::vector<Override>& overrides) {
+                  const std::vector<Override>& overrides, std::vector<Diagnostic>* warnings) {
   std::vector<std::string> sources{file.string()};
   for (const auto& [path, value] : overrides) sources.push_back(fmt::format("--set {}={}", path, value));
   Problems problems(sources);
   Scene scene;
   scene.file = file;
-  if (const auto root = read_tree(text, file, overrides, problems)) read_sections(*root, scene, problems);
+  const auto root = read_tree(text, file, overrides, problems);
+  if (root) read_sections(*root, scene, problems);
   if (!problems.empty()) throw SceneError(problems.sorted());
+  if (warnings) {
+    find_suspicions(*root, scene, problems);
+    *warnings = problems.sorted();
+  }
   scene.resolved_yaml = write_scene(scene);
   return scene;
 }

@@ -104,6 +104,9 @@ std::optional<Vec3> read_direction(const Value& value, int dimension, bool any);
 /// changes nothing. Nothing for a zero vector.
 std::optional<Vec3> unit_vector(const Vec3& vector);
 
+/// What a good scene says that is likely a mistake.
+void find_suspicions(const Node& root, const Scene& scene, Problems& found);
+
 /// The keys of a metal.
 std::string metal_text(const MetalSpec& metal);
 

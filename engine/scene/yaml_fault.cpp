@@ -130,7 +130,7 @@ std::optional<YamlFault> line_fault(const std::vector<std::string_view>& lines, 
   if (before.find(':') == std::string_view::npos && before[static_cast<std::size_t>(start) - 1] != '-')
     return YamlFault{above, start, "no ':' between a key and its value", ""};
   if (const std::size_t colon = before.find(':');
-      colon + 1 < before.size() && before.find(": ") == std::string_view::npos)
+      colon < before.size() - 1 && before.find(": ") == std::string_view::npos)
     return YamlFault{above, static_cast<int>(colon) + 1, "no blank after the ':' of a key", ""};
   if (first > start)
     return YamlFault{

@@ -284,6 +284,18 @@ check_new() {
   rm -rf plain.yaml scenes_*.yaml runs
 }
 
+# What is likely a mistake is told once, and the scene runs all the same.
+check_warnings() {
+  local command
+  for command in check 'run --steps 2 --progress none --out suspicious'; do
+    # shellcheck disable=SC2086
+    run 0 $command scene.yaml --set contact.friction=30
+    says err '--set contact.friction=30: warning: contact.friction: 30 is a lot of friction'
+    [[ $(grep -c warning: err) == 1 ]] || fail 'a warning is not told once'
+  done
+  rm -rf suspicious
+}
+
 check_plot() {
   local chart
   run 0 run scene.yaml --steps 4 --out plotted --progress none
@@ -351,6 +363,7 @@ check_stopped_study
 check_study_without_gnuplot
 check_wrong_study
 check_new
+check_warnings
 check_plot
 check_report
 printf '%d checks, %d failures\n' "$checks" "$failures"

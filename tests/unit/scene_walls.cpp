@@ -59,6 +59,10 @@ TEST_CASE("what is no YAML is told by what was done, at the place to mend") {
   CHECK(fault(plain_scene() + "title: a: b\n") ==
         "scene.yaml:8:9: not valid YAML: a second ':' in the value of a key. Put a text that holds ': ' in "
         "quotes");
+  CHECK(fault(plain_scene() + "gravity:\n  - ain\n    title: x\n") ==
+        "scene.yaml:10:5: not valid YAML: this line is indented more than line 9, which has its value "
+        "already. Keys of one "
+        "map begin in one column, entries of a list with '- '");
   // Brackets in comments, quotes and expressions do not count.
   CHECK(fault(plain_scene() + "# [\nname: \"{\"\ncell: ${min(1,2)}\ngravity: [0, 1]]\n") ==
         "scene.yaml:11:16: not valid YAML: this ']' closes nothing");

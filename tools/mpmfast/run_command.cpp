@@ -75,6 +75,14 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
     fmt::print("to go on         mpmfast resume {}\n", folder.string());
 }
 
+/// Reads the scene and says what in it is likely a mistake.
+Scene read_and_warn(const CommandLine& line) {
+  std::vector<Diagnostic> warnings;
+  Scene scene = read_scene(line.scene, line.overrides(), &warnings);
+  for (const Diagnostic& warning : warnings) fmt::print(stderr, "{}\n", warning.warning());
+  return scene;
+}
+
 fs::path output_folder(const CommandLine& line) {
   return line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
 }
@@ -110,7 +118,7 @@ int run_and_report(const CommandLine& line, RunOptions& options,
 }  // namespace
 
 int run_command(const CommandLine& line) {
-  const Scene scene = read_scene(line.scene, line.overrides());
+  const Scene scene = read_and_warn(line);
   const fs::path folder = output_folder(line);
   std::error_code error;
   if (!line.force && fs::exists(fs::symlink_status(folder, error))) {
@@ -135,7 +143,7 @@ int resume_command(const CommandLine& line) {
 }
 
 int check_command(const CommandLine& line) {
-  const Scene scene = read_scene(line.scene, line.overrides());
+  const Scene scene = read_and_warn(line);
   std::string plan = describe_plan(scene);
   while (!plan.empty() && plan.back() == '\n') plan.pop_back();
   fmt::print("{}\n", plan);

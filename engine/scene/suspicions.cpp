@@ -1,0 +1,227 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "engine/scene/sections.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Of waves of pressure in the material as it lies there, m/s; 0 where nothing deforms.
+struct WaveSpeed {
+  double operator()(const NeoHookeanSpec& m) const { return of(m.bulk + 4 * m.shear / 3, m.density); }
+  double operator()(const LinearElasticSpec& m) const {
+    return of(m.young * (1 - m.poisson) / ((1 + m.poisson) * (1 - 2 * m.poisson)), m.density);
+  }
+  double operator()(const LogarithmicNeoHookeanSpec& m) const {
+    return of(m.lambda + 2 * m.shear, m.density);
+  }
+  double operator()(const MetalSpec& m) const { return of(m.bulk + 4 * m.shear / 3, m.density); }
+  double operator()(const RigidSpec&) const { return 0; }
+
+ private:
+  static double of(double modulus, double density) { return std::sqrt(modulus / density); }
+};
+
+double density_of(const MaterialSpec& material) {
+  return std::visit([](const auto& model) { return model.density; }, material.model);
+}
+
+/// What makes a reader of the scene raise an eyebrow: unit mistakes above all.
+class Suspicions {
+ public:
+  Suspicions(const Node& root, const Scene& scene, Problems& found)
+      : root_(root), scene_(scene), found_(found) {
+    for (const MaterialSpec& material : scene.materials)
+      speed_.push_back(std::visit(WaveSpeed{}, material.model));
+  }
+
+  void all() {
+    materials();
+    bodies();
+    if (!doubtful_) times();
+    friction(scene_.contact.friction, "contact.friction");
+    for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
+      if (scene_.contact.pairs[k].law.friction != scene_.contact.friction)
+        friction(scene_.contact.pairs[k].law.friction, fmt::format("contact.pairs.{}.friction", k));
+    if (scene_.output.frames > kMostFrames)
+      say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
+  }
+
+ private:
+  static constexpr int kMostFrames = 1000;
+  static constexpr double kFewestCells = 2, kMostSteps = 1e8, kMostFriction = 2;
+  static constexpr double kLightest = 1e-1, kHeaviest = 3e4;  // kg/m³
+  static constexpr double kSlowest = 1, kFastest = 2e4;       // m/s
+
+  /// The place of a path, or of as much of it as the scene states.
+  Place place_of(const std::string& path) const {
+    const Node* node = &root_;
+    for (std::size_t at = 0; at <= path.size();) {
+      const std::size_t end = std::min(path.find('.', at), path.size());
+      const std::string part = path.substr(at, end - at);
+      const int key = index_of(*node, part);
+      if (key >= 0) {
+        node = &node->items[static_cast<std::size_t>(key)];
+      } else if (node->kind == Node::Kind::list && !part.empty() &&
+                 std::isdigit(static_cast<unsigned char>(part[0])) && std::stoul(part) < node->items.size()) {
+        node = &node->items[std::stoul(part)];
+      } else {
+        break;
+      }
+      at = end + 1;
+    }
+    return node->place;
+  }
+
+  void say(const std::string& path, const std::string& what, const std::string& hint = "") {
+    found_.add(place_of(path), path, what, hint);
+  }
+
+  void materials() {
+    std::set<int> used;
+    for (const BodySpec& body : scene_.bodies) used.insert(body.material);
+    for (std::size_t m = 0; m < scene_.materials.size(); ++m) {
+      const MaterialSpec& material = scene_.materials[m];
+      const std::string path = "materials." + material.name;
+      if (!used.contains(static_cast<int>(m))) {  // a file that others include may hold more than each needs
+        if (!found_.is_included(place_of(path).source)) say(path, "no body is made of this material");
+        continue;
+      }
+      if (speed_[m] == 0) continue;
+      const double density = density_of(material);
+      const bool heavy = density < kLightest || density > kHeaviest;
+      const bool fast = speed_[m] < kSlowest || speed_[m] > kFastest;
+      doubtful_ = doubtful_ || heavy || fast;
+      if (heavy)
+        say(path + ".density", fmt::format("{:.4g} kg/m^3 is no density of a solid or a liquid", density),
+            meant(density));
+      else if (fast)
+        say(path,
+            fmt::format("waves would run at {:.3g} m/s in it (usual: {:g} to {:g})", speed_[m], kSlowest,
+                        kFastest),
+            speed_[m] > kFastest ? "Is the density too small, or a modulus too large?"
+                                 : "Is the density too large, or a modulus too small?");
+    }
+  }
+
+  /// 2780 g/cm^3 for 2780 kg/m^3, 2.78 kg/cm^3 for 2.78 g/cm^3: a thousand, or a million, too much or too
+  /// little.
+  static std::string meant(double density) {
+    for (const double factor : {1e-3, 1e3, 1e-6, 1e6}) {
+      const double other = density * factor;
+      if (other >= 10 && other <= kHeaviest)
+        return fmt::format("Did you mean {:.4g} kg/m^3, that is {:.4g} g/cm^3?", other, other / 1e3);
+    }
+    return "";
+  }
+
+  /// The entry of the list that each body comes from; those of a bitmap share one.
+  std::vector<std::string> body_paths() const {
+    std::vector<std::string> out;
+    const int index = index_of(root_, "bodies");
+    if (index < 0) return out;
+    const Node& list = root_.items[static_cast<std::size_t>(index)];
+    for (std::size_t k = 0; k < list.items.size() && out.size() < scene_.bodies.size(); ++k) {
+      const std::string path = fmt::format("bodies.{}", k);
+      const bool bitmap = index_of(list.items[k], "bitmap") >= 0;
+      const int name = index_of(list.items[k], "name");
+      const std::string stem = name < 0 ? fmt::format("body{}", k + 1)
+                                        : list.items[k].items[static_cast<std::size_t>(name)].scalar;
+      do {
+        out.push_back(path);
+      } while (bitmap && out.size() < scene_.bodies.size() &&
+               scene_.bodies[out.size()].name.rfind(stem + "_", 0) == 0);
+    }
+    out.resize(scene_.bodies.size(), "bodies");
+    return out;
+  }
+
+  void bodies() {
+    const std::vector<std::string> paths = body_paths();
+    for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
+      const BodySpec& body = scene_.bodies[b];
+      const double speed = speed_[static_cast<std::size_t>(body.material)];
+      if (speed == 0) continue;
+      const double moves = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
+      if (moves > speed)
+        say(paths[b] + ".velocity",
+            fmt::format("body '{}' flies at {:.4g} m/s, faster than waves in it ({:.4g} m/s)", body.name,
+                        moves, speed));
+      if (const double cells = thickness(body) / scene_.grid.cell; cells < kFewestCells * (1 - 1e-9))
+        say(paths[b],
+            fmt::format("body '{}' is only {:.2g} cells thick, which the grid hardly sees", body.name, cells),
+            "Smaller cells");
+      const auto fewest = std::min_element(body.particles_per_cell.begin(),
+                                           body.particles_per_cell.begin() + scene_.dimension());
+      if (*fewest < 2)
+        say(paths[b] + ".particles_per_cell",
+            fmt::format("body '{}' has one particle along a cell's side: holes open early (2 is usual)",
+                        body.name));
+    }
+  }
+
+  /// Does a body reach a wall? A slice between planes of symmetry is as thick as what it stands for.
+  bool at_wall(const Bounds& box, std::size_t axis) const {
+    return std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(), [&](const BoundarySpec& boundary) {
+      const auto* wall = std::get_if<WallSpec>(&boundary.condition);
+      if (!wall || static_cast<std::size_t>(wall->axis) != axis) return false;
+      return std::abs(wall->position - (wall->upper ? box.upper : box.lower)[axis]) < 1e-6 * scene_.grid.cell;
+    });
+  }
+
+  /// The least extent; infinite where it is not known.
+  double thickness(const BodySpec& body) const {
+    if (std::holds_alternative<BitmapShape>(body.shape)) return std::numeric_limits<double>::infinity();
+    const Bounds box = bounds(body.shape);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < static_cast<std::size_t>(scene_.dimension()); ++k)
+      if (!at_wall(box, k)) least = std::min(least, box.upper[k] - box.lower[k]);
+    if (const auto* ring = std::get_if<RingShape>(&body.shape))
+      least = std::min(least, ring->outer - ring->inner);
+    return least;
+  }
+
+  void times() {
+    double crossing = std::numeric_limits<double>::infinity(), fastest = 0;
+    for (const BodySpec& body : scene_.bodies) {
+      const double speed = speed_[static_cast<std::size_t>(body.material)];
+      if (speed == 0) continue;
+      fastest = std::max(fastest, speed);
+      crossing = std::min(crossing, thickness(body) / speed);
+    }
+    const double end = scene_.time.end;
+    const double steps = end * fastest / (scene_.time.cfl * scene_.grid.cell);
+    if (std::isfinite(crossing) && end < crossing)
+      say("time.end",
+          fmt::format("{:.3g} s is over before a wave has crossed any body ({:.3g} s)", end, crossing));
+    if (steps > kMostSteps)
+      say("time.end", fmt::format("about {:.2g} steps of {:.2g} s", steps, end / steps),
+          "Is the time in the right unit?");
+  }
+
+  void friction(double coefficient, const std::string& path) {
+    if (coefficient > kMostFriction)
+      say(path, fmt::format("{:g} is a lot of friction (steel on steel: 0.1 to 0.8)", coefficient),
+          "Is it an angle, or percent?");
+  }
+
+  const Node& root_;
+  const Scene& scene_;
+  Problems& found_;
+  std::vector<double> speed_;  ///< of waves in each material
+  bool doubtful_ = false;      ///< these speeds
+};
+
+}  // namespace
+
+void find_suspicions(const Node& root, const Scene& scene, Problems& found) {
+  Suspicions(root, scene, found).all();
+}
+
+}  // namespace mpmfast

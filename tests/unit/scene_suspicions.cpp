@@ -1,0 +1,104 @@
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <set>
+
+#include "scene_helpers.hpp"
+
+using namespace mpmfast;
+using namespace mpmfast::test;
+
+namespace {
+
+/// Every warning of a good scene, a line each.
+std::string warnings(const std::string& text, const std::vector<Override>& overrides = {}) {
+  std::vector<Diagnostic> found;
+  parse_scene(text, "scene.yaml", overrides, &found);
+  std::string out;
+  for (const Diagnostic& one : found) out += one.warning() + "\n";
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a plain scene raises no suspicion, and one that nobody asks about none either") {
+  CHECK(warnings(plain_scene()).empty());
+  CHECK(warnings(solid_scene()).empty());
+}
+
+TEST_CASE("a density that nothing has is told with what was likely meant") {
+  CHECK(warnings(plain_scene(), {{"materials.steel.density", "7850 g/cm^3"}}) ==
+        "--set materials.steel.density=7850 g/cm^3: warning: materials.steel.density: 7.85e+06 kg/m^3 is no "
+        "density of a "
+        "solid or a liquid. Did you mean 7850 kg/m^3, that is 7.85 g/cm^3?\n");
+  CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3", "7.85 mg/m^3")) ==
+        "scene.yaml:5:43: warning: materials.steel.density: 7.85e-06 kg/m^3 is no density of a solid or a "
+        "liquid\n");
+  CHECK(holds(warnings(replaced(plain_scene(), "7.85 g/cm^3", "30.1 g/cm^3")),
+              "3.01e+04 kg/m^3 is no density"));
+  CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3", "29.9 g/cm^3")).empty());
+}
+
+TEST_CASE("waves that run too fast or too slowly tell of a modulus in the wrong unit") {
+  // c = sqrt(1.346 E / rho) at a Poisson's ratio of 0.3.
+  CHECK(warnings(replaced(plain_scene(), "210 GPa", "21000 GPa")) ==
+        "scene.yaml:5:10: warning: materials.steel: waves would run at 6e+04 m/s in it (usual: 1 to 20000). "
+        "Is the density "
+        "too small, or a modulus too large?\n");
+  CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210")), "waves would run at 0.19 m/s"));
+}
+
+TEST_CASE(
+    "a material of which nothing is made, a blow faster than sound, a sheet and lone particles are told") {
+  CHECK(warnings(replaced(plain_scene(), "bodies:", "  lead: {model: rigid}\nbodies:")) ==
+        "scene.yaml:6:9: warning: materials.lead: no body is made of this material\n");
+  CHECK(warnings(replaced(plain_scene(), "material: steel", "material: steel, velocity: [0, 7 km/s]")) ==
+        "scene.yaml:7:91: warning: bodies.0.velocity: body 'block' flies at 7000 m/s, faster than waves in "
+        "it (6001 m/s)\n");
+  CHECK(holds(warnings(replaced(plain_scene(), "4 mm, 3 mm", "4 mm, 2.5 mm")),
+              "scene.yaml:7:5: warning: bodies.0: body 'block' is only 1.5 cells thick"));
+  CHECK(warnings(replaced(plain_scene(), "4 mm, 3 mm", "4 mm, 2.5 mm") +
+                 "boundaries: {bottom: {wall: sliding, position: 1 mm}}\n")
+            .empty());
+  CHECK(holds(warnings(plain_scene(), {{"bodies.0.particles_per_cell", "[1, 2]"}}),
+              "warning: bodies.0.particles_per_cell: body 'block' has one particle along a cell's side"));
+  CHECK(warnings(solid_scene(), {{"bodies.0.particles_per_cell", "2"}}).empty());
+}
+
+TEST_CASE("times, friction and frames far from the usual are told") {
+  // The block is 2 mm high, waves run at 6001 m/s: 0.333 us.
+  CHECK(warnings(plain_scene(), {{"time.end", "0.34 us"}}).empty());
+  CHECK(warnings(plain_scene(), {{"time.end", "0.33 us"}}) ==
+        "--set time.end=0.33 us: warning: time.end: 3.3e-07 s is over before a wave has crossed any body "
+        "(3.33e-07 s)\n");
+  CHECK(holds(warnings(plain_scene(), {{"time.end", "10 s"}}),
+              "warning: time.end: about 1.2e+08 steps of 8.3e-08 s"));
+  CHECK(warnings(plain_scene(), {{"contact.friction", "2"}}).empty());
+  CHECK(holds(warnings(plain_scene(), {{"contact.friction", "30"}}),
+              "warning: contact.friction: 30 is a lot of friction"));
+  CHECK(holds(warnings(plain_scene(), {{"output.frames", "1001"}}),
+              "warning: output.frames: 1001 particle files"));
+  CHECK(warnings(plain_scene(), {{"output.frames", "1000"}}).empty());
+}
+
+TEST_CASE(
+    "the scenes that come with the program raise no suspicion, but for those that are meant to be hard") {
+  const std::set<std::string> meant{
+      "clouds.yaml",             // bodies of one and a few particles
+      "ratio.yaml",              // a density of a thousand times the other
+      "rest.yaml",               // a block of four particles
+      "sheet.yaml",              // a sheet of one row of particles
+      "sheet_over_corner.yaml",  // the same
+      "twenty_fields.yaml",      // slivers that meet at a node
+  };
+  std::set<std::string> found;
+  for (const char* folder : {"configs", "configs/hard", "configs/bench", "configs/starters"})
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(MPMFAST_SOURCE_DIR) / folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      std::vector<Diagnostic> all;
+      read_scene(entry.path(), {}, &all);
+      if (!all.empty()) found.insert(entry.path().filename().string());
+    }
+  CHECK(found == meant);
+}
