@@ -1,5 +1,5 @@
-/// @file Two codes coupled: mpmfast moves the bodies, this program the air around them, which drags on every particle.
-/// usage: drag SCENE.yaml [RATE in 1/s]
+/// @file Two codes coupled: mpmfast moves the bodies, this program the air around them, which drags on every
+/// particle. usage: drag SCENE.yaml [RATE in 1/s]
 
 #include <mpmfast/simulation.hpp>
 
