@@ -57,7 +57,8 @@ MapSpec read_map(const Value& value, const std::vector<Axis>& axes) {
   if (columns && panels && out.panels == out.columns) columns->report("is the axis of panels");
   if (const auto judged = map.find("judged")) {
     const std::string text = judged->text().value_or("");
-    for (std::size_t k = 0; columns && k < axes[out.columns].choices.size(); ++k)
+    const bool known = columns && out.columns < axes.size();  // a study without axes has none to name
+    for (std::size_t k = 0; known && k < axes[out.columns].choices.size(); ++k)
       if (axes[out.columns].choices[k].name == text) out.judged = k;
     if (!out.judged) judged->complain("no such value of the columns' axis");
   }
