@@ -259,7 +259,7 @@ def messages_of(source):
     """All text of the program's sources, literals that continue on the next line joined."""
     text = ""
     for folder in ("engine", "tools"):
-        for path in sorted((source / folder).rglob("*.cpp")):
+        for path in sorted((source / folder).rglob("*.?pp")):
             text += path.read_text(encoding="utf-8")
     return re.sub(r'"\s*\n\s*"', "", text).replace('{:', "{").replace('\\"', '"')
 

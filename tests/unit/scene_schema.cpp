@@ -101,6 +101,10 @@ std::string path_of(const std::string& pattern) {
 
 /// Does the scene state this key? Of materials, only the first counts.
 bool is_given(const std::string& text, const std::string& pattern, const std::string& key) {
+  // `grid` is a key of `output`, too.
+  const std::size_t output = text.find("\noutput:");
+  if (pattern.starts_with("output."))
+    return output != std::string::npos && holds(text.substr(output), key + ":");
   const std::size_t first = pattern.starts_with("materials") ? text.find("  a: {") : 0;
   const std::size_t end = pattern.starts_with("materials") ? text.find('\n', first) : text.size();
   return holds(text.substr(first, end - first), key + ":");
