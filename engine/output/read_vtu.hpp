@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "engine/output/vtu.hpp"
+
 namespace mpmfast {
 
 /// One array of a VTU file: what it is, and where its data lie.
@@ -42,19 +44,10 @@ class VtuReader {
   /// The values as they were written. Throws FileError when there is no such array of this type.
   template <class T>
   std::vector<T> read(std::string_view name) const {
-    return unpack<T>(named(name, type_name<T>()));
+    return unpack<T>(named(name, vtu_type<T>()));
   }
 
  private:
-  template <class T>
-  static constexpr std::string_view type_name() {
-    if constexpr (std::is_same_v<T, double>) return "Float64";
-    if constexpr (std::is_same_v<T, float>) return "Float32";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-    if constexpr (std::is_same_v<T, std::uint16_t>) return "UInt16";
-    if constexpr (std::is_same_v<T, std::uint32_t>) return "UInt32";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-  }
   template <class T>
   std::vector<T> unpack(const VtuArray& array) const {
     std::vector<T> values(checked_bytes(array) / sizeof(T));

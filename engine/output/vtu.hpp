@@ -13,6 +13,17 @@
 
 namespace mpmfast {
 
+/// What a VTU file calls a type of number.
+template <class T>
+constexpr std::string_view vtu_type() {
+  if constexpr (std::is_same_v<T, double>) return "Float64";
+  if constexpr (std::is_same_v<T, float>) return "Float32";
+  if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
+  if constexpr (std::is_same_v<T, std::uint16_t>) return "UInt16";
+  if constexpr (std::is_same_v<T, std::uint32_t>) return "UInt32";
+  if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
+}
+
 /// Gathers the arrays of one file; write() puts them to disk.
 class VtuFile {
  public:
@@ -23,21 +34,12 @@ class VtuFile {
   template <class T>
   void add_point_data(std::string_view name, const std::vector<T>& values,
                       std::span<const std::string_view> components = {}) {
-    point_data_ += array_tag(type_name<T>(), name, components.size(), components, bytes_of(values));
+    point_data_ += array_tag(vtu_type<T>(), name, components.size(), components, bytes_of(values));
   }
 
   void write(const std::filesystem::path& path, double time) const;
 
  private:
-  template <class T>
-  static constexpr std::string_view type_name() {
-    if constexpr (std::is_same_v<T, double>) return "Float64";
-    if constexpr (std::is_same_v<T, float>) return "Float32";
-    if constexpr (std::is_same_v<T, std::uint8_t>) return "UInt8";
-    if constexpr (std::is_same_v<T, std::uint16_t>) return "UInt16";
-    if constexpr (std::is_same_v<T, std::uint32_t>) return "UInt32";
-    if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-  }
   template <class T>
   static std::string_view bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
