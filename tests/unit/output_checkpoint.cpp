@@ -13,7 +13,10 @@ using namespace output_test;
 
 /// HDF5 1.10 loses a few KiB of its own when it cannot write; the address sanitizer asks here what to pass
 /// over.
-extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5\n"; }
+extern "C" __attribute__((visibility("default"))) const char*
+__lsan_default_suppressions() {  // seen by the sanitizer
+  return "leak:libhdf5\n";
+}
 
 namespace {
 
