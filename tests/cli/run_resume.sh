@@ -71,6 +71,15 @@ check_resume() {
   run 0 resume stepped --progress none
   [[ $(grep '"checksum"' stepped/run.json) == "$whole" ]] || fail 'a resumed run has another checksum'
   cmp -s whole/history.csv stepped/history.csv || fail 'a resumed run has another history'
+  local grid='--set output.grid=true --set output.frames=3 --progress none'
+  run 0 run scene.yaml --out whole_grid $grid
+  run 0 run scene.yaml --out stepped_grid --steps 2 $grid
+  checks=$((checks + 1))
+  [[ $(ls stepped_grid/grid) != $(ls whole_grid/grid) ]] || fail 'two steps wrote every frame of the nodes'
+  run 0 resume stepped_grid --progress none
+  checks=$((checks + 1))
+  diff -r whole_grid/grid stepped_grid/grid >out && cmp whole_grid/grid.pvd stepped_grid/grid.pvd >>out ||
+    fail 'a resumed run has other files of the nodes'
   run 4 resume nowhere
   says err 'nowhere holds no checkpoint'
   run 0 run scene.yaml --out spoilt --steps 2 --progress none

@@ -110,3 +110,10 @@ function placeTip(tip, x, y) {
   tip.style.left = Math.max(0, left) + 'px';
   tip.style.top = Math.max(0, Math.min(y + 14, room.height - size.height)) + 'px';
 }
+
+// Draws a view once before the screen is drawn next, however often it is asked to.
+function drawSoon(view) {
+  if (view.waits) return;
+  view.waits = true;
+  requestAnimationFrame(() => { view.waits = false; view.draw(); });
+}

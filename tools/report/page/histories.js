@@ -29,10 +29,11 @@ class Histories {
       [usual, element('button', {onclick: () => this.showUsual(usual)}, usual.name)]);
     this.chooseTab = element('button', {id: 'choose', onclick: () => this.choose()}, 'choose\u2026');
     this.chooser = element('div', {class: 'chooser', hidden: true});
-    this.search = element('input', {type: 'search', placeholder: 'find a column', hidden: true, 'aria-label': 'find a column', oninput: () => this.filter()});
+    this.search = element('input', {type: 'search', oninput: () => this.filter()});
+    this.finder = element('label', {hidden: true}, 'find', this.search);
     const against = select(this.names.map(name => [name, columnLabel(name)]), this.x, name => { this.x = name; this.draw(); });
     this.root = element('section', {class: 'card', id: 'histories'}, element('h2', {}, 'Histories'),
-      element('div', {class: 'bar'}, ...this.tabs.map(([, button]) => button), this.chooseTab, this.search, element('span', {class: 'grow'}),
+      element('div', {class: 'bar'}, ...this.tabs.map(([, button]) => button), this.chooseTab, this.finder, element('span', {class: 'grow'}),
         element('label', {}, 'against', against)),
       this.chooser, this.chart.root,
       element('p', {class: 'hint'}, 'Drag to zoom in, double-click for everything; with the chart in focus the wheel zooms.'));
@@ -42,7 +43,7 @@ class Histories {
   press(button) {
     for (const [, other] of this.tabs) other.setAttribute('aria-pressed', other === button);
     this.chooseTab.setAttribute('aria-pressed', this.chooseTab === button);
-    this.chooser.hidden = this.search.hidden = button !== this.chooseTab;
+    this.chooser.hidden = this.finder.hidden = button !== this.chooseTab;
   }
 
   // Of many bodies, what there is of all together.

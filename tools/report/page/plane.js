@@ -189,12 +189,7 @@ class PlaneView {
     }, {passive: false});
   }
 
-  // Once before the screen is drawn next.
-  later() {
-    if (this.waits) return;
-    this.waits = true;
-    requestAnimationFrame(() => { this.waits = false; this.draw(); });
-  }
+  later() { drawSoon(this); }
 }
 
 function darker(colour) {

@@ -255,9 +255,5 @@ class SpaceView {
     }, {passive: false});
   }
 
-  later() {
-    if (this.waits) return;
-    this.waits = true;
-    requestAnimationFrame(() => { this.waits = false; this.draw(); });
-  }
+  later() { drawSoon(this); }
 }
