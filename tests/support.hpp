@@ -22,6 +22,14 @@
 
 namespace mpmfast::test {
 
+/// Do the sanitizers watch? Everything is some 20 times slower then, so long cases take fewer steps, or are
+/// passed over where others run the same code.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool kSanitized = true;
+#else
+inline constexpr bool kSanitized = false;
+#endif
+
 inline Scene scene_from(const std::string& yaml, const std::vector<Override>& overrides = {}) {
   return parse_scene(yaml, "test.yaml", overrides);
 }

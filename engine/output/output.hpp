@@ -177,10 +177,11 @@ struct RunSummary {
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::optional<Outflow> outflow;  ///< with grid.leaving: outflow
   std::string checksum;
-  std::string command;                 ///< the command line
-  std::vector<std::string> overrides;  ///< --set arguments
-  std::uint64_t resumes = 0;           ///< how often the run went on from a checkpoint
-  std::string resolved_yaml;           ///< Scene::resolved_yaml, of which run.json holds the hash
+  std::string command;                      ///< the command line
+  std::vector<std::string> overrides;       ///< --set arguments
+  std::vector<std::string> scene_warnings;  ///< what in the scene is likely a mistake
+  std::uint64_t resumes = 0;                ///< how often the run went on from a checkpoint
+  std::string resolved_yaml;                ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 
 // Beyond these a run is worth a second look; the compaction of the ellipses stays below each by a factor of

@@ -147,12 +147,13 @@ Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins,
       if (domains[listed[j]].owner != p.owner && bins.first_common(listed[i], listed[j]) == bin)
         sum.area += common_area(p, domains[listed[j]]);
     if (bins.of(p.centre) != bin) continue;
-    const bool inside = std::any_of(listed.begin(), listed.end(), [&](std::uint32_t q) {
+    const auto other = std::find_if(listed.begin(), listed.end(), [&](std::uint32_t q) {
       return domains[q].owner != p.owner && holds(domains[q], p.centre);
     });
-    if (!inside) continue;
+    if (other == listed.end()) continue;
     sum.inside += p.area();
     ++sum.particles_inside;
+    sum.owners = {p.owner, domains[*other].owner};
   }
   return sum;
 }
@@ -190,6 +191,7 @@ Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads)
     sum.area += part.area;
     sum.inside += part.inside;
     sum.particles_inside += part.particles_inside;
+    if (part.particles_inside > 0) sum.owners = part.owners;
   }
   return sum;
 }

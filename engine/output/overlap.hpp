@@ -3,6 +3,7 @@
 /// @file Interpenetration: how much of the plane two bodies both claim.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "engine/state/particles.hpp"
@@ -26,6 +27,7 @@ struct Overlap {
   /// tile exactly and common slivers add to `area`; here they do not show.
   double inside = 0;
   std::uint64_t particles_inside = 0;
+  std::pair<int, int> owners{-1, -1};  ///< of such a particle, and of the domain that it lies in
 };
 
 /// Area common to two domains, m².

@@ -2,11 +2,10 @@
 
 #include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "engine/errors.hpp"
-#include "engine/output/overlap.hpp"
 #include "engine/scene/names.hpp"
+#include "engine/step/overlap_at_start.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
 
@@ -16,19 +15,6 @@ namespace {
 
 std::string in_mebibytes(std::size_t bytes) {
   return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0);
-}
-
-/// What the bodies share before anything moves; nothing where that is round-off.
-std::string overlap_text(const State<2>& state) {
-  std::vector<int> owner(state.bodies.size());
-  std::iota(owner.begin(), owner.end(), 0);
-  const std::vector<ParticleDomain> domains = particle_domains(state.particles, state.bodies, owner);
-  const Overlap overlap = measure_overlap(domains, state.threads);
-  double all = 0;
-  for (const ParticleDomain& domain : domains) all += domain.area();
-  if (overlap.area <= 1e-9 * all) return "";
-  return fmt::format("{:.4g} m^2, {:.2g} % of all bodies ({} particles lie inside another body)",
-                     overlap.area, 100 * overlap.area / all, overlap.particles_inside);
 }
 
 /// @param bytes  of the columns and the keys of the sort
@@ -44,7 +30,7 @@ template <int Dim>
 std::string describe(const Scene& scene) {
   Step<Dim> step(scene);
   std::string overlap;
-  if constexpr (Dim == 2) overlap = overlap_text(step.state());
+  if constexpr (Dim == 2) overlap = overlap_at_start(step.state(), scene).text;
   const double dt = step.stable_dt(), steps = std::ceil(scene.time.end / dt);
   std::string text = fmt::format("{}\n", scene.title.empty() ? scene.file.filename().string() : scene.title);
   const auto line = [&](const char* name, const std::string& value) {

@@ -12,6 +12,7 @@
 #include "engine/output/checkpoint_file.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/make_row.hpp"
+#include "engine/step/overlap_at_start.hpp"
 #include "engine/step/run_counters.hpp"
 #include "engine/step/run_log.hpp"
 #include "engine/step/step.hpp"
@@ -37,6 +38,7 @@ RunOrigin first_origin(const Scene& scene, const RunOptions& options) {
   origin.scene_name = scene.file.filename().string();
   origin.command = options.command;
   origin.overrides = options.overrides;
+  origin.warnings = options.scene_warnings;
   origin.end = std::min(scene.time.end, options.until);
   origin.max_steps = options.max_steps;
   return origin;
@@ -79,6 +81,7 @@ class Run {
   /// From the start.
   Run(const Scene& scene, const RunOptions& options) : Run(scene, options, first_origin(scene, options)) {
     prepare_folder(options.folder, scene, options.force);
+    if constexpr (Dim == 2) warn_of_overlap();
     history_.emplace(options.folder, scene);
     log_.emplace(options.folder, figures());
     if (scene.output.frames > 0) series_.emplace(options.folder, scene);
@@ -143,6 +146,13 @@ class Run {
       : scene_(scene), options_(options), origin_(origin), step_(scene), counters_(scene) {
     origin_.seeding = seeding_hash(step_.state().particles);
     counters_.last_sums = step_.sums();
+  }
+
+  void warn_of_overlap() {
+    const OverlapAtStart overlap = overlap_at_start(step_.state(), scene_);
+    if (!overlap.is_likely_a_mistake) return;
+    origin_.warnings.push_back(fmt::format("bodies overlap before anything moves: {}", overlap.text));
+    if (options_.warn) options_.warn(origin_.warnings.back());
   }
 
   void loop() {
@@ -296,6 +306,7 @@ class Run {
     if (s.spacing > 0) s.spacing_body = scene_.bodies[counters_.spacing.body].name;
     s.command = origin_.command;
     s.overrides = origin_.overrides;
+    s.scene_warnings = origin_.warnings;
     s.resumes = counters_.resumes;
     return s;
   }

@@ -36,6 +36,8 @@ struct RunOptions {
   double until = std::numeric_limits<double>::infinity();  ///< s
   std::string command;
   std::vector<std::string> overrides;
+  std::vector<std::string>
+      scene_warnings;  ///< what in the scene is likely a mistake, for run.json and run.log
   std::function<void(const Progress&)> progress;  ///< may be empty
   std::function<void(const std::string&)> warn;   ///< may be empty
   const volatile int* stop_signal = nullptr;      ///< non-zero: finish the step and stop

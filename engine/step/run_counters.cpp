@@ -37,6 +37,7 @@ void RunOrigin::visit(Archive& archive) {
   archive.list("origin/scene_name", scene_name);
   archive.list("origin/command", command);
   visit_texts(archive, "origin/overrides", overrides);
+  visit_texts(archive, "origin/warnings", warnings);
   archive.number("origin/end", end);
   archive.number("origin/max_steps", max_steps);
 }

@@ -66,7 +66,8 @@ struct RunOrigin {
   std::string program;              ///< that began it
   std::string scene_name, command;
   std::vector<std::string> overrides;
-  double end = 0;  ///< s
+  std::vector<std::string> warnings;  ///< of the scene
+  double end = 0;                     ///< s
   std::uint64_t max_steps = std::numeric_limits<std::uint64_t>::max();
 
   void visit(Archive& archive);

@@ -17,6 +17,7 @@ RunLog::RunLog(const std::filesystem::path& folder, const RunSummary& figures)
   fmt::print(file_, "{}\n{}\n{}: {} particles in {} velocity fields, {}-D, {} threads\n", program_text(),
              figures.command, figures.scene_name, figures.particles, figures.fields, figures.dimension,
              figures.threads);
+  for (const std::string& warning : figures.scene_warnings) fmt::print(file_, "{}\n", warning);
   fmt::print(file_, "{:>10} {:>12} {:>12} {:>10} {:>17} {:>13}\n", "step", "time (s)", "dt (s)", "wall (s)",
              "particle-steps/s", "energy error");
   file_.flush();

@@ -293,6 +293,16 @@ check_warnings() {
     says err '--set contact.friction=30: warning: contact.friction: 30 is a lot of friction'
     [[ $(grep -c warning: err) == 1 ]] || fail 'a warning is not told once'
   done
+  run 0 resume suspicious --until 2us --progress none
+  grep -q '"--set contact.friction=30: warning: contact.friction: 30 is a lot' suspicious/run.json ||
+    fail 'run.json of a run that went on lost a warning of the scene'
+  grep -q '^--set contact.friction=30: warning: ' suspicious/run.log || fail 'run.log lacks a warning of the scene'
+  run 0 run scene.yaml --steps 2 --progress none --out suspicious --force \
+    --set bodies='[{name: block, material: steel, box: {from: [1mm, 1mm], to: [4mm, 3mm]}},
+    {name: floor, material: steel, box: {from: [2mm, 2mm], to: [7mm, 5mm]}}]'
+  says err 'mpmfast: warning: bodies overlap before anything moves: '
+  says err "particles lie inside another body, '"
+  grep -q '"bodies overlap before' suspicious/run.json || fail 'run.json does not say that bodies overlap'
   rm -rf suspicious
 }
 

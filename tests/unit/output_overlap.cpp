@@ -208,7 +208,7 @@ TEST_CASE("check reports bodies that overlap at the start, and says nothing of b
     const std::string text = describe_plan(test::scene_from(kTwoBlocks, {{"bodies.1.box.from", lower}}));
     return text.find("  overlap ") == std::string::npos ? "" : text.substr(text.find("  overlap "), 100);
   };
-  CHECK(says("[4 m, 3 m]").find("2 m^2, 5 % of all bodies (64 particles lie inside another body)") !=
+  CHECK(says("[4 m, 3 m]").find("2 m^2, 5 % of all bodies (64 particles lie inside another body, '") !=
         std::string::npos);
   CHECK(says("[5 m, 3 m]") == "");
 }

@@ -38,7 +38,7 @@ void check_momentum(const std::vector<Override>& overrides) {
   double scale = 0;
   for (std::size_t p = 0; p < step.state().particles.size(); ++p)
     scale += step.state().particles.column(Quantity::mass)[p] * 10;
-  advance(step, 150);
+  advance(step, kSanitized ? 30 : 150);
   CHECK(step.contact_counters().nodes_peak > 0);
   // Round-off of some 1e5 additions a step, growing as a random walk over 150 steps.
   CHECK((momentum(step.state().particles) - before).norm() < 1e-13 * scale);
@@ -88,8 +88,9 @@ void check_perfect(std::vector<Override> overrides, const std::string& more) {
   Step<Dim> one(one_scene), two(two_scene);
   REQUIRE(one.plan().fields.size() == 1);
   REQUIRE(two.plan().fields.size() == 2);
-  advance(one, 200);
-  advance(two, 200);
+  const int steps = kSanitized ? 40 : 200;
+  advance(one, steps);
+  advance(two, steps);
   for (Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient})
     CHECK(relative_difference(by_id(two.state().particles, q), by_id(one.state().particles, q)) < 1e-12);
   // A stress far below the modulus shows the round-off of F enlarged by their ratio: measure against the

@@ -76,12 +76,15 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
 }
 
 /// Reads the scene and says what in it is likely a mistake.
-Scene read_and_warn(const CommandLine& line) {
-  std::vector<Diagnostic> warnings;
-  Scene scene = read_scene(line.scene, line.overrides(), &warnings);
-  for (const Diagnostic& warning : warnings) fmt::print(stderr, "{}\n", warning.warning());
+Scene read_and_warn(const CommandLine& line, std::vector<std::string>& warnings) {
+  std::vector<Diagnostic> found;
+  Scene scene = read_scene(line.scene, line.overrides(), &found);
+  for (const Diagnostic& warning : found) warnings.push_back(warning.warning());
+  for (const std::string& warning : warnings) fmt::print(stderr, "{}\n", warning);
   return scene;
 }
+
+void say_warning(const std::string& warning) { fmt::print(stderr, "mpmfast: warning: {}\n", warning); }
 
 fs::path output_folder(const CommandLine& line) {
   return line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
@@ -118,7 +121,8 @@ int run_and_report(const CommandLine& line, RunOptions& options,
 }  // namespace
 
 int run_command(const CommandLine& line) {
-  const Scene scene = read_and_warn(line);
+  RunOptions options;
+  const Scene scene = read_and_warn(line, options.scene_warnings);
   const fs::path folder = output_folder(line);
   std::error_code error;
   if (!line.force && fs::exists(fs::symlink_status(folder, error))) {
@@ -127,23 +131,24 @@ int run_command(const CommandLine& line) {
                folder.string());
     return kExitWrongInput;
   }
-  RunOptions options;
   options.folder = folder;
   options.force = line.force;
   options.max_steps = line.steps;
   options.overrides = line.set;
+  options.warn = say_warning;
   return run_and_report(line, options, [&] { return std::optional(run_scene(scene, options)); });
 }
 
 int resume_command(const CommandLine& line) {
   RunOptions options;
   options.folder = line.scene;
-  options.warn = [](const std::string& warning) { fmt::print(stderr, "mpmfast: {}\n", warning); };
+  options.warn = say_warning;
   return run_and_report(line, options, [&] { return resume_run(options); });
 }
 
 int check_command(const CommandLine& line) {
-  const Scene scene = read_and_warn(line);
+  std::vector<std::string> warnings;
+  const Scene scene = read_and_warn(line, warnings);
   std::string plan = describe_plan(scene);
   while (!plan.empty() && plan.back() == '\n') plan.pop_back();
   fmt::print("{}\n", plan);
