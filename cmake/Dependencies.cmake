@@ -49,6 +49,13 @@ if(MPMFAST_BENCH)
   mpmfast_need(benchmark_FOUND libbenchmark-dev "benchmarks")
 endif()
 
+if(MPMFAST_PACKAGE)
+  find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
+  mpmfast_need(DPKG_SHLIBDEPS dpkg-dev "what the package depends on")
+  find_program(FILE_UTILITY file)
+  mpmfast_need(FILE_UTILITY file "the package")
+endif()
+
 if(MPMFAST_MISSING)
   list(JOIN MPMFAST_MISSING " " MPMFAST_MISSING_TEXT)
   message(FATAL_ERROR "Packages are missing. On Debian 12: apt-get install -y ${MPMFAST_MISSING_TEXT}")

@@ -19,6 +19,7 @@
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
+#include "tests/source_folder.hpp"
 
 namespace mpmfast::test {
 
@@ -35,7 +36,7 @@ inline Scene scene_from(const std::string& yaml, const std::vector<Override>& ov
 }
 
 inline Scene scene_file(const std::string& name, const std::vector<Override>& overrides = {}) {
-  return read_scene(std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs" / name, overrides);
+  return read_scene(source_folder() / "configs" / name, overrides);
 }
 
 template <int Dim>

@@ -14,6 +14,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/output.hpp"
 #include "engine/scene/read_scene.hpp"
+#include "engine/step/make_row.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
 #include "mpmfast_version.hpp"
@@ -103,7 +104,10 @@ class Simulation::Implementation {
       step.emplace<std::unique_ptr<Step<3>>>(std::make_unique<Step<3>>(scene));
     }
     first_dt = visit([](auto& s) { return s.stable_dt(); });
-    visit([&](auto& s) { names = named_columns(s.state().particles); });
+    visit([&]<int Dim>(Step<Dim>& s) {
+      names = named_columns(s.state().particles);
+      counters.emplace<RunCounters<Dim>>(scene).last_sums = s.sums();
+    });
   }
 
   const NamedColumn& find(std::string_view name) const {
@@ -115,8 +119,10 @@ class Simulation::Implementation {
 
   Scene scene;  ///< stays where it is: the step points to it
   std::variant<std::unique_ptr<Step<2>>, std::unique_ptr<Step<3>>> step;
+  std::variant<std::monostate, RunCounters<2>, RunCounters<3>> counters;  ///< of the history's last row
   std::vector<NamedColumn> names;
   double first_dt = 0;  ///< s
+  double last_dt = 0;   ///< s
 };
 
 Simulation::Simulation(std::unique_ptr<Implementation> implementation)
@@ -159,6 +165,7 @@ void Simulation::advance(double dt) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw std::invalid_argument(fmt::format("a time step must be positive, got {}", dt));
   said([&] { implementation_->visit([&](auto& s) { s.advance(dt); }); });
+  implementation_->last_dt = dt;
 }
 
 std::uint64_t Simulation::advance_to(double time) {
@@ -166,7 +173,11 @@ std::uint64_t Simulation::advance_to(double time) {
   const std::uint64_t before = steps();
   said([&] {
     implementation_->visit([&](auto& s) {
-      while (!has_ended(s.state().time, time)) s.advance(s.dt_towards(time, implementation_->first_dt));
+      while (!has_ended(s.state().time, time)) {
+        const double dt = s.dt_towards(time, implementation_->first_dt);
+        s.advance(dt);
+        implementation_->last_dt = dt;
+      }
     });
   });
   return steps() - before;
@@ -226,6 +237,17 @@ Energies Simulation::energies() {
     const auto& sums = s.sums();
     return Energies{row.kinetic,           s.stored_energy(),  sums.friction_work,
                     s.dissipated_energy(), sums.boundary_work, sums.body_force_work};
+  });
+}
+
+std::vector<std::string> Simulation::history_columns() const {
+  return mpmfast::history_columns(implementation_->scene);
+}
+
+std::vector<double> Simulation::history() {
+  Implementation& i = *implementation_;
+  return i.visit([&]<int Dim>(Step<Dim>& s) {
+    return history_numbers(make_row(s, i.scene, i.last_dt, std::get<RunCounters<Dim>>(i.counters)), i.scene);
   });
 }
 

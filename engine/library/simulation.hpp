@@ -86,6 +86,12 @@ class MPMFAST_API Simulation {
   void add_velocity(int axis, std::span<const double> change);
 
   Energies energies();
+  /// The columns of history.csv: forces of boundaries, rigid bodies and contact pairs, means of bodies,
+  /// energies …
+  std::vector<std::string> history_columns() const;
+  /// The row of history.csv as it would stand now, a number a column. Forces are means since the last call
+  /// (at first since the start), so that they are those of the caller's own interval.
+  std::vector<double> history();
   /// Of the particles' state, as `checksum` in run.json.
   std::string checksum() const;
   /// The scene with every default, as scene.yaml.

@@ -1,5 +1,10 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -14,6 +19,8 @@ namespace {
 constexpr std::array<std::string_view, 8> kOurFiles{"scene.yaml",  "run.json",      "run.log",
                                                     "history.csv", "particles.pvd", "grid.pvd",
                                                     "failed.vtu",  "checkpoint.h5"};
+/// Those of which one at least proves that a run was here: a scene.yaml may be anyone's.
+constexpr std::array<std::string_view, 4> kProofs{"run.json", "run.log", "history.csv", "checkpoint.h5"};
 constexpr std::array<std::string_view, 2> kSeries{"particles", "grid"};
 
 bool ends_with(std::string_view text, std::string_view end) {
@@ -53,6 +60,29 @@ void remove_files(const std::filesystem::path& folder, Chosen chosen) {
   }
 }
 
+bool holds_text(const std::filesystem::path& path, const std::string& text) {
+  std::ifstream file(path, std::ios::binary);
+  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
+}
+
+/// --force may replace a run of ours, and what a run left that was killed as it began; never what a user
+/// wrote.
+void check_replaceable(const std::filesystem::path& folder, const Scene& scene) {
+  std::error_code error;
+  if (std::filesystem::is_empty(folder, error)) return;
+  const bool same_scene = holds_text(folder / "scene.yaml", scene.resolved_yaml);
+  if (!same_scene && std::filesystem::equivalent(scene.file, folder / "scene.yaml", error))
+    throw FileError(fmt::format("{} is the scene that is to run: --force would replace it with the run's own",
+                                scene.file.string()));
+  const bool holds_run = std::any_of(kProofs.begin(), kProofs.end(), [&](std::string_view name) {
+    return std::filesystem::exists(folder / name, error);
+  });
+  const auto begun = folder / "scene.yaml.tmp";
+  if (!holds_run && !same_scene && !std::filesystem::exists(begun, error))
+    throw FileError(fmt::format("{} holds no run (none of {}), and --force replaces nothing else",
+                                folder.string(), fmt::join(kProofs, ", ")));
+}
+
 void remove_earlier_run(const std::filesystem::path& folder) {
   remove_files(folder, is_ours);
   for (const std::string_view series : kSeries) {
@@ -86,6 +116,7 @@ void prepare_folder(const std::filesystem::path& folder, const Scene& scene, boo
     if (!force)
       throw FileError("output folder " + folder.string() +
                       " exists already (--force replaces the run in it)");
+    check_replaceable(folder, scene);
     remove_earlier_run(folder);
   }
   make_folder(folder);

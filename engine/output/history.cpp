@@ -82,19 +82,14 @@ std::vector<std::string> column_names(const Scene& scene) {
   return names;
 }
 
-/// One line of numbers.
-class Line {
- public:
-  explicit Line(std::uint64_t step) : text_(std::to_string(step)) {}
-  void add(double number) { fmt::format_to(std::back_inserter(text_), ",{:.9g}", number); }
-  template <class Numbers>
-  void add(const Numbers& numbers, std::size_t count) {
+/// The numbers of a row, one after the other.
+struct Numbers {
+  std::vector<double> all;
+  void add(double number) { all.push_back(number); }
+  template <class Several>
+  void add(const Several& numbers, std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) add(numbers[k]);
   }
-  const std::string& end() { return text_ += '\n'; }
-
- private:
-  std::string text_;
 };
 
 std::string header(const Scene& scene) {
@@ -128,6 +123,52 @@ LineEnds find_line(const Descriptor& file, const std::filesystem::path& path, st
 }  // namespace
 
 std::vector<std::string> history_columns(const Scene& scene) { return column_names(scene); }
+
+std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
+  const std::size_t dim = vector_components(scene), tensor = tensor_components(scene);
+  Numbers numbers;
+  numbers.add(static_cast<double>(row.step));
+  for (double x : {row.time, row.dt, row.kinetic, row.stored, row.friction, row.boundary_work})
+    numbers.add(x);
+  numbers.add(row.momentum, 3);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const HistoryRow::Body body = b < row.bodies.size() ? row.bodies[b] : HistoryRow::Body{};
+    numbers.add(body.mean_stress, tensor);
+    numbers.add(body.mass);
+    numbers.add(body.position, dim);
+    numbers.add(body.velocity, dim);
+  }
+  for (std::size_t i = 0; i < scene.boundaries.size(); ++i)
+    numbers.add(i < row.boundary_force.size() ? row.boundary_force[i] : Vec3{}, dim);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    if (is_rigid(scene, scene.bodies[b]))
+      numbers.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
+  numbers.add(row.body_force_work);
+  numbers.add(row.mean_stress, tensor);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    if (!is_rigid(scene, scene.bodies[b])) continue;
+    const Vec3 moment = b < row.rigid_moment.size() ? row.rigid_moment[b] : Vec3{};
+    if (dim == 2) numbers.add(moment[2]);
+    if (dim == 3) numbers.add(moment, 3);
+  }
+  for (std::size_t k = 0; k < scene.contact.pairs.size(); ++k) {
+    numbers.add(k < row.pair_force.size() ? row.pair_force[k] : Vec3{}, dim);
+    numbers.add(k < row.pair_friction.size() ? row.pair_friction[k] : 0.0);
+  }
+  numbers.add(row.dissipated);
+  if (scene.output.overlap) {
+    const Overlap overlap = row.overlap.value_or(Overlap{});
+    numbers.add(overlap.area);
+    numbers.add(overlap.inside);
+  }
+  if (scene.grid.leaving == LeavingKind::outflow) {
+    const Outflow outflow = row.outflow.value_or(Outflow{});
+    numbers.add(outflow.mass);
+    numbers.add(outflow.energy);
+    numbers.add(outflow.momentum, dim);
+  }
+  return numbers.all;
+}
 
 HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene)
     : path_(folder / "history.csv"), file_(Descriptor::create(path_)), scene_(&scene) {
@@ -181,47 +222,11 @@ void HistoryFile::append_line(std::string_view line) {
 }
 
 void HistoryFile::append(const HistoryRow& row) {
-  const std::size_t dim = vector_components(*scene_), tensor = tensor_components(*scene_);
-  Line line(row.step);
-  for (double x : {row.time, row.dt, row.kinetic, row.stored, row.friction, row.boundary_work}) line.add(x);
-  line.add(row.momentum, 3);
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-    const HistoryRow::Body body = b < row.bodies.size() ? row.bodies[b] : HistoryRow::Body{};
-    line.add(body.mean_stress, tensor);
-    line.add(body.mass);
-    line.add(body.position, dim);
-    line.add(body.velocity, dim);
-  }
-  for (std::size_t i = 0; i < scene_->boundaries.size(); ++i)
-    line.add(i < row.boundary_force.size() ? row.boundary_force[i] : Vec3{}, dim);
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b)
-    if (is_rigid(*scene_, scene_->bodies[b]))
-      line.add(b < row.rigid_force.size() ? row.rigid_force[b] : Vec3{}, dim);
-  line.add(row.body_force_work);
-  line.add(row.mean_stress, tensor);
-  for (std::size_t b = 0; b < scene_->bodies.size(); ++b) {
-    if (!is_rigid(*scene_, scene_->bodies[b])) continue;
-    const Vec3 moment = b < row.rigid_moment.size() ? row.rigid_moment[b] : Vec3{};
-    if (dim == 2) line.add(moment[2]);
-    if (dim == 3) line.add(moment, 3);
-  }
-  for (std::size_t k = 0; k < scene_->contact.pairs.size(); ++k) {
-    line.add(k < row.pair_force.size() ? row.pair_force[k] : Vec3{}, dim);
-    line.add(k < row.pair_friction.size() ? row.pair_friction[k] : 0.0);
-  }
-  line.add(row.dissipated);
-  if (scene_->output.overlap) {
-    const Overlap overlap = row.overlap.value_or(Overlap{});
-    line.add(overlap.area);
-    line.add(overlap.inside);
-  }
-  if (scene_->grid.leaving == LeavingKind::outflow) {
-    const Outflow outflow = row.outflow.value_or(Outflow{});
-    line.add(outflow.mass);
-    line.add(outflow.energy);
-    line.add(outflow.momentum, dim);
-  }
-  append_line(line.end());
+  const std::vector<double> numbers = history_numbers(row, *scene_);
+  std::string line = std::to_string(row.step);
+  for (std::size_t k = 1; k < numbers.size(); ++k)
+    fmt::format_to(std::back_inserter(line), ",{:.9g}", numbers[k]);
+  append_line(line += '\n');
   ++rows_;
 }
 

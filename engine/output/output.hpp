@@ -68,6 +68,8 @@ Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene);
 
 /// The header of history.csv.
 std::vector<std::string> history_columns(const Scene& scene);
+/// A row of it, as many numbers.
+std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene);
 
 /// history.csv: whole up to its last row whenever the run ends, on a full disk too. It belongs to one process
 /// at a time. Everything throws FileError.
@@ -171,6 +173,7 @@ struct RunSummary {
     std::uint64_t meetings = 0, screened = 0;          ///< as ContactCounters
   } contact;
   double energy_error = 0;
+  bool averaged_strain = false;    ///< method.strain: average
   double spacing = 0;              ///< cells; the widest of the history's rows
   double most_spacing = 1;         ///< cells that the basis bridges
   std::string spacing_body;        ///< where it was
@@ -191,6 +194,8 @@ inline constexpr double kMostFallbacks = 0.2;       ///< of the regressions
 inline constexpr double kMostPairFallbacks = 0.05;  ///< of the nodes that solve pairs
 inline constexpr double kMostScreened = 0.2;        ///< of the nodes where fields meet
 inline constexpr double kMostDrift = 0.1;           ///< of the energy at work
+/// Fewer normals, pairs or meetings than this say nothing yet: the first touch of two bodies is all edges.
+inline constexpr std::uint64_t kEnoughToJudge = 1000;
 
 /// What the figures of a run give reason to doubt: a sentence with the figure and a way out.
 struct RunWarning {

@@ -9,7 +9,17 @@ namespace mpmfast {
 namespace {
 
 double share(std::uint64_t part, std::uint64_t whole) {
-  return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+  return whole >= kEnoughToJudge ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+const char* cure_of_drift(const RunSummary& summary) {
+  if (summary.energy_error > 0)
+    return "noise grows; a smaller time.cfl, or method.position: grid_end, may help";
+  if (summary.averaged_strain)
+    return "method.strain: first keeps what bodies of few cells lose as they vibrate, bounce or spin; if "
+           "that is not it, "
+           "smaller cells";
+  return "the method took it; smaller cells, or another method.update, may help";
 }
 
 }  // namespace
@@ -48,15 +58,14 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
     out.push_back(
         {"spacing",
          fmt::format(
-             "particles of body '{}' came {:.2g} cells apart (the basis bridges {:g}): a body parts there "
-             "without a law of fracture; more particles_per_cell or a CPDI basis keep it whole for longer",
-             summary.spacing_body, summary.spacing, summary.most_spacing)});
+             "particles of body '{}' came {:.3g} cells apart, and the basis bridges {:g}: a body parts there "
+             "without a law of fracture; more particles_per_cell{} keep it whole for longer",
+             summary.spacing_body, summary.spacing, summary.most_spacing,
+             summary.most_spacing > 1 ? "" : " or a CPDI basis")});
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back(
-        {"energy",
-         fmt::format("the energy balance drifted by {:.2g} % (history.csv shows when); smaller cells or "
-                     "time.cfl, or another method.update, may help",
-                     100 * summary.energy_error)});
+        {"energy", fmt::format("the energy balance drifted by {:+.2g} % (history.csv shows when): {}",
+                               100 * summary.energy_error, cure_of_drift(summary))});
   return out;
 }
 

@@ -53,9 +53,11 @@ inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
 }};
 
 inline constexpr std::array<Word<StrainKind>, 3> kStrains{{
-    {StrainKind::first, "first", "strain updated before the forces"},
-    {StrainKind::last, "last", "strain updated after the particles"},
-    {StrainKind::average, "average", "half before, half after (default): the best energy balance in contact"},
+    {StrainKind::first, "first",
+     "before the forces: keeps the energy of bodies that bounce or vibrate; may gain in what spins"},
+    {StrainKind::last, "last", "after the particles: the cheapest"},
+    {StrainKind::average, "average",
+     "half before, half after (default): stable everywhere, takes energy from bodies of few cells"},
 }};
 
 inline constexpr std::array<Word<PositionKind>, 4> kPositions{{

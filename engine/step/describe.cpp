@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <vector>
 
 #include "engine/errors.hpp"
 #include "engine/scene/names.hpp"
@@ -21,9 +23,57 @@ std::string in_mebibytes(std::size_t bytes) {
 std::string checkpoint_text(const CheckpointSpec& checkpoint, std::size_t bytes) {
   if (!checkpoint.active) return "none";
   std::string when;
+  if (checkpoint.every > 60) when += "after a minute, ";
   if (checkpoint.every > 0) when += fmt::format("every {:.4g} s of wall time, ", checkpoint.every);
   if (checkpoint.steps > 0) when += fmt::format("every {} steps, ", checkpoint.steps);
   return fmt::format("{}, {}at a signal and at the end", in_mebibytes(bytes), when);
+}
+
+/// A few steps of the scene itself measure what a step costs on this machine: the median, which neither the
+/// first steps, that touch the memory, nor a busy moment disturb.
+template <int Dim>
+std::string estimated_time(Step<Dim>& step, double steps) {
+  constexpr std::size_t kFewest = 5, kMost = 100;
+  constexpr double kPatience = 0.3;  // s
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  std::vector<double> walls;
+  try {
+    const auto begin = Clock::now();
+    while (walls.size() < kFewest || (walls.size() < kMost && seconds_since(begin) < kPatience)) {
+      const auto start = Clock::now();
+      step.advance(step.stable_dt());
+      walls.push_back(seconds_since(start));
+    }
+  } catch (const RunFailure& failure) {
+    return fmt::format("unknown: {}", failure.what());
+  }
+  const auto middle = walls.begin() + static_cast<std::ptrdiff_t>(walls.size() / 2);
+  std::nth_element(walls.begin(), middle, walls.end());
+  return fmt::format(
+      "{:.3g} s of stepping at {:.3g} ms a step (the median of the first {}; contact may come to cost more)",
+      *middle * steps, *middle * 1e3, walls.size());
+}
+
+/// "80 x 40 cells of 0.00025 m"
+std::string grid_text(const GridSpec& grid, int dimension) {
+  std::string cells;
+  for (int d = 0; d < dimension; ++d)
+    cells += fmt::format("{}{:.0f}", d > 0 ? " x " : "", grid.size[static_cast<std::size_t>(d)] / grid.cell);
+  return fmt::format("{} cells of {:g} m", cells, grid.cell);
+}
+
+std::string contact_text(const ContactSpec& contact) {
+  if (!contact.active) return "none: all bodies share one velocity field";
+  std::string law(name_of(kLaws, contact.law));
+  if (contact.law == LawKind::coulomb) law += fmt::format(", friction {:g}", contact.friction);
+  std::string pairs;
+  if (!contact.pairs.empty())
+    pairs = fmt::format(", and {} pair{} with laws of their own", contact.pairs.size(),
+                        contact.pairs.size() == 1 ? "" : "s");
+  return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
 }
 
 template <int Dim>
@@ -37,22 +87,7 @@ std::string describe(const Scene& scene) {
     text += fmt::format("  {:<16}{}\n", name, value);
   };
 
-  // A few steps of the scene itself measure what a step costs on this machine.
-  constexpr int kTrial = 5;
-  std::string estimate;
-  const auto start = std::chrono::steady_clock::now();
-  try {
-    for (int k = 0; k < kTrial; ++k) {
-      const double stable = step.stable_dt();
-      step.advance(stable);
-    }
-    const double wall =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / kTrial;
-    estimate = fmt::format("{:.3g} s of stepping at {:.3g} ms a step (measured over {} steps)", wall * steps,
-                           wall * 1e3, kTrial);
-  } catch (const RunFailure& failure) {
-    estimate = fmt::format("unknown: {}", failure.what());
-  }
+  const std::string estimate = estimated_time(step, steps);
 
   const auto& particles = step.state().particles;
   std::string columns, nodal, fields, passes;
@@ -68,8 +103,10 @@ std::string describe(const Scene& scene) {
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
   line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
+  line("grid", grid_text(scene.grid, Dim));
   line("particles", fmt::format("{}", particles.size()));
   line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
+  if (step.plan().fields.size() > 1 || !scene.contact.active) line("contact", contact_text(scene.contact));
   if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));

@@ -25,6 +25,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kCheckpointName = "checkpoint.h5";
+constexpr std::uint64_t kNever = ~std::uint64_t{0};
+constexpr double kFirstSave = 60;    ///< s of wall time
 constexpr double kFailureReach = 4;  ///< cells around a failure of which failed.vtu shows the particles
 
 double seconds_since(Clock::time_point start) {
@@ -188,7 +190,10 @@ class Run {
   bool is_save_due() const {
     const CheckpointSpec& when = scene_.output.checkpoint;
     if (when.steps > 0 && step_.state().step % static_cast<std::uint64_t>(when.steps) == 0) return true;
-    return when.every > 0 && seconds_since(last_save_) >= when.every;
+    // The first comes early: what is lost most often is a run that has just begun.
+    const bool first = saved_step_ == kNever;
+    return when.every > 0 &&
+           seconds_since(last_save_) >= (first ? std::min(when.every, kFirstSave) : when.every);
   }
 
   /// The run as it stands. The history must be on the disk before a checkpoint that counts its rows.
@@ -299,6 +304,7 @@ class Run {
     s.contact = {c.nodes_peak, c.regressions,    c.fallbacks, c.unconverged, mean_iterations,
                  c.pair_nodes, c.pair_fallbacks, c.meetings,  c.screened};
     s.energy_error = counters_.balance.error();
+    s.averaged_strain = scene_.method.strain == StrainKind::average;
     s.spacing = counters_.spacing.cells;
     // A domain's corners reach the nodes around them, which two domains of two cells still share.
     const BasisKind basis = scene_.method.basis;
@@ -337,7 +343,7 @@ class Run {
   std::optional<RunLog> log_;
   std::optional<ParticleSeries<Dim>> series_;
   std::optional<FrameSeries> grid_series_;
-  std::uint64_t saved_step_ = ~std::uint64_t{0};  ///< of the last checkpoint
+  std::uint64_t saved_step_ = kNever;  ///< of the last checkpoint
   bool stopped_ = false;
   Clock::time_point start_ = Clock::now(), last_report_ = start_, last_save_ = start_;
 };

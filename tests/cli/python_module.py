@@ -3,6 +3,7 @@
 
 usage: python_module.py MODULE_FOLDER MPMFAST SOURCE_DIR
 """
+import csv
 import json
 import pathlib
 import subprocess
@@ -46,6 +47,22 @@ class PythonModule(unittest.TestCase):
                 self.assertGreater(steps, 3)
                 self.assertEqual(simulation.checksum, summary["checksum"])
                 self.assertEqual(steps, summary["steps"])
+
+    def test_the_history_is_that_of_the_program(self):
+        with tempfile.TemporaryDirectory() as work:
+            out = pathlib.Path(work) / "run"
+            settings = {"output.history": "2", "time.end": "30 us"}
+            summary = mpmfast.run(SPHERE, out=str(out), set=settings)
+            rows = list(csv.DictReader((out / "history.csv").open()))
+        self.assertEqual((len(rows), summary["status"]), (3, "finished"))
+        simulation = mpmfast.Simulation(SPHERE, set=settings)
+        for row in rows:
+            simulation.advance_to(float(row["time_s"]))
+            now = simulation.history()
+            self.assertEqual(list(now), list(row))
+            for name, text in row.items():
+                self.assertAlmostEqual(now[name], float(text), delta=1e-8 * abs(float(text)), msg=name)
+        self.assertTrue(any(now[name] for name in now if ".force_" in name))
 
     def test_views_share_the_memory_of_the_simulation(self):
         simulation = mpmfast.Simulation.from_text(SCENE)

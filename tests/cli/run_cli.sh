@@ -104,6 +104,9 @@ check_lists() {
   grep -q neo_hookean out && fail 'list laws lists materials'
   run 2 list law
   says err "Did you mean 'laws'?"
+  run 0 list contact
+  says out '| `friction` |'
+  grep -q '| `cfl` |' out && fail 'list contact lists the keys of time'
 }
 
 check_schema() {
@@ -141,11 +144,35 @@ check_output_folder() {
   rm -rf runs again
 }
 
+# --force replaces a run, never what a user wrote.
+check_force() {
+  mkdir own
+  { echo '# my own words'; cat scene.yaml; } >own/scene.yaml
+  cp own/scene.yaml own_scene.copy
+  run 4 run own/scene.yaml --steps 2 --out own --force --progress none
+  says err 'own/scene.yaml is the scene that is to run: --force would replace it'
+  run 4 run scene.yaml --steps 2 --out own --force --progress none
+  says err 'own holds no run (none of run.json, run.log, history.csv, checkpoint.h5), and --force replaces nothing else'
+  cmp -s own/scene.yaml own_scene.copy || fail '--force replaced a scene'
+  [[ $(ls own) == scene.yaml ]] || fail 'a refused run wrote into a folder'
+  run 0 run scene.yaml --steps 2 --out here --progress none
+  run 0 run here/scene.yaml --steps 2 --out here --force --progress none
+  sed -i '1i # my own words' here/scene.yaml
+  run 4 run here/scene.yaml --steps 2 --out here --force --progress none
+  grep -q 'my own words' here/scene.yaml || fail '--force replaced the scene that was to run'
+  run 0 run scene.yaml --steps 2 --out here --force --progress none
+  mkdir nothing
+  run 0 run scene.yaml --steps 2 --out nothing --force --progress none
+  rm -rf own here nothing own_scene.copy
+}
+
 # The block falls out of the grid, which has no floor.
 check_failed_run() {
   run 3 run scene.yaml --set 'time.end=10 ms' --out fallen --progress none
   says err "body 'block'"
   says err 'left the grid'
+  says err 'the place        fallen/failed.vtu'
+  says err 'report           mpmfast report fallen'
   grep -q '"failed"' fallen/run.json || fail 'run.json does not say failed'
   run 4 run scene.yaml --out /dev/null/folder
   rm -rf fallen
@@ -367,6 +394,7 @@ check_lists
 check_schema
 check_overrides
 check_output_folder
+check_force
 check_failed_run
 check_study
 check_stopped_study

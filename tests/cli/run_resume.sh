@@ -5,7 +5,7 @@ source "$(dirname "$0")/helpers.sh"
 
 check_signals() {
   local signal code
-  for signal in INT TERM; do
+  for signal in INT TERM HUP; do
     "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' \
       --out "stopped_$signal" --progress none >out 2>err &
     local process=$!
@@ -33,6 +33,20 @@ check_signals() {
     grep -q '"resumes": 1' "stopped_$signal/run.json" || fail "SIG$signal: no run that was resumed once"
     rm -rf "stopped_$signal"
   done
+}
+
+# Nobody reads the progress any more: the run goes on all the same.
+check_closed_pipe() {
+  { "$program" run scene.yaml --set 'time.end=100 us' --set 'bodies.0.velocity=[0, 0]' --out piped --progress plain 2>&1
+    echo "$?" >piped.code; } | true
+  for _ in $(seq 100); do
+    [[ -s piped.code ]] && break
+    sleep 0.1
+  done
+  checks=$((checks + 1))
+  grep -q '"finished"' piped/run.json || fail 'a run whose output nobody reads does not finish'
+  [[ $(<piped.code) == 4 || $(<piped.code) == 0 ]] || fail "a run whose output nobody reads: exit $(<piped.code)"
+  rm -rf piped piped.code
 }
 
 # The last frame and pictures of so many particles take longer than the second signal.
@@ -145,6 +159,7 @@ check_removed_folder() {
 
 write_good_scene
 check_signals
+check_closed_pipe
 check_second_interrupt
 check_resume
 check_full_disk

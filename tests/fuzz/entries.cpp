@@ -8,6 +8,7 @@
 #include "engine/scene/read_scene.hpp"
 #include "engine/scene/sections.hpp"
 #include "engine/scene/surface.hpp"
+#include "tests/source_folder.hpp"
 
 namespace mpmfast::fuzz {
 
@@ -40,8 +41,7 @@ void fill_bodies(const Scene& scene) {
 
 void read_scene_bytes(Bytes bytes) {
   // The pictures and surfaces that scenes of the corpus name lie beside this.
-  const std::filesystem::path file =
-      std::filesystem::path(MPMFAST_SOURCE_DIR) / "tests/fuzz/corpus/scene.yaml";
+  const std::filesystem::path file = test::source_folder() / "tests/fuzz/corpus/scene.yaml";
   Scene scene;
   try {
     scene = parse_scene(text_of(bytes), file);

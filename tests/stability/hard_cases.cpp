@@ -20,8 +20,7 @@ bool is_grains(const std::string& name) {
 template <class Wanted>
 void check_cases(const Wanted& wanted) {
   const Folder folder;
-  const Study study =
-      read_study(std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs/studies/stability.yaml");
+  const Study study = read_study(test::source_folder() / "configs/studies/stability.yaml");
   StudyRuns runs = expand_study(study);
   std::erase_if(runs.variants, [&](const StudyRun& run) { return !wanted(run.name); });
   REQUIRE(!runs.variants.empty());

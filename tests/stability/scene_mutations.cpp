@@ -168,7 +168,7 @@ void judge_mutants(const fs::path& file, std::size_t stride, Tally& tally) {
 Tally judge_all(std::size_t stride) {
   std::vector<fs::path> scenes;
   for (const char* folder : {"", "bench", "hard"}) {
-    const fs::path path = fs::path(MPMFAST_SOURCE_DIR) / "configs" / folder;
+    const fs::path path = test::source_folder() / "configs" / folder;
     if (!fs::exists(path)) continue;
     for (const auto& entry : fs::directory_iterator(path))
       if (entry.path().extension() == ".yaml") scenes.push_back(entry.path());

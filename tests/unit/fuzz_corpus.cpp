@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/fuzz/entries.hpp"
+#include "tests/source_folder.hpp"
 
 namespace mpmfast {
 namespace {
@@ -18,7 +19,7 @@ namespace fs = std::filesystem;
 /// Calls the entry with every file of a folder; returns how many there are.
 int replay(const fs::path& folder, void (*entry)(fuzz::Bytes)) {
   std::vector<fs::path> files;
-  for (const auto& item : fs::directory_iterator(fs::path(MPMFAST_SOURCE_DIR) / folder))
+  for (const auto& item : fs::directory_iterator(test::source_folder() / folder))
     if (item.is_regular_file()) files.push_back(item.path());
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

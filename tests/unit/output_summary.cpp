@@ -143,22 +143,22 @@ TEST_CASE(
 
 TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing else") {
   RunSummary good;
-  good.contact.regressions = 1000;
-  good.contact.unconverged = 10;
-  good.contact.fallbacks = 200;
-  good.contact.pair_nodes = 100;
-  good.contact.pair_fallbacks = 5;
-  good.contact.meetings = 500;
-  good.contact.screened = 100;
+  good.contact.regressions = 10000;
+  good.contact.unconverged = 100;
+  good.contact.fallbacks = 2000;
+  good.contact.pair_nodes = 1000;
+  good.contact.pair_fallbacks = 50;
+  good.contact.meetings = 5000;
+  good.contact.screened = 1000;
   good.energy_error = -0.1;
   good.spacing = 1;
   CHECK(run_warnings(good).empty());
   CHECK(run_warnings(RunSummary{}).empty());
   RunSummary doubtful = good;
-  doubtful.contact.unconverged = 11;
-  doubtful.contact.fallbacks = 250;
-  doubtful.contact.pair_fallbacks = 6;
-  doubtful.contact.screened = 150;
+  doubtful.contact.unconverged = 110;
+  doubtful.contact.fallbacks = 2500;
+  doubtful.contact.pair_fallbacks = 60;
+  doubtful.contact.screened = 1500;
   doubtful.energy_error = -0.25;
   doubtful.spacing = 1.7;
   doubtful.spacing_body = "bar";
@@ -171,6 +171,10 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
                               "particles of body 'bar' came 1.7 cells apart",
                               "the energy balance drifted by -25 %"};
   for (std::size_t k = 0; k < 6; ++k) CHECK(warnings[k].text.find(said[k]) == 0);
+  RunSummary few = doubtful;  // too few meetings for a share to mean anything
+  few.contact = {};
+  few.contact.regressions = few.contact.unconverged = few.contact.fallbacks = kEnoughToJudge - 1;
+  CHECK(run_warnings(few).size() == 2);
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);
   CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 6);

@@ -13,6 +13,7 @@
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+#include "tests/source_folder.hpp"
 #include "tools/pack_ellipses/packing.hpp"
 
 namespace mpmfast {
@@ -53,7 +54,8 @@ TEST_CASE("the same seed gives the same packing, another seed another") {
 
 TEST_CASE("configs/ellipses.png is what the generator writes") {
   int width = 0, height = 0, channels = 0;
-  unsigned char* image = stbi_load(MPMFAST_SOURCE_DIR "/configs/ellipses.png", &width, &height, &channels, 1);
+  unsigned char* image =
+      stbi_load((test::source_folder() / "configs/ellipses.png").c_str(), &width, &height, &channels, 1);
   REQUIRE(image != nullptr);
   const auto pixels = paint(pack({}));
   CHECK(channels == 1);

@@ -87,6 +87,7 @@ TEST_CASE("failed.vtu holds the particles within four cells of the one that fail
 TEST_CASE("a neighbourhood that cannot be written does not hide the failure") {
   const Folder folder;
   std::filesystem::create_directories(folder / "run/failed.vtu/taken");
+  std::ofstream(folder / "run/run.log") << "of a run before\n";
   const Failed failed = run_to_failure(scene_from(kThrown), folder);
   CHECK(failed.message.find("left the grid") != std::string::npos);
   CHECK(failed.summary["reason"] == failed.message);

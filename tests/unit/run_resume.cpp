@@ -106,7 +106,7 @@ std::string seeding_of(const Scene& scene) {
 
 TEST_CASE("the resolved scene seeds the same particles to the bit, for every scene of configs") {
   int scenes = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(MPMFAST_SOURCE_DIR) / "configs")) {
+  for (const auto& entry : fs::directory_iterator(test::source_folder() / "configs")) {
     if (entry.path().extension() != ".yaml") continue;
     CAPTURE(entry.path().filename().string());
     const Scene scene = read_scene(entry.path());

@@ -11,6 +11,7 @@
 #include "engine/scene/schema/key_notes.hpp"
 #include "engine/scene/schema/write_schema.hpp"
 #include "scene_helpers.hpp"
+#include "tests/source_folder.hpp"
 
 using namespace mpmfast;
 using namespace mpmfast::test;
@@ -134,8 +135,7 @@ TEST_CASE("every key that the reader knows has a note, and every note a key") {
 TEST_CASE("no committed scene makes the reader ask for what the probes do not find") {
   int scenes = 0;
   for (const char* folder : {"configs", "configs/hard", "configs/bench"}) {
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(MPMFAST_SOURCE_DIR) / folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / folder)) {
       if (entry.path().extension() != ".yaml") continue;
       ++scenes;
       CAPTURE(entry.path().string());
@@ -164,7 +164,7 @@ TEST_CASE("a default, written out, changes nothing") {
     const std::string path = path_of(pattern), key = path.substr(path.rfind('.') + 1);
     int tried = 0;
     for (const std::string& text : scenes) {
-      const std::string file = std::string(MPMFAST_SOURCE_DIR) + "/configs/scene.yaml";
+      const std::string file = (test::source_folder() / "configs/scene.yaml").string();
       Recorder own;  // has this scene such a key, and leaves it to its default?
       record_scene(text, file, own);
       const auto here = own.found().find(pattern);
@@ -216,7 +216,7 @@ TEST_CASE("every key of the reader is in the schema and on the page") {
 }
 
 TEST_CASE("the committed page is what the program prints") {
-  const std::string committed = content(std::filesystem::path(MPMFAST_SOURCE_DIR) / "tools/manual/scene.md");
+  const std::string committed = content(test::source_folder() / "tools/manual/scene.md");
   CHECK_MESSAGE(committed == write_reference(),
                 "write it again: build/ci/mpmfast schema --markdown > tools/manual/scene.md");
 }

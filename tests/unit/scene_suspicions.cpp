@@ -4,6 +4,7 @@
 #include <set>
 
 #include "scene_helpers.hpp"
+#include "tests/source_folder.hpp"
 
 using namespace mpmfast;
 using namespace mpmfast::test;
@@ -93,8 +94,7 @@ TEST_CASE(
   };
   std::set<std::string> found;
   for (const char* folder : {"configs", "configs/hard", "configs/bench", "configs/starters"})
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::filesystem::path(MPMFAST_SOURCE_DIR) / folder)) {
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / folder)) {
       if (entry.path().extension() != ".yaml") continue;
       std::vector<Diagnostic> all;
       read_scene(entry.path(), {}, &all);

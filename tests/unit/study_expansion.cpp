@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "tests/source_folder.hpp"
 #include "tests/unit/study_fixture.hpp"
 
 using namespace study_test;
@@ -120,7 +121,7 @@ TEST_CASE("a study sets the variables of its scene, and its values may name them
 }
 
 TEST_CASE("the studies that come with the program can be read and expanded") {
-  const std::filesystem::path studies = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs/studies";
+  const std::filesystem::path studies = test::source_folder() / "configs/studies";
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(studies)) {
     if (entry.path().extension() != ".yaml") continue;

@@ -66,8 +66,8 @@ the run failed; the message says step, time, particle, body, place and cause, an
 4
 a file could not be read or written
 .TP
-130, 143
-stopped by SIGINT or SIGTERM after a step; \fBmpmfast resume\fR goes on
+129, 130, 143
+stopped by SIGINT, SIGTERM or SIGHUP after a step; \fBmpmfast resume\fR goes on
 .SH FILES
 An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.json\fR (figures and warnings),
 \fIhistory.csv\fR, \fIparticles.pvd\fR (opens in ParaView), \fIcheckpoint.h5\fR and pictures.
@@ -77,7 +77,7 @@ An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.j
 threads where \-\-threads does not say
 .TP
 \fBOMP_WAIT_POLICY\fR
-active: threads spin while they wait, which may gain a little on a machine of one's own
+active: threads spin while they wait, which gains a little on an idle machine and costs many times the run on a busy one
 .SH EXAMPLES
 .TP
 mpmfast run ellipses.yaml \-\-set grid.cell="1/20 mm" \-\-out small

@@ -2,10 +2,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
+#include <map>
 
 #include "commands.hpp"
 #include "engine/scene/catalogue.hpp"
+#include "engine/scene/schema/write_schema.hpp"
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
 
@@ -25,14 +28,37 @@ void print_topic(const std::string& topic) {
   }
 }
 
+/// The sections of the page of all keys, by their names in a scene: grid, contact, method …
+std::map<std::string, std::string> reference_sections() {
+  std::map<std::string, std::string> sections;
+  const std::string page = write_reference(), mark = "\n## ";
+  for (std::size_t at = page.find(mark); at != std::string::npos;) {
+    const std::size_t begin = at + mark.size(), next = page.find(mark, begin);
+    const std::string section = page.substr(begin, next == std::string::npos ? next : next - begin);
+    std::string name = section.substr(0, section.find('\n'));
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    sections.emplace(name, section);
+    at = next;
+  }
+  return sections;
+}
+
 }  // namespace
 
 int list_command(const CommandLine& line) {
   const std::vector<std::string> topics = catalogue_topics();
   if (!line.topic.empty() && std::find(topics.begin(), topics.end(), line.topic) == topics.end()) {
-    const std::string hint = did_you_mean(line.topic, topics);
+    const auto sections = reference_sections();
+    if (const auto section = sections.find(line.topic); section != sections.end()) {
+      fmt::print("{}", section->second);
+      return 0;
+    }
+    std::vector<std::string> known = topics;
+    for (const auto& [name, text] : sections)
+      if (std::find(topics.begin(), topics.end(), name) == topics.end()) known.push_back(name);
+    const std::string hint = did_you_mean(line.topic, known);
     fmt::print(stderr, "mpmfast: nothing to list under '{}' (one of {}){}\n", line.topic,
-               fmt::join(topics, ", "), hint.empty() ? "" : ". " + hint);
+               fmt::join(known, ", "), hint.empty() ? "" : ". " + hint);
     return kExitWrongInput;
   }
   for (const std::string& topic : topics) {

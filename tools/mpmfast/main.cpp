@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <exception>
 #include <new>
+#include <system_error>
 
 #include "commands.hpp"
 #include "engine/errors.hpp"
@@ -53,6 +54,9 @@ int perform_and_report(const CommandLine& line) {
   } catch (const RunFailure& error) {
     fmt::print(stderr, "mpmfast: the run failed: {}\n", error.what());
     return kExitRunFailed;
+  } catch (const std::system_error& error) {  // of a stream that is closed
+    std::fprintf(stderr, "mpmfast: the output could not be written: %s\n", error.what());
+    return kExitFile;
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "mpmfast: out of memory ('mpmfast check' tells how much a scene needs)\n");
     return kExitRunFailed;

@@ -24,6 +24,12 @@ std::string status_text(const Progress& progress) {
   return out + fmt::format("  energy {:+.2g} %", 100 * progress.energy_error);
 }
 
+/// Nobody may be there to read it any more, which must not end the run.
+void say(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 std::size_t terminal_width() {
   constexpr std::size_t kUsual = 80;
   winsize size{};
@@ -79,18 +85,14 @@ void ProgressDisplay::redraw(const Progress& progress) {
   std::string line =
       "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + status_text(progress);
   line.resize(std::min(line.size(), terminal_width() - 1));  // a wrapped line could not be redrawn
-  fmt::print(stderr, "\r{}\x1b[K", line);
-  std::fflush(stderr);
+  say(fmt::format("\r{}\x1b[K", line));
   drawn_ = true;
 }
 
-void ProgressDisplay::print_line(const Progress& progress) {
-  fmt::print(stderr, "{}\n", status_text(progress));
-  std::fflush(stderr);
-}
+void ProgressDisplay::print_line(const Progress& progress) { say(status_text(progress) + "\n"); }
 
 void ProgressDisplay::finish() {
-  if (drawn_) fmt::print(stderr, "\n");
+  if (drawn_) say("\n");
   drawn_ = false;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "engine/errors.hpp"
 #include "engine/step/run.hpp"
 #include "exit_codes.hpp"
 #include "progress_display.hpp"
@@ -75,6 +76,20 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
     fmt::print("to go on         mpmfast resume {}\n", folder.string());
 }
 
+/// What a run that failed has left.
+void print_remains(const fs::path& folder) {
+  const auto remains = [&](const char* name) {
+    std::error_code error;
+    return fs::exists(folder / name, error);
+  };
+  fmt::print(stderr, "kept             {}: the history, pictures and particles so far\n", folder.string());
+  if (remains("failed.vtu"))
+    fmt::print(stderr, "the place        {}: the particles around it\n", (folder / "failed.vtu").string());
+  fmt::print(stderr, "report           mpmfast report {}\n", folder.string());
+  if (remains("checkpoint.h5"))
+    fmt::print(stderr, "to go on         mpmfast resume {} (from the last checkpoint)\n", folder.string());
+}
+
 /// Reads the scene and says what in it is likely a mistake.
 Scene read_and_warn(const CommandLine& line, std::vector<std::string>& warnings) {
   std::vector<Diagnostic> found;
@@ -103,6 +118,11 @@ int run_and_report(const CommandLine& line, RunOptions& options,
   std::optional<RunSummary> summary;
   try {
     summary = run();
+  } catch (const RunFailure& failure) {
+    display.finish();
+    fmt::print(stderr, "mpmfast: the run failed: {}\n", failure.what());
+    print_remains(options.folder);
+    return kExitRunFailed;
   } catch (...) {
     display.finish();
     throw;

@@ -1,5 +1,6 @@
 #include "signals.hpp"
 
+#include <array>
 #include <csignal>
 #include <type_traits>
 
@@ -11,18 +12,22 @@ namespace {
 volatile std::sig_atomic_t received = 0;
 static_assert(std::is_same_v<std::sig_atomic_t, int>);
 
+constexpr std::array<int, 3> kStops{SIGINT, SIGTERM, SIGHUP};
+
 void remember(int number) {
   received = number;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int stop : kStops) std::signal(stop, SIG_DFL);
 }
 
 }  // namespace
 
 void catch_stop_signals() {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of the write, as a full disk is
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+  std::signal(SIGPIPE, SIG_IGN);  // a run outlives whoever read what it prints
+  struct sigaction before {};
+  const bool no_hang_up = sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;
+  for (const int stop : kStops)
+    if (stop != SIGHUP || !no_hang_up) std::signal(stop, remember);  // nohup means it
 }
 
 const volatile int* stop_signal() { return &received; }

@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file SIGINT and SIGTERM ask the run to stop after the step; a second one kills. A limit on the size
-/// of files (SIGXFSZ) is left to the write that meets it.
+/// @file SIGINT, SIGTERM and SIGHUP (a terminal that closes) ask the run to stop after the step; a second one
+/// kills. A limit on the size of files (SIGXFSZ) is left to the write that meets it, a closed pipe to nobody.
 
 namespace mpmfast {
 

@@ -41,6 +41,14 @@ py::dict energies_of(Simulation& simulation) {
                   "body_force_work"_a = e.body_force_work);
 }
 
+py::dict history_of(Simulation& simulation) {
+  py::dict out;
+  const std::vector<double> numbers = simulation.history();
+  std::size_t k = 0;
+  for (const std::string& name : simulation.history_columns()) out[py::str(name)] = numbers[k++];
+  return out;
+}
+
 void add_velocity(Simulation& simulation, int axis,
                   const py::array_t<double, py::array::c_style | py::array::forcecast>& change) {
   if (change.ndim() != 1) throw std::invalid_argument("changes of velocity are one number a particle");
@@ -123,6 +131,8 @@ PYBIND11_MODULE(mpmfast, m) {
       .def("add_velocity", &add_velocity, py::arg("axis"), py::arg("change"),
            "Adds to the velocities along an axis, one number a particle.")
       .def_property_readonly("energies", &energies_of, "J")
+      .def("history", &history_of,
+           "The row of history.csv as it would stand now, a dict. Forces are means since the last call.")
       .def_property_readonly("checksum", &Simulation::checksum)
       .def_property_readonly("resolved_scene", &Simulation::resolved_scene);
 
