@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "commands.hpp"
+#include "complain.hpp"
 #include "engine/errors.hpp"
 #include "engine/scene/diagnostic.hpp"
 #include "exit_codes.hpp"
@@ -46,22 +47,22 @@ int perform_and_report(const CommandLine& line) {
     return perform(line);
   } catch (const SceneError& error) {
     const std::size_t count = error.diagnostics().size();
-    fmt::print(stderr, "{}\n{} error{}\n", error.what(), count, count == 1 ? "" : "s");
+    complain("{}\n{} error{}\n", error.what(), count, count == 1 ? "" : "s");
     return kExitWrongInput;
   } catch (const FileError& error) {
-    fmt::print(stderr, "mpmfast: {}\n", error.what());
+    complain("mpmfast: {}\n", error.what());
     return kExitFile;
   } catch (const RunFailure& error) {
-    fmt::print(stderr, "mpmfast: the run failed: {}\n", error.what());
+    complain("mpmfast: the run failed: {}\n", error.what());
     return kExitRunFailed;
   } catch (const std::system_error& error) {  // of a stream that is closed
-    std::fprintf(stderr, "mpmfast: the output could not be written: %s\n", error.what());
+    complain("mpmfast: the output could not be written: {}\n", error.what());
     return kExitFile;
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "mpmfast: out of memory ('mpmfast check' tells how much a scene needs)\n");
+    complain("mpmfast: out of memory ('mpmfast check' tells how much a scene needs)\n");
     return kExitRunFailed;
   } catch (const std::exception& error) {
-    fmt::print(stderr, "mpmfast: internal error: {}\n", error.what());
+    complain("mpmfast: internal error: {}\n", error.what());
     return kExitRunFailed;
   }
 }
@@ -73,7 +74,7 @@ int main(int count, char** arguments) {
   const ParsedCommandLine parsed = parse_command_line(count, arguments);
   const int code = parsed.line ? perform_and_report(*parsed.line) : parsed.exit_code;
   if (code == 0 && std::fflush(stdout) != 0) {
-    fmt::print(stderr, "mpmfast: the output could not be written\n");
+    complain("mpmfast: the output could not be written\n");
     return kExitFile;
   }
   return code;

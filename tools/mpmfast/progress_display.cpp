@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "complain.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -22,12 +24,6 @@ std::string status_text(const Progress& progress) {
                                 count_text(progress.particle_steps_per_second));
   if (progress.seconds_left > 0) out += fmt::format("  {} left", clock_text(progress.seconds_left));
   return out + fmt::format("  energy {:+.2g} %", 100 * progress.energy_error);
-}
-
-/// Nobody may be there to read it any more, which must not end the run.
-void say(const std::string& text) {
-  std::fputs(text.c_str(), stderr);
-  std::fflush(stderr);
 }
 
 std::size_t terminal_width() {
@@ -85,14 +81,14 @@ void ProgressDisplay::redraw(const Progress& progress) {
   std::string line =
       "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + status_text(progress);
   line.resize(std::min(line.size(), terminal_width() - 1));  // a wrapped line could not be redrawn
-  say(fmt::format("\r{}\x1b[K", line));
+  complain("\r{}\x1b[K", line);
   drawn_ = true;
 }
 
-void ProgressDisplay::print_line(const Progress& progress) { say(status_text(progress) + "\n"); }
+void ProgressDisplay::print_line(const Progress& progress) { complain("{}\n", status_text(progress)); }
 
 void ProgressDisplay::finish() {
-  if (drawn_) say("\n");
+  if (drawn_) complain("\n");
   drawn_ = false;
 }
 

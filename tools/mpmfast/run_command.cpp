@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "complain.hpp"
 #include "engine/errors.hpp"
 #include "engine/step/run.hpp"
 #include "exit_codes.hpp"
@@ -82,12 +83,12 @@ void print_remains(const fs::path& folder) {
     std::error_code error;
     return fs::exists(folder / name, error);
   };
-  fmt::print(stderr, "kept             {}: the history, pictures and particles so far\n", folder.string());
+  complain("kept             {}: the history, pictures and particles so far\n", folder.string());
   if (remains("failed.vtu"))
-    fmt::print(stderr, "the place        {}: the particles around it\n", (folder / "failed.vtu").string());
-  fmt::print(stderr, "report           mpmfast report {}\n", folder.string());
+    complain("the place        {}: the particles around it\n", (folder / "failed.vtu").string());
+  complain("report           mpmfast report {}\n", folder.string());
   if (remains("checkpoint.h5"))
-    fmt::print(stderr, "to go on         mpmfast resume {} (from the last checkpoint)\n", folder.string());
+    complain("to go on         mpmfast resume {} (from the last checkpoint)\n", folder.string());
 }
 
 /// Reads the scene and says what in it is likely a mistake.
@@ -95,11 +96,11 @@ Scene read_and_warn(const CommandLine& line, std::vector<std::string>& warnings)
   std::vector<Diagnostic> found;
   Scene scene = read_scene(line.scene, line.overrides(), &found);
   for (const Diagnostic& warning : found) warnings.push_back(warning.warning());
-  for (const std::string& warning : warnings) fmt::print(stderr, "{}\n", warning);
+  for (const std::string& warning : warnings) complain("{}\n", warning);
   return scene;
 }
 
-void say_warning(const std::string& warning) { fmt::print(stderr, "mpmfast: warning: {}\n", warning); }
+void say_warning(const std::string& warning) { complain("mpmfast: warning: {}\n", warning); }
 
 fs::path output_folder(const CommandLine& line) {
   return line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
@@ -120,7 +121,7 @@ int run_and_report(const CommandLine& line, RunOptions& options,
     summary = run();
   } catch (const RunFailure& failure) {
     display.finish();
-    fmt::print(stderr, "mpmfast: the run failed: {}\n", failure.what());
+    complain("mpmfast: the run failed: {}\n", failure.what());
     print_remains(options.folder);
     return kExitRunFailed;
   } catch (...) {
@@ -146,9 +147,8 @@ int run_command(const CommandLine& line) {
   const fs::path folder = output_folder(line);
   std::error_code error;
   if (!line.force && fs::exists(fs::symlink_status(folder, error))) {
-    fmt::print(stderr,
-               "mpmfast: the output folder {} exists (--force replaces it, --out DIR names another)\n",
-               folder.string());
+    complain("mpmfast: the output folder {} exists (--force replaces it, --out DIR names another)\n",
+             folder.string());
     return kExitWrongInput;
   }
   options.folder = folder;
