@@ -115,7 +115,7 @@ void prepare_folder(const std::filesystem::path& folder, const Scene& scene, boo
       throw FileError("output folder " + folder.string() + " is a file");
     if (!force)
       throw FileError("output folder " + folder.string() +
-                      " exists already (--force replaces the run in it)");
+                      " exists already; with force the run in it is replaced");
     check_replaceable(folder, scene);
     remove_earlier_run(folder);
   }

@@ -7,6 +7,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
+#include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
 namespace {
@@ -44,6 +45,25 @@ std::string pair_name(const Scene& scene, const ContactPair& pair) {
   return name(pair.between[0]) + "+" + name(pair.between[1]);
 }
 
+const WallSpec* piston_of(const BoundarySpec& boundary) {
+  const auto* wall = std::get_if<WallSpec>(&boundary.condition);
+  return wall && largest(wall->speed) > 0 ? wall : nullptr;
+}
+
+/// How much further apart than at first a piston and what it faces are, by their first distance: negative in
+/// compression. It faces the wall on the other side of the grid, or that face.
+double nominal_strain(const Scene& scene, const WallSpec& piston, double time) {
+  const auto axis = static_cast<std::size_t>(piston.axis);
+  double faced = scene.grid.origin[axis] + (piston.upper ? 0 : scene.grid.size[axis]), moved = 0;
+  for (const BoundarySpec& boundary : scene.boundaries) {
+    const auto* wall = std::get_if<WallSpec>(&boundary.condition);
+    if (!wall || wall->axis != piston.axis || wall->upper == piston.upper) continue;
+    faced = wall->position;
+    moved = integral_to(wall->speed, time);
+  }
+  return (integral_to(piston.speed, time) - moved) / (piston.position - faced);
+}
+
 std::vector<std::string> column_names(const Scene& scene) {
   std::vector<std::string> names{"step",       "time_s",          "dt_s",       "kinetic_J",  "stored_J",
                                  "friction_J", "boundary_work_J", "momentum_x", "momentum_y", "momentum_z"};
@@ -79,6 +99,8 @@ std::vector<std::string> column_names(const Scene& scene) {
     names.insert(names.end(), {"outflow_kg", "outflow_J"});
     for (std::size_t k = 0; k < dim; ++k) names.push_back(fmt::format("outflow_momentum_{}", kAxisNames[k]));
   }
+  for (const auto& boundary : scene.boundaries)
+    if (piston_of(boundary)) names.push_back(boundary.name + ".strain");
   return names;
 }
 
@@ -167,6 +189,8 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
     numbers.add(outflow.energy);
     numbers.add(outflow.momentum, dim);
   }
+  for (const auto& boundary : scene.boundaries)
+    if (const WallSpec* piston = piston_of(boundary)) numbers.add(nominal_strain(scene, *piston, row.time));
   return numbers.all;
 }
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -133,6 +134,33 @@ TEST_CASE("what left the grid ends a row of the history where the scene lets it 
   REQUIRE(lines.size() == 2);
   CHECK(lines[0].ends_with(",dissipated_J,outflow_kg,outflow_J,outflow_momentum_x,outflow_momentum_y"));
   CHECK(lines[1].ends_with(",3,0.25,0.5,1,2"));
+}
+
+TEST_CASE("a piston's strain is what it moved towards the wall that it faces, by their first distance") {
+  const TemporaryFolder folder;
+  Scene scene = small_scene(Space::plane_strain);
+  scene.grid.origin = {0, -1, 0};
+  scene.grid.size = {4, 5, 0};
+  scene.boundaries = {{"left", WallSpec{0, false, 0, {{0}, {0}}, false}},
+                      {"right", WallSpec{0, true, 4, {{0, 2}, {0, -1}}, false}},
+                      {"bottom", WallSpec{1, false, -1, {{0}, {0.5}}, false}},
+                      {"top", WallSpec{1, true, 3, {{0}, {-1}}, false}}};
+  const std::vector<std::string> names = history_columns(scene);
+  HistoryRow row;
+  row.time = 2;
+  const std::vector<double> numbers = history_numbers(row, scene);
+  REQUIRE(names.size() == numbers.size());
+  const auto at = [&](const std::string& name) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    REQUIRE(found != names.end());
+    return numbers[static_cast<std::size_t>(found - names.begin())];
+  };
+  CHECK(at("right.strain") == doctest::Approx(-0.25));  // a ramp from rest to -1 m/s in 2 s: 1 m of 4
+  CHECK(at("top.strain") == doctest::Approx(-0.75));    // 2 m, and the bottom comes up by 1 m: 3 m of 4
+  CHECK(at("bottom.strain") == doctest::Approx(-0.75));
+  CHECK(std::find(names.begin(), names.end(), "left.strain") == names.end());
+  scene.boundaries = {{"right", WallSpec{0, true, 4, {{0}, {1}}, false}}};
+  CHECK(history_numbers(row, scene).back() == doctest::Approx(0.5));  // pulled away from the grid's own face
 }
 
 TEST_CASE("a body's name with a comma or a quote stays one cell of history.csv") {
