@@ -69,6 +69,25 @@ TEST_CASE("an expression over a column that no run writes is told before anythin
   CHECK(begins(found[2], "8: curves.0.y: no column of the history 'block.y_mm'"));
 }
 
+TEST_CASE("a name that wants backquotes is told once an expression, with them, however many runs there are") {
+  const StudyFolder folder;
+  const std::string head =
+      "scene: scene.yaml\n"
+      "set: {bodies.0.name: the-block}\n"
+      "variants: [{name: a}, {name: b}]\n"
+      "error:\n"
+      "  compare: final\n"
+      "  expected: 1\n"
+      "  quantity: ";
+  CHECK(folder.faults(head + "2 * the-block.vy + kinetic_j + the-block.vx\n") ==
+        Lines{"7: error.quantity: no column of the history 'the'. Between backquotes it is known: "
+              "`the-block.vx`, `the-block.vy`",
+              "7: error.quantity: no column of the history 'kinetic_j'. Did you mean 'kinetic_J'?"});
+  CHECK(folder.faults(head + "'`the-blokc.vy`'\n") ==
+        Lines{"7: error.quantity: no column of the history 'the-blokc.vy'. Did you mean `the-block.vy`?"});
+  CHECK(folder.faults(head + "'`the-block.vy` * 2'\n").empty());
+}
+
 TEST_CASE("a constant that the reference does not have is told before anything runs") {
   const StudyFolder folder;
   const std::string text =

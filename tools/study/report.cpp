@@ -59,7 +59,7 @@ std::string name_in_panel(const Study& study, const StudyRun& run, const CurveSp
   for (std::size_t k = 0; k < run.choice.size(); ++k)
     if (k != spec.panels &&
         !(spec.only.contains(study.axes[k].name) && spec.only.at(study.axes[k].name).size() == 1))
-      parts.push_back(study.axes[k].choices[run.choice[k]].name);
+      parts.push_back(study.axes[k].choices[run.choice[k]].label);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -83,7 +83,7 @@ class CurveChart {
  private:
   void fill(std::size_t panel) {
     ChartPanel out;
-    if (spec_.panels) out.title = study_.axes[*spec_.panels].choices[panel].name;
+    if (spec_.panels) out.title = study_.axes[*spec_.panels].choices[panel].label;
     std::vector<std::size_t> references;
     for (std::size_t k = 0; k < runs_.variants.size(); ++k) {
       const StudyRun& run = runs_.variants[k];

@@ -32,7 +32,7 @@ std::string row_name(const Study& study, const StudyRun& run) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < run.choice.size(); ++k)
     if (k != study.map->panels && k != study.map->columns)
-      parts.push_back(study.axes[k].choices[run.choice[k]].name);
+      parts.push_back(study.axes[k].choices[run.choice[k]].label);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -35,6 +35,7 @@ using Only = std::map<std::string, std::vector<std::string>>;
 /// One value of an axis.
 struct Choice {
   std::string name;
+  std::string label;  ///< in names of runs: tells the key where the value alone does not, "cfl=0.2"
   std::vector<Setting> set;
   Constants let;                               ///< names for the study's expressions
   Only only;                                   ///< what this one goes with
