@@ -137,6 +137,23 @@ TEST_CASE("an error needs something to compare with") {
   CHECK(begins(found("{compare: final, expected: 1}"), "3: error"));
 }
 
+TEST_CASE(
+    "a study says what it lacks: something to measure, an error for its cost, a column of its quantities") {
+  const StudyFolder folder;
+  const std::string head = "scene: scene.yaml\nvariants: [{name: a}]\n";
+  const Lines nothing = folder.faults(head);
+  REQUIRE(nothing.size() == 1);
+  CHECK(nothing[0].find("error: missing (a map {quantity, compare, …}; or holds, or quantities)") !=
+        std::string::npos);
+  CHECK(folder.faults(head + "quantities: {v: block.vy}\ncost: wall_s\n") ==
+        Lines{"4: cost: error is missing, which is drawn against the cost"});
+  CHECK(folder.faults(head + "quantities: {v: blok.vy}\n") ==
+        Lines{"3: quantities.v: no column of the history 'blok.vy'. Did you mean 'block.vy'?"});
+  const Lines over = folder.faults(head + "quantities: {v: {quantity: block.vy, over: maxx}}\n");
+  REQUIRE(over.size() == 1);
+  CHECK(over[0].find("Did you mean 'max'?") != std::string::npos);
+}
+
 TEST_CASE("an axis or a value that `only`, `per` or `panels` does not know is told with the known ones") {
   const StudyFolder folder;
   const Lines found = folder.faults(

@@ -192,6 +192,41 @@ TEST_CASE("a variant is measured against the run of its reference") {
   CHECK(results.variants[1].errors.at(0) == doctest::Approx(0.2));
 }
 
+TEST_CASE("quantities without an error make a plain table: no front and no chart of cost") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "vary: {time.cfl: [0.1, 0.2]}\n"
+      "quantities:\n"
+      "  speed: -block.vy\n"
+      "  largest: {quantity: block.vy, over: max}\n"
+      "  smallest: {quantity: block.vy, over: min}\n"
+      "  mean: {quantity: block.vy * 2, over: mean}\n");
+  const StudyRuns runs = expand_study(study);
+  for (const StudyRun& run : runs.variants) leave_run(folder.path(), run, "finished", 1, -3);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  CHECK(results.variants[0].quantities == std::vector<double>{3, 0, -3, -3});
+  CHECK(study_csv(study, runs, results)
+            .find(",reason,speed,largest,smallest,mean\ncfl=0.1,,160,1,800,0,0.1,") != std::string::npos);
+  const std::string table = study_table(study, runs, results);
+  CHECK(table.rfind("| time.cfl | speed | largest | smallest | mean | reached |", 0) == 0);
+  CHECK(table.find("| 0.2 | 3 | 0 | -3 | -3 | 1e-05 |") != std::string::npos);
+  CHECK(table.find("front") == std::string::npos);
+  CHECK(write_report(study, runs, results, folder.path()).empty());
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "study.gp"));
+}
+
+TEST_CASE("quantities stand beside the error where there is one") {
+  const StudyFolder folder;
+  const Study study = folder.study(kStudy + "quantities: {speed: block.vy / 2}\n");
+  const StudyRuns runs = expand_study(study);
+  leave_run(folder.path(), runs.variants[0], "finished", 2, -11);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  CHECK(study_csv(study, runs, results).find(",by itself,speed\na,0.1,") != std::string::npos);
+  CHECK(study_csv(study, runs, results).find(",1,-5.5\n") != std::string::npos);
+  CHECK(study_table(study, runs, results).find("| a | 1 | 10.00 % | -11 | -5.5 |") != std::string::npos);
+}
+
 TEST_CASE("a reference may be an expression of the run's own columns or a table beside the study") {
   const StudyFolder folder;
   const std::string head =

@@ -160,6 +160,7 @@ class Expansion {
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
       for (const auto& formula : {spec.from, spec.to, spec.threshold, spec.expected}) check_constant(formula);
     }
+    for (const QuantitySpec& quantity : study_.quantities) check(quantity.quantity);
     check(study_.reference.expression);
     for (const CurveSpec& curve : study_.curves) {
       check(curve.x);

@@ -11,7 +11,7 @@
 namespace mpmfast {
 
 /// One row a variant: variant, error, particle_steps, wall_s, particle_steps_per_s, pareto, the value on each
-/// axis, then what else is known. An empty cell is a number that there is not.
+/// axis, then what else is known, the study's quantities last. An empty cell is a number that there is not.
 std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResults& results);
 
 /// The same for people, in Markdown.
