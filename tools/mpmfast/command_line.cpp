@@ -24,9 +24,9 @@ namespace {
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, like, threads, jobs, steps, until, x = "time_s", progress = "auto";
+  std::string scene, out, topic, like, threads, jobs, steps, until, title, x = "time_s", progress = "auto";
   std::string frame, range;
-  std::vector<std::string> set, columns, fields;
+  std::vector<std::string> set, folders, columns, fields;
   bool force = false, markdown = false;
 };
 
@@ -82,22 +82,27 @@ void add_study_options(CLI::App& command, RawOptions& raw) {
 }
 
 void add_plot_options(CLI::App& command, RawOptions& raw) {
-  command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
-  command
-      .add_option(
-          "--columns", raw.columns,
-          "A column of history.csv or an expression of columns, instead of the usual charts; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
+  command.add_option("DIR", raw.folders, "Output folders of runs: of several, --columns in one chart")
+      ->required()
+      ->type_name("");
+  const auto add_several = [&](const char* name, std::vector<std::string>& values, const char* says) {
+    return command.add_option(name, values, says)->take_all()->allow_extra_args(false);
+  };
+  add_several(
+      "--columns", raw.columns,
+      "A column of history.csv or an expression of columns, instead of the usual charts; may be repeated")
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
+  command.add_option("--title", raw.title, "The title of that chart")->type_name("TEXT");
   command
-      .add_option("--field", raw.fields,
-                  "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
-                  "body, ...; "
-                  "may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
+      .add_option(
+          "--out", raw.out,
+          "A folder for what is drawn, or the one picture: .svg, .png or .pdf; that of the run if not given")
+      ->check(CLI::Validator(check_out_file, ""))
+      ->type_name("FILE_OR_DIR");
+  add_several("--field", raw.fields,
+              "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
+              "body, ...; may be repeated")
       ->type_name("FIELD");
   command.add_option("--frame", raw.frame, "Draw this frame alone: first, last or its number")
       ->type_name("N");
@@ -215,12 +220,14 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
                  : *commands.report ? Command::report
                  : *commands.schema ? Command::schema
                                     : Command::list;
-  line.scene = raw.scene;
+  line.folders = raw.folders;
+  line.scene = raw.folders.empty() ? raw.scene : raw.folders[0];
   line.out = raw.out;
   line.topic = raw.topic;
   line.like = raw.like;
   line.set = raw.set;
   line.columns = raw.columns;
+  line.title = raw.title;
   line.fields = raw.fields;
   line.frame = raw.frame;
   line.range = raw.range;

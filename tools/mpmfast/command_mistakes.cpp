@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <string_view>
+#include <algorithm>
 #include <vector>
 
 #include "engine/scene/suggest.hpp"
@@ -49,16 +49,13 @@ std::string mistake_text(const CLI::App& command, const CLI::ParseError& error, 
   const std::vector<std::string> left = command.remaining();
   for (const std::string& word : left)
     if (word.rfind('-', 0) == 0) return unknown_option(command, word);
-  if (error.get_name() == "ExtrasError")
+  if (dynamic_cast<const CLI::ExtrasError*>(&error))
     return fmt::format("'{}' takes no '{}'", name_of(command), fmt::join(left, " "));
   const std::string said = error.what();
-  if (error.get_name() == "ArgumentMismatch" && said.find(" missing") != std::string::npos) {
-    const std::string option = said.substr(0, said.find(':'));
-    return fmt::format("{}: a value is missing ({})", option, command.get_option(option)->get_type_name());
-  }
-  if (error.get_name() == "ArgumentMismatch")
-    return fmt::format("{} is given more than once", said.substr(0, said.find(':')));
-  return said;
+  if (!dynamic_cast<const CLI::ArgumentMismatch*>(&error)) return said;
+  const std::string option = said.substr(0, said.find(':'));
+  if (said.find(" missing") == std::string::npos) return fmt::format("{} is given more than once", option);
+  return fmt::format("{}: a value is missing ({})", option, command.get_option(option)->get_type_name());
 }
 
 }  // namespace mpmfast

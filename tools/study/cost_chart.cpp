@@ -139,7 +139,7 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
   }
   plot += legend(study);
   if (failed) plot += ", \\\n  NaN with points pt 6 lc rgb '#666666' title 'open: failed on the way'";
-  return draw_with_gnuplot(folder, stem, data, plot + "\nunset logscale\n", 1000, 620);
+  return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n", 1000, 620);
 }
 
 }  // namespace mpmfast

@@ -77,7 +77,7 @@ class CurveChart {
     for (const StudyRun& run : runs_.variants)  // the colours in the order of the study
       if (goes_with(study_.axes, run.choice, spec_.only)) colour_of(name_in_panel(study_, run, spec_));
     for (std::size_t panel = 0; panel < panels; ++panel) fill(panel);
-    return draw_line_chart(folder_, spec_.name, chart_);
+    return draw_line_chart({folder_, spec_.name}, chart_);
   }
 
  private:
