@@ -243,6 +243,31 @@ TEST_CASE("a reference may be an expression of the run's own columns or a table 
   }
 }
 
+TEST_CASE("a chart of cost joins the cells of a method; points of the front are filled, others open") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "vary: {method.update: [flip, pic], grid.cell: [1 mm, 0.5 mm]}\n"
+      "error: {quantity: block.vy, compare: final, expected: -10, relative: \"no\"}\n");
+  const StudyRuns runs = expand_study(study);
+  const double wall[] = {1, 2, 3, 4}, vy[] = {-15, -11, -18, -17};
+  for (std::size_t k = 0; k < 4; ++k)
+    leave_run(folder.path(), runs.variants[k], k < 3 ? "finished" : "failed", wall[k], vy[k]);
+  write_report(study, runs, collect_results(study, runs, folder.path()), folder.path());
+  const std::string script = output_test::read_text(folder.path() / "study.gp");
+  CHECK(script.find("$method0 << EOD\n1 5\n2 1\nEOD\n") != std::string::npos);
+  CHECK(script.find("$method1 << EOD\n3 8\nEOD\n") != std::string::npos);  // the failed one is not joined
+  const auto drawn = [&](const std::string& block, const std::string& style) {
+    const std::size_t at = script.find("$" + block + " with");
+    return script.compare(at + block.size() + 2, style.size(), style) == 0;
+  };
+  CHECK(script.find("$points0 << EOD\n1 5\nEOD\n") != std::string::npos);
+  CHECK(drawn("points0", "with points pt 7"));  // on the front
+  CHECK(script.find("$points2 << EOD\n3 8\nEOD\n") != std::string::npos);
+  CHECK(drawn("points2", "with points pt 6"));  // beaten
+  CHECK(drawn("points3", "with points pt 2"));  // failed
+}
+
 TEST_CASE("a chart of curves shows its window and names a run by what differs") {
   const StudyFolder folder;
   const Study study = folder.study(

@@ -21,8 +21,8 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
 std::vector<std::string> write_report(const Study& study, const StudyRuns& runs, const StudyResults& results,
                                       const std::filesystem::path& folder);
 
-/// Error against cost of every variant, with the front as a line. Returns why there is no picture, or
-/// nothing.
+/// Error against cost of every variant, with the front as a line, and a line through the runs of a method
+/// that differ by their cells alone. Returns why there is no picture, or nothing.
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem);
 
