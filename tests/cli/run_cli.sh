@@ -220,6 +220,23 @@ check_study() {
   rm -rf study study_before.csv
 }
 
+# A table of quantities, whose runs are called after the key of their numbers and found again.
+check_plain_study() {
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+vary: {time.cfl: [0.2, 0.4], method.update: [flip]}
+quantities: {fall: -block.vy, least: {quantity: block.vy, over: min}}
+STUDY
+  run 0 study scene_study.yaml --out study
+  says out '| time.cfl | method.update | fall | least | reached |'
+  says err '[2/2] cfl=0.4, flip'
+  [[ -f study/cfl=0.2_flip/run.json && ! -e study/study.gp ]] || fail 'a plain study has other folders, or a chart of cost'
+  [[ $(head -n 1 study/study.csv) == *,reason,fall,least ]] || fail 'study.csv does not end with the quantities'
+  run 0 study scene_study.yaml --out study
+  says out 'runs             0 now, 2 kept'
+  rm -rf study
+}
+
 # The second of two variants takes for ever and is stopped; what had finished is kept.
 check_stopped_study() {
   local process code
@@ -440,6 +457,7 @@ check_output_folder
 check_force
 check_failed_run
 check_study
+check_plain_study
 check_stopped_study
 check_study_without_gnuplot
 check_wrong_study

@@ -80,7 +80,8 @@ std::string contradiction(const CommandLine& line) {
 
 void check_run_folder(const fs::path& folder) {
   std::error_code error;
-  if (fs::is_regular_file(folder / "history.csv", error)) return;
+  for (const char* name : {"history.csv", "particles.pvd"})
+    if (fs::is_regular_file(folder / name, error)) return;
   if (!fs::is_directory(folder, error))
     throw FileError(
         fmt::format("{}: no such folder (the output folder of a run was expected)", folder.string()));
