@@ -376,7 +376,7 @@ check_plot_of_several() {
   if command -v gnuplot >/dev/null; then
     echo precious >figure.gp
     run 0 plot plotted other/plotted --columns kinetic_J --title 'Energy left' --out figure.svg
-    for words in 'Energy left' 'plotted: kinetic_J' 'other/plotted: kinetic_J' 'time (ns)'; do
+    for words in 'Energy left' 'plotted: kinetic_J' 'other/plotted: kinetic_J' 'time (ns)' 'energy ('; do
       grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
     done
     [[ $(cat figure.gp) == precious && ! -e figure.png ]] || fail '--out FILE writes more than it should'

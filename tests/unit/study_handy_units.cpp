@@ -21,6 +21,7 @@ TEST_CASE(
     "the end of a column's name tells its unit; a sum of columns of one unit has it, a product has none") {
   CHECK(unit_of_column("left.mean_stress_xx_Pa") == "Pa");
   CHECK(unit_of_column("paddle.moment_z_Nm") == "N m");
+  CHECK(unit_of_column("left-block.vx") == "m/s");
   CHECK(unit_of_column("momentum_x").empty());
   CHECK(unit_of_column("s").empty());
   CHECK(unit_of_text("kinetic_J + stored_J - friction_J") == "J");
@@ -28,6 +29,8 @@ TEST_CASE(
   CHECK(unit_of_text("kinetic_J + time_s").empty());
   CHECK(unit_of_text("time_s * 1e3").empty());  // who scales himself has a unit in mind
   CHECK(unit_of_text("3").empty());
+  CHECK(quantity_in("Pa") == "stress");
+  CHECK(quantity_in("kg m/s").empty());
 }
 
 TEST_CASE("a handy unit leaves the largest number between 1 and 1000") {

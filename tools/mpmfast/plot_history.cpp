@@ -107,6 +107,11 @@ std::string make_handy(const std::string& unit, const std::vector<std::vector<do
   return handy.symbol;
 }
 
+std::string axis_label(const std::string& quantity, const std::string& unit) {
+  if (quantity.empty() || unit.empty()) return quantity + unit;
+  return fmt::format("{} ({})", quantity, unit);
+}
+
 class Plot {
  public:
   Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x)
@@ -127,10 +132,8 @@ class Plot {
       x.push_back(&curve.curve.x);
       y.push_back(&curve.curve.y);
     }
-    const std::string x_unit = make_handy(unit_of(x_), x);
-    const std::string x_name = shown(x_) == "time_s" ? "time" : shown(x_);
-    chart.x_label = x_unit.empty() ? x_name : fmt::format("{} ({})", x_name, x_unit);
-    chart.y_label = make_handy(unit, y);
+    chart.x_label = axis_label(shown(x_) == "time_s" ? "time" : shown(x_), make_handy(unit_of(x_), x));
+    chart.y_label = axis_label(quantity_in(unit), make_handy(unit, y));
     return draw(stem, chart);
   }
 

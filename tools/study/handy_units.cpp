@@ -3,21 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
 
 namespace mpmfast {
 
 namespace {
 
-// The ends of columns, and the units as an axis shows them.
-constexpr std::array<std::pair<const char*, const char*>, 8> kEnds{{{"s", "s"},
-                                                                    {"J", "J"},
-                                                                    {"N", "N"},
-                                                                    {"Pa", "Pa"},
-                                                                    {"m", "m"},
-                                                                    {"m2", "m²"},
-                                                                    {"kg", "kg"},
-                                                                    {"Nm", "N m"}}};
+struct ColumnEnd {
+  const char *end, *unit, *quantity;
+};
+constexpr ColumnEnd kEnds[] = {{"s", "s", "time"},        {"J", "J", "energy"},     {"N", "N", "force"},
+                               {"Pa", "Pa", "stress"},    {"m", "m", "length"},     {"m2", "m²", "area"},
+                               {"kg", "kg", "mass"},      {"Nm", "N m", "moment"},  {"vx", "m/s", "velocity"},
+                               {"vy", "m/s", "velocity"}, {"vz", "m/s", "velocity"}};
 constexpr std::array<const char*, 7> kPrefixes{"n", "µ", "m", "", "k", "M", "G"};
 constexpr int kNoPrefix = 3;  // its place among them
 
@@ -35,9 +32,16 @@ std::string without_names(const std::string& text) {
 }  // namespace
 
 std::string unit_of_column(const std::string& name) {
-  const std::size_t last = name.rfind('_');
-  for (const auto& [end, unit] : kEnds)
-    if (last != std::string::npos && name.compare(last + 1, std::string::npos, end) == 0) return unit;
+  const std::size_t last = name.find_last_of("_.");
+  for (const ColumnEnd& known : kEnds)
+    if (last != std::string::npos && name.compare(last + 1, std::string::npos, known.end) == 0)
+      return known.unit;
+  return "";
+}
+
+std::string quantity_in(const std::string& unit) {
+  for (const ColumnEnd& known : kEnds)
+    if (unit == known.unit) return known.quantity;
   return "";
 }
 

@@ -15,6 +15,9 @@ std::string unit_of_column(const std::string& name);
 /// know.
 std::string unit_of(const Expression& expression);
 
+/// "energy" for J: what columns of that unit are; empty where it is not known.
+std::string quantity_in(const std::string& unit);
+
 /// Numbers in SI times `factor` are in `symbol`.
 struct HandyUnit {
   double factor = 1;
