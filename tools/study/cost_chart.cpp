@@ -136,63 +136,80 @@ std::string legend(const Study& study) {
   return out;
 }
 
+/// What the chart shows, by how it is drawn.
+struct ChartPoints {
+  std::map<Look, Points> groups;
+  std::map<std::vector<std::size_t>, Points> methods;  ///< joined; by their choices but that of the cells
+  std::map<double, double> front;                      ///< cost → error
+  Range across, up;
+  bool failed = false;
+};
+
+ChartPoints collect(const StudyRuns& runs, const StudyResults& results, Cost cost, double percent,
+                    std::optional<std::size_t> resolution) {
+  ChartPoints out;
+  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
+    const StudyResult& result = results.variants[k];
+    if (result.errors.empty() || !std::isfinite(result.errors[0]) || !(cost_of(result, cost) > 0)) continue;
+    const double x = cost_of(result, cost), y = percent * std::max(result.errors[0], kSmallest);
+    const Standing standing = standing_of(result);
+    out.groups[look_of(runs.variants[k].choice, standing)].add(x, y);
+    if (resolution && standing != Standing::failed) {
+      std::vector<std::size_t> method = runs.variants[k].choice;
+      method[*resolution] = 0;
+      out.methods[method].add(x, y);
+    }
+    out.across.add(x);
+    out.up.add(y);
+    out.failed = out.failed || standing == Standing::failed;
+    if (standing == Standing::front) out.front.emplace(x, y);
+  }
+  return out;
+}
+
+std::string explanation(bool failed) {
+  std::string out;
+  const auto explain = [&](int type, const char* words) {
+    out += fmt::format(", \\\n  NaN with points pt {} lc rgb '{}' title '{}'", type, kGrey, words);
+  };
+  explain(kFilled[0], "filled: on the front");
+  explain(kFilled[0] - 1, "open: beaten by another");
+  if (failed) explain(kCross, "cross: failed on the way");
+  return out;
+}
+
 }  // namespace
 
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem) {
   const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
-  std::map<Look, Points> groups;
-  std::map<std::vector<std::size_t>, Points> methods;  // by their choices but that of the cells
   const auto resolution = resolution_axis(runs);
-  std::vector<std::pair<double, double>> front;
-  Range across, up;
-  bool failed = false;
-  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
-    const StudyResult& result = results.variants[k];
-    if (result.errors.empty() || !std::isfinite(result.errors[0]) || !(cost_of(result, cost) > 0)) continue;
-    const double x = cost_of(result, cost), y = percent * std::max(result.errors[0], kSmallest);
-    groups[look_of(runs.variants[k].choice, standing_of(result))].add(x, y);
-    if (resolution && result.status == "finished") {
-      std::vector<std::size_t> method = runs.variants[k].choice;
-      method[*resolution] = 0;
-      methods[method].add(x, y);
-    }
-    across.add(x);
-    up.add(y);
-    failed = failed || result.status != "finished";
-    if (result.pareto) front.emplace_back(x, y);
-  }
-  std::sort(front.begin(), front.end());
+  const ChartPoints points = collect(runs, results, cost, percent, resolution);
   Points line;
-  for (const auto& [x, y] : front) line.add(x, y);
+  for (const auto& [x, y] : points.front) line.add(x, y);
   std::string data = gnuplot_data("front", line.x, line.y);
   std::string plot = fmt::format(
       "set title {}\nset logscale xy\nset grid lt 1 lc rgb '#dddddd'\n"
       "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
       "plot $front with lines lw 5 lc rgb '#cccccc' title '{}'",
       gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
-      gnuplot_text(percent == 100 ? "error (%)" : "error"), across.commands('x'), up.commands('y'),
+      gnuplot_text(percent == 100 ? "error (%)" : "error"), points.across.commands('x'),
+      points.up.commands('y'),
       cost == study.costs.front() ? "Pareto front" : "Pareto front of the first cost");
   std::size_t blocks = 0;
-  for (const auto& [choice, points] : methods) {
+  for (const auto& [choice, joined] : points.methods) {
     const std::string name = fmt::format("method{}", blocks++);
-    data += gnuplot_data(name, points.x, points.y);
+    data += gnuplot_data(name, joined.x, joined.y);
     plot += fmt::format(", \\\n  ${} with lines lw 1 lc rgb '{}' notitle", name,
                         resolution == 0 ? kGrey : chart_colour(choice[0]));
   }
   blocks = 0;
-  for (const auto& [look, points] : groups) {
+  for (const auto& [look, group] : points.groups) {
     const std::string name = fmt::format("points{}", blocks++);
-    data += gnuplot_data(name, points.x, points.y);
+    data += gnuplot_data(name, group.x, group.y);
     plot += fmt::format(", \\\n  ${} {} notitle", name, look.style());
   }
-  plot += legend(study);
-  const auto explain = [&](int type, const char* words) {
-    plot += fmt::format(", \\\n  NaN with points pt {} lc rgb '{}' title '{}'", type, kGrey, words);
-  };
-  explain(kFilled[0], "filled: on the front");
-  explain(kFilled[0] - 1, "open: beaten by another");
-  if (failed) explain(kCross, "cross: failed on the way");
+  plot += legend(study) + explanation(points.failed);
   return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n", 1000, 620);
 }
 
