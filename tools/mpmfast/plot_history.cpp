@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "exit_codes.hpp"
