@@ -1,6 +1,7 @@
 #include "engine/scene/problems.hpp"
 
 #include <algorithm>
+#include <set>
 #include <tuple>
 
 namespace mpmfast {
@@ -30,13 +31,9 @@ std::vector<Diagnostic> Problems::sorted() const {
            std::tie(b.place.source, b.place.line, b.place.column);
   });
   std::vector<Diagnostic> out;
-  std::string previous;
-  for (Found& entry : found) {
-    std::string text = entry.diagnostic.text();
-    if (text == previous) continue;
-    previous = std::move(text);
-    out.push_back(std::move(entry.diagnostic));
-  }
+  std::set<std::string> told;
+  for (Found& entry : found)
+    if (told.insert(entry.diagnostic.text()).second) out.push_back(std::move(entry.diagnostic));
   return out;
 }
 

@@ -220,6 +220,23 @@ check_study() {
   rm -rf study study_before.csv
 }
 
+# A table of quantities, whose runs are called after the key of their numbers and found again.
+check_plain_study() {
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+vary: {time.cfl: [0.2, 0.4], method.update: [flip]}
+quantities: {fall: -block.vy, least: {quantity: block.vy, over: min}}
+STUDY
+  run 0 study scene_study.yaml --out study
+  says out '| time.cfl | method.update | fall | least | reached |'
+  says err '[2/2] cfl=0.4, flip'
+  [[ -f study/cfl=0.2_flip/run.json && ! -e study/study.gp ]] || fail 'a plain study has other folders, or a chart of cost'
+  [[ $(head -n 1 study/study.csv) == *,reason,fall,least ]] || fail 'study.csv does not end with the quantities'
+  run 0 study scene_study.yaml --out study
+  says out 'runs             0 now, 2 kept'
+  rm -rf study
+}
+
 # The second of two variants takes for ever and is stopped; what had finished is kept.
 check_stopped_study() {
   local process code
@@ -333,12 +350,55 @@ check_warnings() {
   rm -rf suspicious
 }
 
+# Several runs, one picture, and what does not go together.
+check_plot_of_several() {
+  run 0 run scene.yaml --steps 4 --out other/plotted --progress none
+  run 2 plot plotted other/plotted
+  says err 'several runs in one chart: --columns says what of each is drawn'
+  run 2 plot plotted other/plotted --field speed
+  says err '--field, --frame and --range draw the particles of one run'
+  run 2 plot plotted other/plotted --columns blok.vy --columns kinetic_j
+  [[ $(grep -c . err) == 2 ]] || fail 'a wrong column is told once a run'
+  says err "no column 'kinetic_j' in plotted, got 'kinetic_j'. Did you mean 'kinetic_J'?"
+  run 2 plot plotted --title energy
+  says err '--title is that of the chart of --columns, which is missing'
+  run 2 plot plotted --field speed --x block.vy
+  says err '--x is for charts of the history'
+  run 2 plot plotted --out figure.svg
+  says err "--out: one file holds one picture (--columns, or one --field), got 'figure.svg'"
+  run 2 plot plotted --columns block.vy --out figure.jpg
+  says err "--out: charts are drawn as svg, png or pdf, got 'figure.jpg'"
+  run 2 plot plotted --field speed --out figure.svg
+  says err "--out: particles are drawn as png, got 'figure.svg'"
+  [[ ! -e figure.svg ]] || fail 'a refused plot drew something'
+  run 0 plot plotted --field speed --frame last --out pictures/speed.png
+  [[ $(head -c 4 pictures/speed.png) == $'\x89PNG' ]] || fail '--out FILE is no picture of the particles'
+  if command -v gnuplot >/dev/null; then
+    echo precious >figure.gp
+    run 0 plot plotted other/plotted --columns kinetic_J --title 'Energy left' --out figure.svg
+    for words in 'Energy left' 'plotted: kinetic_J' 'other/plotted: kinetic_J' 'time (ns)' 'energy ('; do
+      grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
+    done
+    [[ $(cat figure.gp) == precious && ! -e figure.png ]] || fail '--out FILE writes more than it should'
+    run 0 plot plotted --columns kinetic_J --out pictures/figure.pdf
+    [[ $(head -c 4 pictures/figure.pdf) == %PDF ]] || fail '--out FILE.pdf is no PDF'
+    run 0 plot plotted --columns kinetic_J --out pictures
+    [[ -s pictures/plot_columns.svg ]] || fail '--out DIR holds no chart'
+  fi
+  mkdir study && echo variant >study/study.csv && cp -r plotted study/flip
+  run 4 plot study
+  says err 'study is the folder of a study: its charts are there already (.svg, .png). Plot its runs: study/flip'
+  rm -rf other pictures figure.* study
+}
+
 check_plot() {
   local chart
   run 0 run scene.yaml --steps 4 --out plotted --progress none
   run 2 plot plotted --columns blok.vy
   says err "no column 'blok.vy', got 'blok.vy'. Did you mean 'block.vy'?"
   run 4 plot nowhere
+  says err 'nowhere: no such folder'
+  check_plot_of_several
   if command -v gnuplot >/dev/null; then
     run 0 plot plotted
     run 0 plot plotted --columns block.vy --columns='-block.vy * 2'
@@ -397,6 +457,7 @@ check_output_folder
 check_force
 check_failed_run
 check_study
+check_plain_study
 check_stopped_study
 check_study_without_gnuplot
 check_wrong_study

@@ -28,11 +28,11 @@ TEST_CASE("the runs of a study are the product of its variants and axes, the las
                                 kError));
   CHECK(runs.references.empty());
   REQUIRE(runs.variants.size() == 12);
-  CHECK(runs.variants[0].name == "slow, flip, 0.1");
-  CHECK(runs.variants[1].name == "slow, flip, 0.2");
-  CHECK(runs.variants[3].name == "slow, xpic(2), 0.1");
-  CHECK(runs.variants[11].name == "fast, xpic(2), 0.4");
-  CHECK(runs.variants[3].folder == "slow_xpic2_0.1");
+  CHECK(runs.variants[0].name == "slow, flip, cfl=0.1");
+  CHECK(runs.variants[1].name == "slow, flip, cfl=0.2");
+  CHECK(runs.variants[3].name == "slow, xpic(2), cfl=0.1");
+  CHECK(runs.variants[11].name == "fast, xpic(2), cfl=0.4");
+  CHECK(runs.variants[3].folder == "slow_xpic2_cfl=0.1");
   CHECK(runs.variants[3].choice == std::vector<std::size_t>{0, 1, 0});
 }
 
@@ -73,6 +73,30 @@ TEST_CASE("every run has a folder of its own that any file system takes") {
                                 kError));
   CHECK(folders_of(runs.variants) ==
         std::vector<std::string>{"a_b", "a_b_2", "a_b_3", "run", "run_2", ".._up"});
+}
+
+TEST_CASE(
+    "a value that is no word is named with the end of its key, with all of it where two keys end alike") {
+  const StudyFolder folder;
+  const StudyRuns runs =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "vary:\n"
+                                "  output.overlap: [true]\n"
+                                "  method.strain: [first]\n"
+                                "  bodies.0.velocity: [[1 m/s, 0]]\n"
+                                "  grid.cell: [1/2 mm]\n"
+                                "  speed: {10 m/s: {let: {v: 10}}}\n" +
+                                kError));
+  CHECK(names_of(runs.variants) ==
+        std::vector<std::string>{"overlap=true, first, velocity=[1 m/s, 0], cell=1/2 mm, 10 m/s"});
+  const StudyRuns alike =
+      expand_study(folder.study("scene: scene.yaml\n"
+                                "vary: {materials.rubber.young: [9 MPa], materials.spare.young: [1 MPa]}\n"
+                                "set: {materials.spare: {model: linear_elastic, density: 1 g/cm^3, young: 1 "
+                                "MPa, poisson: 0.3}}\n" +
+                                kError));
+  CHECK(folders_of(alike.variants) ==
+        std::vector<std::string>{"materials.rubber.young=9_mpa_materials.spare.young=1_mpa"});
 }
 
 TEST_CASE("a reference runs once for each value of its own axes, and every variant finds its own") {
@@ -144,7 +168,7 @@ TEST_CASE(
       "vary: {grid.cell: [1 mm, 0.5 mm], bodies.0.particles_per_cell: [2, 3], time.cfl: [0.2, 0.4]}\n"
       "error: {quantity: block.vy, compare: final, expected: 1}\n"));
   REQUIRE(runs.variants.size() == 8);
-  CHECK(runs.variants[0].name == "1 mm, 2, 0.2");
+  CHECK(runs.variants[0].name == "cell=1 mm, particles_per_cell=2, cfl=0.2");
   const Scene& first = runs.variants[0].scene;
   const Scene& last = runs.variants[7].scene;
   CHECK((first.grid.cell == doctest::Approx(1e-3) && last.grid.cell == doctest::Approx(0.5e-3)));

@@ -69,6 +69,25 @@ TEST_CASE("an expression over a column that no run writes is told before anythin
   CHECK(begins(found[2], "8: curves.0.y: no column of the history 'block.y_mm'"));
 }
 
+TEST_CASE("a name that wants backquotes is told once an expression, with them, however many runs there are") {
+  const StudyFolder folder;
+  const std::string head =
+      "scene: scene.yaml\n"
+      "set: {bodies.0.name: the-block}\n"
+      "variants: [{name: a}, {name: b}]\n"
+      "error:\n"
+      "  compare: final\n"
+      "  expected: 1\n"
+      "  quantity: ";
+  CHECK(folder.faults(head + "2 * the-block.vy + kinetic_j + the-block.vx\n") ==
+        Lines{"7: error.quantity: no column of the history 'the'. Between backquotes it is known: "
+              "`the-block.vx`, `the-block.vy`",
+              "7: error.quantity: no column of the history 'kinetic_j'. Did you mean 'kinetic_J'?"});
+  CHECK(folder.faults(head + "'`the-blokc.vy`'\n") ==
+        Lines{"7: error.quantity: no column of the history 'the-blokc.vy'. Did you mean `the-block.vy`?"});
+  CHECK(folder.faults(head + "'`the-block.vy` * 2'\n").empty());
+}
+
 TEST_CASE("a constant that the reference does not have is told before anything runs") {
   const StudyFolder folder;
   const std::string text =
@@ -116,6 +135,23 @@ TEST_CASE("an error needs something to compare with") {
   CHECK(begins(found("{quantity: block.vy, compare: crossing, expected: 1, above: 1, below: 2}"),
                "3: error.below: above is given too"));
   CHECK(begins(found("{compare: final, expected: 1}"), "3: error"));
+}
+
+TEST_CASE(
+    "a study says what it lacks: something to measure, an error for its cost, a column of its quantities") {
+  const StudyFolder folder;
+  const std::string head = "scene: scene.yaml\nvariants: [{name: a}]\n";
+  const Lines nothing = folder.faults(head);
+  REQUIRE(nothing.size() == 1);
+  CHECK(nothing[0].find("error: missing (a map {quantity, compare, …}; or holds, or quantities)") !=
+        std::string::npos);
+  CHECK(folder.faults(head + "quantities: {v: block.vy}\ncost: wall_s\n") ==
+        Lines{"4: cost: error is missing, which is drawn against the cost"});
+  CHECK(folder.faults(head + "quantities: {v: blok.vy}\n") ==
+        Lines{"3: quantities.v: no column of the history 'blok.vy'. Did you mean 'block.vy'?"});
+  const Lines over = folder.faults(head + "quantities: {v: {quantity: block.vy, over: maxx}}\n");
+  REQUIRE(over.size() == 1);
+  CHECK(over[0].find("Did you mean 'max'?") != std::string::npos);
 }
 
 TEST_CASE("an axis or a value that `only`, `per` or `panels` does not know is told with the known ones") {

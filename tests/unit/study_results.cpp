@@ -192,6 +192,41 @@ TEST_CASE("a variant is measured against the run of its reference") {
   CHECK(results.variants[1].errors.at(0) == doctest::Approx(0.2));
 }
 
+TEST_CASE("quantities without an error make a plain table: no front and no chart of cost") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "vary: {time.cfl: [0.1, 0.2]}\n"
+      "quantities:\n"
+      "  speed: -block.vy\n"
+      "  largest: {quantity: block.vy, over: max}\n"
+      "  smallest: {quantity: block.vy, over: min}\n"
+      "  mean: {quantity: block.vy * 2, over: mean}\n");
+  const StudyRuns runs = expand_study(study);
+  for (const StudyRun& run : runs.variants) leave_run(folder.path(), run, "finished", 1, -3);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  CHECK(results.variants[0].quantities == std::vector<double>{3, 0, -3, -3});
+  CHECK(study_csv(study, runs, results)
+            .find(",reason,speed,largest,smallest,mean\ncfl=0.1,,160,1,800,0,0.1,") != std::string::npos);
+  const std::string table = study_table(study, runs, results);
+  CHECK(table.rfind("| time.cfl | speed | largest | smallest | mean | reached |", 0) == 0);
+  CHECK(table.find("| 0.2 | 3 | 0 | -3 | -3 | 1e-05 |") != std::string::npos);
+  CHECK(table.find("front") == std::string::npos);
+  CHECK(write_report(study, runs, results, folder.path()).empty());
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "study.gp"));
+}
+
+TEST_CASE("quantities stand beside the error where there is one") {
+  const StudyFolder folder;
+  const Study study = folder.study(kStudy + "quantities: {speed: block.vy / 2}\n");
+  const StudyRuns runs = expand_study(study);
+  leave_run(folder.path(), runs.variants[0], "finished", 2, -11);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  CHECK(study_csv(study, runs, results).find(",by itself,speed\na,0.1,") != std::string::npos);
+  CHECK(study_csv(study, runs, results).find(",1,-5.5\n") != std::string::npos);
+  CHECK(study_table(study, runs, results).find("| a | 1 | 10.00 % | -11 | -5.5 |") != std::string::npos);
+}
+
 TEST_CASE("a reference may be an expression of the run's own columns or a table beside the study") {
   const StudyFolder folder;
   const std::string head =
@@ -206,6 +241,31 @@ TEST_CASE("a reference may be an expression of the run's own columns or a table 
     const double scale = study.reference.kind == Reference::Kind::table ? 16 : 8;
     CHECK(collect_results(study, runs, folder.path()).variants[0].errors.at(0) == doctest::Approx(2 / scale));
   }
+}
+
+TEST_CASE("a chart of cost joins the cells of a method; points of the front are filled, others open") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "vary: {method.update: [flip, pic], grid.cell: [1 mm, 0.5 mm]}\n"
+      "error: {quantity: block.vy, compare: final, expected: -10, relative: \"no\"}\n");
+  const StudyRuns runs = expand_study(study);
+  const double wall[] = {1, 2, 3, 4}, vy[] = {-15, -11, -18, -17};
+  for (std::size_t k = 0; k < 4; ++k)
+    leave_run(folder.path(), runs.variants[k], k < 3 ? "finished" : "failed", wall[k], vy[k]);
+  write_report(study, runs, collect_results(study, runs, folder.path()), folder.path());
+  const std::string script = output_test::read_text(folder.path() / "study.gp");
+  CHECK(script.find("$method0 << EOD\n1 5\n2 1\nEOD\n") != std::string::npos);
+  CHECK(script.find("$method1 << EOD\n3 8\nEOD\n") != std::string::npos);  // the failed one is not joined
+  const auto drawn = [&](const std::string& block, const std::string& style) {
+    const std::size_t at = script.find("$" + block + " with");
+    return script.compare(at + block.size() + 2, style.size(), style) == 0;
+  };
+  CHECK(script.find("$points0 << EOD\n1 5\nEOD\n") != std::string::npos);
+  CHECK(drawn("points0", "with points pt 7"));  // on the front
+  CHECK(script.find("$points2 << EOD\n3 8\nEOD\n") != std::string::npos);
+  CHECK(drawn("points2", "with points pt 6"));  // beaten
+  CHECK(drawn("points3", "with points pt 2"));  // failed
 }
 
 TEST_CASE("a chart of curves shows its window and names a run by what differs") {

@@ -4,81 +4,31 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 
+#include "command_mistakes.hpp"
 #include "describe_command_line.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/quantity.hpp"
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
 #include "mpmfast_version.hpp"
+#include "option_checks.hpp"
 #include "starters.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-constexpr int kMostThreads = 4096;
-
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, like, threads, jobs, steps, until, x = "time_s", progress = "auto";
+  std::string scene, out, topic, like, threads, jobs, steps, until, title, x = "time_s", progress = "auto";
   std::string frame, range;
-  std::vector<std::string> set, columns, fields;
+  std::vector<std::string> set, folders, columns, fields;
   bool force = false, markdown = false;
 };
-
-template <class Number>
-bool read_whole(const std::string& text, Number& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc() && end == text.data() + text.size();
-}
-
-std::string check_threads(std::string& text) {
-  int value = 0;
-  if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
-  return fmt::format("not a number of threads (1 to {}), got '{}'", kMostThreads, text);
-}
-
-std::string check_jobs(std::string& text) {
-  int value = 0;
-  if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
-  return fmt::format("not a number of runs (1 to {}), got '{}'", kMostThreads, text);
-}
-
-std::string check_steps(std::string& text) {
-  std::uint64_t value = 0;
-  return read_whole(text, value) ? "" : fmt::format("not a number of steps (0 or more), got '{}'", text);
-}
-
-std::string check_until(std::string& text) {
-  const auto parsed = parse_quantity(text, Measure::time);
-  if (const auto* error = std::get_if<QuantityError>(&parsed)) {
-    return fmt::format("{}, got '{}'{}", error->message, text, error->hint.empty() ? "" : ". " + error->hint);
-  }
-  return std::get<double>(parsed) > 0 ? ""
-                                      : fmt::format("must be positive (a time such as 5 us), got '{}'", text);
-}
-
-std::string check_progress(std::string& text) {
-  if (text == "auto" || text == "plain" || text == "none") return "";
-  return fmt::format("not known (one of auto, plain, none), got '{}'", text);
-}
-
-std::string check_set(std::string& text) {
-  const std::size_t equals = text.find('=');
-  if (equals != std::string::npos && equals > 0) return "";
-  return fmt::format("not an override (KEY=VALUE, such as time.cfl=0.3), got '{}'{}", text,
-                     equals == std::string::npos ? ". No blanks may stand around '='" : "");
-}
-
-std::string check_out(std::string& text) { return text.empty() ? "a folder was expected, got ''" : ""; }
-
-std::string check_out_file(std::string& text) { return text.empty() ? "a file was expected, got ''" : ""; }
 
 void add_scene_options(CLI::App& command, RawOptions& raw) {
   command.add_option("SCENE", raw.scene, "The scene, a YAML file")->required()->type_name("");
@@ -132,22 +82,27 @@ void add_study_options(CLI::App& command, RawOptions& raw) {
 }
 
 void add_plot_options(CLI::App& command, RawOptions& raw) {
-  command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
-  command
-      .add_option(
-          "--columns", raw.columns,
-          "A column of history.csv or an expression of columns, instead of the usual charts; may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
+  command.add_option("DIR", raw.folders, "Output folders of runs: of several, --columns in one chart")
+      ->required()
+      ->type_name("");
+  const auto add_several = [&](const char* name, std::vector<std::string>& values, const char* says) {
+    return command.add_option(name, values, says)->take_all()->allow_extra_args(false);
+  };
+  add_several(
+      "--columns", raw.columns,
+      "A column of history.csv or an expression of columns, instead of the usual charts; may be repeated")
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
+  command.add_option("--title", raw.title, "The title of that chart")->type_name("TEXT");
   command
-      .add_option("--field", raw.fields,
-                  "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
-                  "body, ...; "
-                  "may be repeated")
-      ->take_all()
-      ->allow_extra_args(false)
+      .add_option(
+          "--out", raw.out,
+          "A folder for what is drawn, or the one picture: .svg, .png or .pdf; that of the run if not given")
+      ->check(CLI::Validator(check_out_file, ""))
+      ->type_name("FILE_OR_DIR");
+  add_several("--field", raw.fields,
+              "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
+              "body, ...; may be repeated")
       ->type_name("FIELD");
   command.add_option("--frame", raw.frame, "Draw this frame alone: first, last or its number")
       ->type_name("N");
@@ -221,24 +176,15 @@ struct Commands {
     return out;
   }
 
-  /// A hint for the first option that the chosen command does not have.
-  std::string option_hint(int count, const char* const* arguments) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    std::vector<std::string> known;
-    for (const CLI::Option* option : (chosen.empty() ? &app : chosen[0])->get_options()) {
-      for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-    }
-    for (int k = 1; k < count; ++k) {
-      const std::string word = std::string(arguments[k]).substr(0, std::string_view(arguments[k]).find('='));
-      if (word.rfind("--", 0) != 0 || std::find(known.begin(), known.end(), word) != known.end()) continue;
-      return did_you_mean(word, known);
-    }
-    return "";
+  /// The command that was chosen, or the program.
+  const CLI::App& chosen() const {
+    const std::vector<CLI::App*> all = app.get_subcommands();
+    return all.empty() ? app : *all[0];
   }
 };
 
-int refuse(const std::string& message, const std::string& hint) {
-  fmt::print(stderr, "mpmfast: {}{}\nTry 'mpmfast --help'.\n", message, hint.empty() ? "" : ". " + hint);
+int refuse(const std::string& message, const std::string& command = "") {
+  fmt::print(stderr, "mpmfast: {}\nTry 'mpmfast {}--help'.\n", message, command.empty() ? "" : command + " ");
   return kExitWrongInput;
 }
 
@@ -274,12 +220,14 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
                  : *commands.report ? Command::report
                  : *commands.schema ? Command::schema
                                     : Command::list;
-  line.scene = raw.scene;
+  line.folders = raw.folders;
+  line.scene = raw.folders.empty() ? raw.scene : raw.folders[0];
   line.out = raw.out;
   line.topic = raw.topic;
   line.like = raw.like;
   line.set = raw.set;
   line.columns = raw.columns;
+  line.title = raw.title;
   line.fields = raw.fields;
   line.frame = raw.frame;
   line.range = raw.range;
@@ -316,16 +264,18 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
   const std::string first = arguments[1];
   const std::vector<std::string> names = commands.names();
   if (first.rfind('-', 0) != 0 && std::find(names.begin(), names.end(), first) == names.end()) {
-    return {std::nullopt,
-            refuse(fmt::format("unknown command '{}' (one of {})", first, fmt::join(names, ", ")),
-                   file_like(first) ? fmt::format("Did you mean 'mpmfast run {}'?", first)
-                                    : did_you_mean(first, names))};
+    const std::string hint =
+        file_like(first) ? fmt::format("Did you mean 'mpmfast run {}'?", first) : did_you_mean(first, names);
+    return {std::nullopt, refuse(fmt::format("unknown command '{}' (one of {}){}{}", first,
+                                             fmt::join(names, ", "), hint.empty() ? "" : ". ", hint))};
   }
   try {
     commands.app.parse(count, arguments);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return {std::nullopt, commands.app.exit(error)};  // help, version
-    return {std::nullopt, refuse(error.what(), commands.option_hint(count, arguments))};
+    const CLI::App& command = commands.chosen();
+    return {std::nullopt,
+            refuse(mistake_text(command, error, first), command.get_parent() ? command.get_name() : "")};
   }
   if (*commands.man || *commands.completion) {
     fmt::print("{}", *commands.man ? man_page(commands.app) : bash_completion(commands.app));

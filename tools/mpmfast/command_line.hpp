@@ -19,8 +19,9 @@ struct CommandLine {
   Command command = Command::run;
   std::string
       scene;  ///< or the study, the folder to plot, to report or to go on with, the name of a new scene
-  std::string out, topic, like, x = "time_s";
+  std::string out, topic, like, title, x = "time_s";
   std::vector<std::string> set;      ///< as written, "time.cfl=0.3"
+  std::vector<std::string> folders;  ///< of a plot, one or more; the first is `scene` too
   std::vector<std::string> columns;  ///< of a plot, expressions
   std::vector<std::string> fields;   ///< of a plot, of the particles
   std::string frame, range;          ///< of a plot, as written

@@ -81,8 +81,9 @@ class Series {
 template <int Dim>
 class ParticlePlot {
  public:
-  ParticlePlot(const CommandLine& line, const Scene& scene, std::vector<SeriesFrame> frames)
-      : line_(line), scene_(scene), series_(scene, std::move(frames)) {}
+  ParticlePlot(const CommandLine& line, const PlotFiles& files, const Scene& scene,
+               std::vector<SeriesFrame> frames)
+      : line_(line), files_(files), scene_(scene), series_(scene, std::move(frames)) {}
 
   /// One picture of one frame, or the animation of all.
   int draw(const std::string& field) {
@@ -108,7 +109,7 @@ class ParticlePlot {
     const Particles<Dim> particles = series_.read(*k);
     Framing framing = framing_of(particles, scene_, field);
     if (colours) framing.values = colours;
-    const fs::path path = fs::path(line_.scene) / fmt::format("plot_{}_{:06}.png", field, *k);
+    const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, *k));
     paint_particles(particles, scene_, field, series_.time(*k), framing).write_png(path);
     fmt::print("picture          {}\n", path.string());
     return 0;
@@ -125,7 +126,7 @@ class ParticlePlot {
       if (!animation) animation.emplace(canvas.width(), canvas.height(), kRate);
       animation->add(canvas.pixels());
     }
-    const fs::path path = fs::path(line_.scene) / fmt::format("plot_{}.png", field);
+    const fs::path path = files_.at(fmt::format("plot_{}.png", field));
     animation->write(path);
     fmt::print("animation        {} ({} frames; opens in a browser)\n", path.string(), series_.size());
     return 0;
@@ -133,12 +134,14 @@ class ParticlePlot {
 
   static constexpr int kRate = 8;  ///< frames a second
   const CommandLine& line_;
+  const PlotFiles& files_;
   const Scene& scene_;
   Series<Dim> series_;
 };
 
 template <int Dim>
-int plot_fields(const CommandLine& line, const Scene& scene, std::vector<SeriesFrame> frames) {
+int plot_fields(const CommandLine& line, const PlotFiles& files, const Scene& scene,
+                std::vector<SeriesFrame> frames) {
   std::vector<std::string> fields = line.fields;
   if (fields.empty()) fields.push_back(scene.output.picture == "none" ? "body" : scene.output.picture);
   const std::vector<std::string> known = field_names(Dim);
@@ -150,7 +153,7 @@ int plot_fields(const CommandLine& line, const Scene& scene, std::vector<SeriesF
   for (const std::string& field : fields)
     if (first.size() > 0 && lacks(field_values(first, scene, field)))
       return refuse("--field", fmt::format("the particles of this run have no {}", field));
-  ParticlePlot<Dim> plot(line, scene, std::move(frames));
+  ParticlePlot<Dim> plot(line, files, scene, std::move(frames));
   for (const std::string& field : fields)
     if (const int code = plot.draw(field); code != 0) return code;
   return 0;
@@ -163,7 +166,7 @@ bool has_particle_files(const fs::path& folder) {
   return fs::exists(folder / "particles.pvd", error);
 }
 
-int plot_particles(const CommandLine& line) {
+int plot_particles(const CommandLine& line, const PlotFiles& files) {
   const fs::path folder = line.scene;
   if (!has_particle_files(folder))
     throw FileError(
@@ -173,8 +176,8 @@ int plot_particles(const CommandLine& line) {
   const Scene scene = read_scene(folder / "scene.yaml");
   std::vector<SeriesFrame> frames = read_pvd(folder / "particles.pvd");
   if (frames.empty()) throw FileError(fmt::format("{} lists no frames", (folder / "particles.pvd").string()));
-  return scene.dimension() == 2 ? plot_fields<2>(line, scene, std::move(frames))
-                                : plot_fields<3>(line, scene, std::move(frames));
+  return scene.dimension() == 2 ? plot_fields<2>(line, files, scene, std::move(frames))
+                                : plot_fields<3>(line, files, scene, std::move(frames));
 }
 
 }  // namespace mpmfast

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "command_line.hpp"
+#include "plot_files.hpp"
 
 namespace mpmfast {
 
@@ -12,6 +13,6 @@ bool has_particle_files(const std::filesystem::path& folder);
 
 /// Draws --field of --frame (of all: an animation) with colours over --range. Returns the exit code; throws
 /// FileError.
-int plot_particles(const CommandLine& line);
+int plot_particles(const CommandLine& line, const PlotFiles& files);
 
 }  // namespace mpmfast

@@ -4,6 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "gnuplot.hpp"
 #include "report.hpp"
@@ -13,30 +16,62 @@ namespace mpmfast {
 namespace {
 
 constexpr double kSmallest = 1e-16;  // an error of zero has no place on a logarithmic axis
+constexpr const char* kGrey = "#666666";
 constexpr std::array<int, 6> kFilled{7, 5, 9, 13, 11, 15};
-constexpr std::array<double, 5> kSizes{1.9, 1.3, 0.8, 2.5, 0.5};
+constexpr int kCross = 2;
+constexpr std::array<double, 5> kSizes{2.1, 1.5, 1.0, 2.7, 0.7};
+
+enum class Standing { front, beaten, failed };  // filled, open, a cross
 
 /// How a point looks: the first axis chooses the colour, the second the shape, the third the size. With one
 /// axis the shape helps to tell the colours apart.
 struct Look {
   std::size_t colour = 0, shape = 0, size = 0;
-  bool whole = true;  ///< the run finished; open points are runs that failed on the way
+  Standing standing = Standing::front;
   auto operator<=>(const Look&) const = default;
 
   std::string style() const {
     const int filled = kFilled[shape % kFilled.size()];
-    return fmt::format("with points pt {} ps {}*point lc rgb '{}'", whole ? filled : filled - 1,
-                       kSizes[size % kSizes.size()], chart_colour(colour));
+    const int type = standing == Standing::front    ? filled
+                     : standing == Standing::beaten ? filled - 1
+                                                    : kCross;
+    return fmt::format("with points pt {} ps {}*point lc rgb '{}'", type, kSizes[size % kSizes.size()],
+                       chart_colour(colour));
   }
 };
 
-Look look_of(const std::vector<std::size_t>& choice, bool whole) {
+Look look_of(const std::vector<std::size_t>& choice, Standing standing) {
   Look look;
   if (!choice.empty()) look.colour = choice[0];
   look.shape = choice.size() > 1 ? choice[1] : look.colour;
   if (choice.size() > 2) look.size = choice[2];
-  look.whole = whole;
+  look.standing = standing;
   return look;
+}
+
+Standing standing_of(const StudyResult& result) {
+  if (result.status != "finished") return Standing::failed;
+  return result.pareto ? Standing::front : Standing::beaten;
+}
+
+/// The one axis in which two runs differ.
+std::optional<std::size_t> only_difference(const StudyRun& a, const StudyRun& b) {
+  std::optional<std::size_t> out;
+  for (std::size_t k = 0; k < a.choice.size(); ++k) {
+    if (a.choice[k] == b.choice[k]) continue;
+    if (out) return std::nullopt;
+    out = k;
+  }
+  return out;
+}
+
+/// The axis along which the cells change and nothing else does.
+std::optional<std::size_t> resolution_axis(const StudyRuns& runs) {
+  for (const StudyRun& a : runs.variants)
+    for (const StudyRun& b : runs.variants)
+      if (a.scene.grid.cell != b.scene.grid.cell)
+        if (const auto axis = only_difference(a, b)) return axis;
+  return std::nullopt;
 }
 
 /// Ticks, the more of a decade the fewer decades the axis spans.
@@ -72,6 +107,10 @@ struct Range {
 
 struct Points {
   std::vector<double> x, y;
+  void add(double at_x, double at_y) {
+    x.push_back(at_x);
+    y.push_back(at_y);
+  }
 };
 
 std::string legend(const Study& study) {
@@ -85,14 +124,57 @@ std::string legend(const Study& study) {
     for (std::size_t k = 0; k < study.axes[axis].choices.size(); ++k) {
       Look look;
       if (axis == 0)
-        look = look_of(study.axes.size() == 1 ? std::vector{k} : std::vector<std::size_t>{k, 0}, true);
+        look = look_of(study.axes.size() == 1 ? std::vector{k} : std::vector<std::size_t>{k, 0},
+                       Standing::front);
       if (axis == 1) look.shape = k;
       if (axis == 2) look.size = k;
       std::string style = look.style();
-      if (axis > 0) style.replace(style.find('#'), 7, "#666666");
+      if (axis > 0) style.replace(style.find('#'), 7, kGrey);
       out += fmt::format(", \\\n  NaN {} title {}", style, gnuplot_text(study.axes[axis].choices[k].name));
     }
   }
+  return out;
+}
+
+/// What the chart shows, by how it is drawn.
+struct ChartPoints {
+  std::map<Look, Points> groups;
+  std::map<std::vector<std::size_t>, Points> methods;  ///< joined; by their choices but that of the cells
+  std::map<double, double> front;                      ///< cost → error
+  Range across, up;
+  bool failed = false;
+};
+
+ChartPoints collect(const StudyRuns& runs, const StudyResults& results, Cost cost, double percent,
+                    std::optional<std::size_t> resolution) {
+  ChartPoints out;
+  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
+    const StudyResult& result = results.variants[k];
+    if (result.errors.empty() || !std::isfinite(result.errors[0]) || !(cost_of(result, cost) > 0)) continue;
+    const double x = cost_of(result, cost), y = percent * std::max(result.errors[0], kSmallest);
+    const Standing standing = standing_of(result);
+    out.groups[look_of(runs.variants[k].choice, standing)].add(x, y);
+    if (resolution && standing != Standing::failed) {
+      std::vector<std::size_t> method = runs.variants[k].choice;
+      method[*resolution] = 0;
+      out.methods[method].add(x, y);
+    }
+    out.across.add(x);
+    out.up.add(y);
+    out.failed = out.failed || standing == Standing::failed;
+    if (standing == Standing::front) out.front.emplace(x, y);
+  }
+  return out;
+}
+
+std::string explanation(bool failed) {
+  std::string out;
+  const auto explain = [&](int type, const char* words) {
+    out += fmt::format(", \\\n  NaN with points pt {} lc rgb '{}' title '{}'", type, kGrey, words);
+  };
+  explain(kFilled[0], "filled: on the front");
+  explain(kFilled[0] - 1, "open: beaten by another");
+  if (failed) explain(kCross, "cross: failed on the way");
   return out;
 }
 
@@ -101,45 +183,34 @@ std::string legend(const Study& study) {
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem) {
   const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
-  std::map<Look, Points> groups;
-  std::vector<std::pair<double, double>> front;
-  Range across, up;
-  bool failed = false;
-  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
-    const StudyResult& result = results.variants[k];
-    if (result.errors.empty() || !std::isfinite(result.errors[0]) || !(cost_of(result, cost) > 0)) continue;
-    const double x = cost_of(result, cost), y = percent * std::max(result.errors[0], kSmallest);
-    Points& points = groups[look_of(runs.variants[k].choice, result.status == "finished")];
-    points.x.push_back(x);
-    points.y.push_back(y);
-    across.add(x);
-    up.add(y);
-    failed = failed || result.status != "finished";
-    if (result.pareto) front.emplace_back(x, y);
-  }
-  std::sort(front.begin(), front.end());
+  const auto resolution = resolution_axis(runs);
+  const ChartPoints points = collect(runs, results, cost, percent, resolution);
   Points line;
-  for (const auto& [x, y] : front) {
-    line.x.push_back(x);
-    line.y.push_back(y);
-  }
+  for (const auto& [x, y] : points.front) line.add(x, y);
   std::string data = gnuplot_data("front", line.x, line.y);
   std::string plot = fmt::format(
       "set title {}\nset logscale xy\nset grid lt 1 lc rgb '#dddddd'\n"
       "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
-      "plot $front with lines lw 2 lc rgb '#999999' title '{}'",
+      "plot $front with lines lw 5 lc rgb '#cccccc' title '{}'",
       gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
-      gnuplot_text(percent == 100 ? "error (%)" : "error"), across.commands('x'), up.commands('y'),
+      gnuplot_text(percent == 100 ? "error (%)" : "error"), points.across.commands('x'),
+      points.up.commands('y'),
       cost == study.costs.front() ? "Pareto front" : "Pareto front of the first cost");
   std::size_t blocks = 0;
-  for (const auto& [look, points] : groups) {
+  for (const auto& [choice, joined] : points.methods) {
+    const std::string name = fmt::format("method{}", blocks++);
+    data += gnuplot_data(name, joined.x, joined.y);
+    plot += fmt::format(", \\\n  ${} with lines lw 1 lc rgb '{}' notitle", name,
+                        resolution == 0 ? kGrey : chart_colour(choice[0]));
+  }
+  blocks = 0;
+  for (const auto& [look, group] : points.groups) {
     const std::string name = fmt::format("points{}", blocks++);
-    data += gnuplot_data(name, points.x, points.y);
+    data += gnuplot_data(name, group.x, group.y);
     plot += fmt::format(", \\\n  ${} {} notitle", name, look.style());
   }
-  plot += legend(study);
-  if (failed) plot += ", \\\n  NaN with points pt 6 lc rgb '#666666' title 'open: failed on the way'";
-  return draw_with_gnuplot(folder, stem, data, plot + "\nunset logscale\n", 1000, 620);
+  plot += legend(study) + explanation(points.failed);
+  return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n", 1000, 620);
 }
 
 }  // namespace mpmfast

@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
+#include "column_names.hpp"
 #include "engine/output/output.hpp"
-#include "engine/scene/suggest.hpp"
 #include "other_program.hpp"
 #include "study.hpp"
 
@@ -77,7 +77,7 @@ class Expansion {
       settings.insert(settings.end(), chosen.set.begin(), chosen.set.end());
       for (const auto& [constant, value] : chosen.let) run.let[constant] = value;
       if (chosen.program) run.program = program_path(study_, *chosen.program);
-      name += (name.empty() ? "" : ", ") + chosen.name;
+      name += (name.empty() ? "" : ", ") + chosen.label;
     }
     settings.insert(settings.end(), more.begin(), more.end());
     run.name = name;
@@ -160,6 +160,7 @@ class Expansion {
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
       for (const auto& formula : {spec.from, spec.to, spec.threshold, spec.expected}) check_constant(formula);
     }
+    for (const QuantitySpec& quantity : study_.quantities) check(quantity.quantity);
     check(study_.reference.expression);
     for (const CurveSpec& curve : study_.curves) {
       check(curve.x);
@@ -181,11 +182,8 @@ class Expansion {
   }
 
   void check_names(const Formula& formula, const std::vector<std::string>& known, const std::string& what) {
-    for (const std::string& name : formula.expression.names()) {
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      problems_.add(formula.place, formula.path, fmt::format("no {} '{}'", what, name),
-                    did_you_mean(name, known));
-    }
+    for (const UnknownName& unknown : unknown_names(formula.expression, known))
+      problems_.add(formula.place, formula.path, fmt::format("no {} '{}'", what, unknown.name), unknown.hint);
   }
 
   const Study& study_;
@@ -212,7 +210,7 @@ std::string file_name_of(const std::string& name) {
   std::string out;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
-    if (std::isalnum(byte) || c == '-' || c == '.') {
+    if (std::isalnum(byte) || c == '-' || c == '.' || c == '=') {
       out += static_cast<char>(std::tolower(byte));
     } else if (c != '(' && c != ')' && !out.empty() && out.back() != '_') {
       out += '_';

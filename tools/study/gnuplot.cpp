@@ -19,6 +19,8 @@ namespace mpmfast {
 
 namespace {
 
+constexpr double kDotsPerInch = 96;
+
 /// Runs a program in a folder, its messages into a file; its exit code, or −errno when it cannot start.
 int run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
                 const std::filesystem::path& messages) {
@@ -59,20 +61,27 @@ std::string gnuplot_data(const std::string& name, std::span<const double> x, std
   return out + "EOD\n";
 }
 
-std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& stem,
-                              const std::string& data, const std::string& plot, int width, int height) {
-  const std::string script = stem + ".gp";
+std::string draw_with_gnuplot(const ChartFiles& files, const std::string& data, const std::string& plot,
+                              int width, int height) {
+  const std::filesystem::path& folder = files.folder;
+  const bool both = files.format.empty();
+  const std::string name = both ? files.stem : files.stem + "." + files.format, script = name + ".gp";
   write_aside(
       folder / script,
-      fmt::format("# Draws {0}.png and {0}.svg: gnuplot {0}.gp\nset encoding utf8\n{1}"
-                  "do for [format in 'png svg'] {{\n"
-                  "if (format eq 'png') {{ set terminal pngcairo size {2},{3} noenhanced font 'sans,11' }} "
-                  "else {{ set terminal svg size {2},{3} noenhanced font 'sans,12' background 'white' }}\n"
-                  "point = format eq 'svg' ? 0.6 : 1.0\n"
-                  "set output '{0}.' . format\n{4}\nunset output\n}}\n",
-                  stem, data, width, height, plot));
-  const std::filesystem::path messages = std::filesystem::absolute(folder / (stem + ".gp.messages"));
-  const int code = run_program({"gnuplot", script}, folder, messages);
+      fmt::format(
+          "# Draws {0}: gnuplot {1}\nset encoding utf8\n{2}"
+          "do for [format in '{3}'] {{\n"
+          "if (format eq 'png') {{ set terminal pngcairo size {4},{5} noenhanced font 'sans,11' }}\n"
+          "if (format eq 'svg') {{ set terminal svg size {4},{5} noenhanced font 'sans,12' background "
+          "'white' }}\n"
+          "if (format eq 'pdf') {{ set terminal pdfcairo size {6}in,{7}in noenhanced font 'sans,11' }}\n"
+          "point = format eq 'svg' ? 0.6 : 1.0\n"
+          "set output {8} . format\n{9}\nunset output\n}}\n",
+          both ? fmt::format("{0}.png and {0}.svg", name) : name, script, data,
+          both ? "png svg" : files.format, width, height, width / kDotsPerInch, height / kDotsPerInch,
+          gnuplot_text(files.stem + "."), plot));
+  const std::filesystem::path messages = std::filesystem::absolute(folder / (script + ".messages"));
+  const int code = run_program({"gnuplot", "./" + script}, folder, messages);
   std::ifstream stream(messages);
   std::string said{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   std::error_code ignored;

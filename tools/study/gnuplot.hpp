@@ -15,12 +15,20 @@ std::string gnuplot_text(const std::string& text);
 /// A block of data named $NAME, a row for each x.
 std::string gnuplot_data(const std::string& name, std::span<const double> x, std::span<const double> y);
 
-/// Writes STEM.gp and lets gnuplot draw STEM.png and STEM.svg from it.
-/// @param data blocks; @param plot what is drawn once for each of the two pictures; sizes of points are
-/// multiples of `point` there, since gnuplot draws them larger in SVG
+/// Where a chart goes: STEM.png and STEM.svg, drawn by STEM.gp; or with a format (png, svg, pdf) STEM.FORMAT
+/// alone, drawn by STEM.FORMAT.gp, since STEM.gp may be someone's own.
+struct ChartFiles {
+  std::filesystem::path folder;
+  std::string stem;
+  std::string format = "";
+};
+
+/// Writes the script and lets gnuplot draw from it.
+/// @param data blocks; @param plot what is drawn once for each picture; sizes of points are multiples of
+/// `point` there, since gnuplot draws them larger in SVG
 /// @return empty, or why there is no picture (gnuplot is missing or refuses). Throws FileError.
-std::string draw_with_gnuplot(const std::filesystem::path& folder, const std::string& stem,
-                              const std::string& data, const std::string& plot, int width, int height);
+std::string draw_with_gnuplot(const ChartFiles& files, const std::string& data, const std::string& plot,
+                              int width, int height);
 
 /// A colour for each of a few things that are easy to tell apart, then again from the first.
 std::string chart_colour(std::size_t index);

@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "gnuplot.hpp"
-
 namespace mpmfast {
 
 namespace {
@@ -54,8 +52,7 @@ std::string legend_panel(const LineChart& chart) {
 
 }  // namespace
 
-std::string draw_line_chart(const std::filesystem::path& folder, const std::string& stem,
-                            const LineChart& chart) {
+std::string draw_line_chart(const ChartFiles& files, const LineChart& chart) {
   const bool several = chart.panels.size() > 1;
   const std::size_t cells = chart.panels.size() + (several ? 1 : 0);
   const std::size_t across = several ? (cells <= 4 ? 2 : 3) : 1, down = (cells + across - 1) / across;
@@ -85,7 +82,7 @@ std::string draw_line_chart(const std::filesystem::path& folder, const std::stri
   if (several) plot += legend_panel(chart) + "unset multiplot\n";
   const int width = several ? static_cast<int>(480 * across) : 1000;
   const int height = several ? static_cast<int>(360 * down + 30) : 560;
-  return draw_with_gnuplot(folder, stem, data, plot, width, height);
+  return draw_with_gnuplot(files, data, plot, width, height);
 }
 
 }  // namespace mpmfast

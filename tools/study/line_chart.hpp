@@ -2,10 +2,10 @@
 
 /// @file Charts of curves, in one panel or several.
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "gnuplot.hpp"
 #include "table.hpp"
 
 namespace mpmfast {
@@ -27,8 +27,7 @@ struct LineChart {
   std::vector<ChartPanel> panels;
 };
 
-/// Draws STEM.png and STEM.svg; long curves are thinned. Returns why there is no picture, or nothing.
-std::string draw_line_chart(const std::filesystem::path& folder, const std::string& stem,
-                            const LineChart& chart);
+/// Long curves are thinned. Returns why there is no picture, or nothing.
+std::string draw_line_chart(const ChartFiles& files, const LineChart& chart);
 
 }  // namespace mpmfast

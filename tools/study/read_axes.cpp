@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cctype>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +117,21 @@ const Choice* find_choice(const Axis& axis, const std::string& name) {
   return nullptr;
 }
 
+/// A word says what it is, "flip"; of a number nobody can tell: "cfl=0.2".
+std::string label_of(const std::string& value, const std::string& key) {
+  const bool word = std::isalpha(static_cast<unsigned char>(value[0])) && value != "true" && value != "false";
+  return word ? value : fmt::format("{}={}", key, value);
+}
+
+/// The last part of the axis' key; all of it where another axis ends alike.
+std::string short_key(const Axis& axis, const std::vector<Axis>& axes) {
+  const auto last_part = [](const std::string& key) { return key.substr(key.rfind('.') + 1); };
+  const auto alike = std::count_if(axes.begin(), axes.end(), [&](const Axis& other) {
+    return last_part(other.name) == last_part(axis.name);
+  });
+  return alike > 1 ? axis.name : last_part(axis.name);
+}
+
 std::vector<std::string> axis_names(const std::vector<Axis>& axes) {
   std::vector<std::string> out;
   for (const Axis& axis : axes) out.push_back(axis.name);
@@ -171,7 +188,7 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
         choice.name = node.kind == Node::Kind::scalar ? node.scalar : text;
         choice.set.push_back({{key.text, text}, node.place, join(value.path(), std::to_string(n))});
       } else {
-        choice.name = value.node().keys[n].text;
+        choice.name = choice.label = value.node().keys[n].text;
         MapReader map(Value(node, join(value.path(), choice.name), value.problems()),
                       "a map {set, let, scene, only}");
         choice.set = read_settings(map);
@@ -186,6 +203,9 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
     }
     axes.push_back(std::move(axis));
   }
+  for (Axis& axis : axes)
+    for (Choice& choice : axis.choices)
+      if (choice.label.empty()) choice.label = label_of(choice.name, short_key(axis, axes));
   for (std::size_t k = 0; k < vary.size(); ++k) {
     const Value value(vary.node().items[k], join(vary.path(), axes[k].name), vary.problems());
     for (std::size_t n = 0; value.is(Node::Kind::map) && n < value.size(); ++n) {
@@ -208,6 +228,7 @@ Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
     MapReader map(list.item(k), "a map {name, set, let, only, program}");
     Choice choice;
     if (const auto name = map.need("name", "text")) choice.name = name->text().value_or("");
+    choice.label = choice.name;
     choice.set = read_settings(map);
     choice.let = read_constants(map);
     choice.only = read_only(map, axes);

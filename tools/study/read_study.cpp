@@ -91,6 +91,29 @@ std::vector<ErrorSpec> read_more(const Value& value, const ErrorSpec& base, bool
   return out;
 }
 
+std::vector<QuantitySpec> read_quantities(const Value& value) {
+  std::vector<QuantitySpec> out;
+  if (!value.is(Node::Kind::map) || value.size() == 0) {
+    value.complain("not a map of names to expressions, or to {quantity, over}");
+    return out;
+  }
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    QuantitySpec quantity{value.node().keys[k].text, {}};
+    const Value item(value.node().items[k], join(value.path(), quantity.name), value.problems());
+    if (item.is(Node::Kind::map)) {
+      MapReader map(item, "a map {quantity, over}");
+      map.need("quantity", "a column of history.csv or an expression of columns");
+      read_formula(map, "quantity", quantity.quantity);
+      map.word("over", kOvers, quantity.over);
+      map.finish();
+    } else {
+      quantity.quantity = read_formula(item);
+    }
+    out.push_back(std::move(quantity));
+  }
+  return out;
+}
+
 std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& axes) {
   std::vector<CurveSpec> out;
   if (!list.is(Node::Kind::list)) {
@@ -144,7 +167,7 @@ bool names_every_scene(const Axis& axis) {
 }
 
 void read_top(const Node& root, Study& study, Problems& problems) {
-  MapReader top(Value(root, "", problems), "a map {title, scene, set, variants, vary, reference, error, …}");
+  MapReader top(Value(root, "", problems), "a map {title, scene, set, variants, vary, error, quantities, …}");
   if (!top.valid()) return;
   if (index_of(root, "bodies") >= 0 && index_of(root, "scene") < 0)
     return top.value().report("this is a scene, not a study", "Run it with 'mpmfast run'");
@@ -164,8 +187,11 @@ void read_top(const Node& root, Study& study, Problems& problems) {
   const std::size_t before = problems.count();
   if (const auto holds = top.find("holds")) study.conditions = read_conditions(*holds, study.axes);
   if (const auto map = top.find("map")) study.map = read_map(*map, study.axes);
-  const auto error = study.conditions.empty() ? top.need("error", "a map {quantity, compare, …}, or holds")
-                                              : top.find("error");
+  const auto quantities = top.find("quantities");
+  if (quantities) study.quantities = read_quantities(*quantities);
+  const bool enough = quantities || !study.conditions.empty();
+  const auto error =
+      enough ? top.find("error") : top.need("error", "a map {quantity, compare, …}; or holds, or quantities");
   if (error) {
     ErrorSpec spec;
     spec.x = time_column(error->node().place, "error.x");
@@ -179,6 +205,8 @@ void read_top(const Node& root, Study& study, Problems& problems) {
   for (CurveSpec& curve : study.curves)
     if (!curve.x) curve.x = study.error ? study.error->x : time_column({0, 0, 0}, "");
   read_costs(top, study.costs);
+  if (const auto cost = top.find("cost"); cost && !error && study.conditions.empty())
+    cost->report("error is missing, which is drawn against the cost");
   top.finish();
 }
 

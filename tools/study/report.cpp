@@ -59,7 +59,7 @@ std::string name_in_panel(const Study& study, const StudyRun& run, const CurveSp
   for (std::size_t k = 0; k < run.choice.size(); ++k)
     if (k != spec.panels &&
         !(spec.only.contains(study.axes[k].name) && spec.only.at(study.axes[k].name).size() == 1))
-      parts.push_back(study.axes[k].choices[run.choice[k]].name);
+      parts.push_back(study.axes[k].choices[run.choice[k]].label);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -77,13 +77,13 @@ class CurveChart {
     for (const StudyRun& run : runs_.variants)  // the colours in the order of the study
       if (goes_with(study_.axes, run.choice, spec_.only)) colour_of(name_in_panel(study_, run, spec_));
     for (std::size_t panel = 0; panel < panels; ++panel) fill(panel);
-    return draw_line_chart(folder_, spec_.name, chart_);
+    return draw_line_chart({folder_, spec_.name}, chart_);
   }
 
  private:
   void fill(std::size_t panel) {
     ChartPanel out;
-    if (spec_.panels) out.title = study_.axes[*spec_.panels].choices[panel].name;
+    if (spec_.panels) out.title = study_.axes[*spec_.panels].choices[panel].label;
     std::vector<std::size_t> references;
     for (std::size_t k = 0; k < runs_.variants.size(); ++k) {
       const StudyRun& run = runs_.variants[k];
@@ -134,6 +134,7 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
   for (const ErrorSpec& spec : study.more) head.push_back(csv_text(spec.name));
   if (!study.conditions.empty()) head.emplace_back("holds");
   for (const Condition& condition : study.conditions) head.push_back(csv_text(condition.name));
+  for (const QuantitySpec& quantity : study.quantities) head.push_back(csv_text(quantity.name));
   std::string out = fmt::format("{}\n", fmt::join(head, ","));
   for (std::size_t k = 0; k < runs.variants.size(); ++k) {
     const StudyRun& run = runs.variants[k];
@@ -155,6 +156,7 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
     if (!study.conditions.empty()) cells.emplace_back(holds(r) ? "1" : "0");
     for (const std::optional<Judgement>& judged : r.judged)
       cells.push_back(judged ? csv_number(judged->value) : "");
+    for (const double number : r.quantities) cells.push_back(csv_number(number));
     out += fmt::format("{}\n", fmt::join(cells, ","));
   }
   return out;
@@ -165,11 +167,14 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
   for (const Axis& axis : study.axes)
     head.push_back(markdown_text(axis.name == "variants" ? "variant" : axis.name));
   for (const ErrorSpec& spec : study.more) head.push_back(markdown_text(spec.name));
-  head.push_back("error");
+  const bool judged = has_error(study);
+  if (judged) head.push_back("error");
   if (looks_for_value(study)) head.push_back("value");
+  for (const QuantitySpec& quantity : study.quantities) head.push_back(markdown_text(quantity.name));
   for (const char* name : {"reached", "wall s", "million particle-steps a second", "iterations a regression",
-                           "fallbacks", "energy error", "front"})
+                           "fallbacks", "energy error"})
     head.emplace_back(name);
+  if (judged) head.push_back("front");
   std::string out = fmt::format("| {} |\n|{}\n", fmt::join(head, " | "), [&] {
     std::string rule;
     for (std::size_t k = 0; k < head.size(); ++k) rule += "---|";
@@ -186,15 +191,16 @@ std::string study_table(const Study& study, const StudyRuns& runs, const StudyRe
     };
     for (std::size_t n = 0; n < study.more.size(); ++n)
       cells.push_back(error(n + 1, study.more[n].rule.relative));
-    cells.push_back(error(0, study.error ? study.error->rule.relative : Relative::absolute));
+    if (judged) cells.push_back(error(0, study.error ? study.error->rule.relative : Relative::absolute));
     if (looks_for_value(study)) cells.push_back(fmt::format("{:.6g}", r.value));
+    for (const double number : r.quantities) cells.push_back(fmt::format("{:.6g}", number));
     cells.push_back(fmt::format("{:.4g}{}", r.reached, r.status == "failed" ? ", failed" : ""));
     cells.push_back(fmt::format("{:.2f}", r.wall));
     cells.push_back(fmt::format("{:.2f}", r.speed / 1e6));
     cells.push_back(fmt::format("{:.2f}", r.mean_iterations));
     cells.push_back(fmt::format("{}", r.fallbacks));
     cells.push_back(fmt::format("{:.1e}", r.energy_error));
-    cells.push_back(r.pareto ? "yes" : "");
+    if (judged) cells.push_back(r.pareto ? "yes" : "");
     out += fmt::format("| {} |\n", fmt::join(cells, " | "));
   }
   for (std::size_t k = 0; k < runs.variants.size(); ++k)
@@ -221,6 +227,7 @@ std::vector<std::string> write_report(const Study& study, const StudyRuns& runs,
     return missing;
   }
   for (const Cost cost : study.costs) {
+    if (!has_error(study)) break;  // nothing to draw against cost
     const std::string stem =
         cost == study.costs.front() ? "study" : fmt::format("study_{}", name_of(kCosts, cost));
     note(draw_cost_chart(study, runs, results, folder, cost, stem));

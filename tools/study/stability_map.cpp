@@ -32,7 +32,7 @@ std::string row_name(const Study& study, const StudyRun& run) {
   std::vector<std::string> parts;
   for (std::size_t k = 0; k < run.choice.size(); ++k)
     if (k != study.map->panels && k != study.map->columns)
-      parts.push_back(study.axes[k].choices[run.choice[k]].name);
+      parts.push_back(study.axes[k].choices[run.choice[k]].label);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -117,7 +117,7 @@ std::string draw(const Study& study, const Map& map, const std::filesystem::path
       static_cast<double>(map.columns.size()) - 0.5, static_cast<double>(map.rows.size()) - 0.5);
   const int width = 160 + 110 * static_cast<int>(map.columns.size());
   const int height = 100 + 22 * static_cast<int>(map.rows.size());
-  return draw_with_gnuplot(folder, map.stem, data, plot, width, height);
+  return draw_with_gnuplot({folder, map.stem}, data, plot, width, height);
 }
 
 /// The comment that a scene opens with.

@@ -35,6 +35,7 @@ using Only = std::map<std::string, std::vector<std::string>>;
 /// One value of an axis.
 struct Choice {
   std::string name;
+  std::string label;  ///< in names of runs: tells the key where the value alone does not, "cfl=0.2"
   std::vector<Setting> set;
   Constants let;                               ///< names for the study's expressions
   Only only;                                   ///< what this one goes with
@@ -75,6 +76,21 @@ struct Condition {
   Only only;
 };
 
+enum class Over { final_value, maximum, minimum, mean };
+inline constexpr std::array<Word<Over>, 4> kOvers{{
+    {Over::final_value, "final", "the value of the last row (default)"},
+    {Over::maximum, "max", "the largest value of the history"},
+    {Over::minimum, "min", "the smallest value of the history"},
+    {Over::mean, "mean", "the mean of the history's rows"},
+}};
+
+/// A number of each run that is only told, not judged.
+struct QuantitySpec {
+  std::string name;
+  std::optional<Formula> quantity;
+  Over over = Over::final_value;
+};
+
 /// A chart and a list of what holds: a map for each value of one axis.
 struct MapSpec {
   std::size_t panels = 0, columns = 0;  ///< axes
@@ -105,6 +121,7 @@ struct Study {
   std::optional<ErrorSpec> error;  ///< without one, the error is the largest share of a condition's bound
   std::vector<ErrorSpec> more;
   std::vector<Condition> conditions;
+  std::vector<QuantitySpec> quantities;
   std::optional<MapSpec> map;
   std::vector<Cost> costs{Cost::wall};
   std::vector<CurveSpec> curves;
@@ -138,6 +155,9 @@ std::string file_name_of(const std::string& name);
 
 /// Study::error where there is one, then Study::more.
 std::vector<ErrorSpec> error_specs(const Study& study);
+
+/// Are the runs compared by an error, or only told?
+inline bool has_error(const Study& study) { return study.error || !study.conditions.empty(); }
 
 /// The scene that a combination of choices runs: that of the last axis that names one, or the study's.
 std::filesystem::path scene_of(const Study& study, const std::vector<std::size_t>& choice);

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -114,8 +115,31 @@ void judge(const Study& study, const StudyRun& run, const fs::path& folder, Stud
     result.judged.back() = judge(condition, history, run.let);
     share = std::fmax(share, result.judged.back()->share);
   }
+  if (!study.error) result.errors.assign(1, share);
+}
+
+double over_rows(Over over, const std::vector<double>& values) {
+  if (values.empty()) return std::nan("");
+  switch (over) {
+    case Over::final_value:
+      return values.back();
+    case Over::maximum:
+      return *std::max_element(values.begin(), values.end());
+    case Over::minimum:
+      return *std::min_element(values.begin(), values.end());
+    case Over::mean:
+      return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+  return std::nan("");
+}
+
+/// The quantities, and how far the run got where no error says so.
+void tabulate(const Study& study, const StudyRun& run, const fs::path& folder, StudyResult& result) {
+  if (study.error && study.quantities.empty()) return;
+  const Table history = read_table(folder / run.folder / "history.csv");
+  for (const QuantitySpec& one : study.quantities)
+    result.quantities.push_back(over_rows(one.over, evaluate(one.quantity->expression, history, run.let)));
   if (study.error) return;
-  result.errors.assign(1, share);
   const std::vector<double>* time = history.find("time_s");
   result.reached = time && !time->empty() ? time->back() : 0;
 }
@@ -196,6 +220,7 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
       out.machine.threads = json->value("threads", 0);
       if (references_ended) measure(study, runs, run, folder, result);
       judge(study, run, folder, result);
+      tabulate(study, run, folder, result);
     }
     out.variants.push_back(std::move(result));
   }

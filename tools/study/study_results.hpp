@@ -17,6 +17,7 @@ struct StudyResult {
   /// compared.
   std::vector<double> errors;
   std::vector<std::optional<Judgement>> judged;    ///< of Study::conditions; nothing where one does not apply
+  std::vector<double> quantities;                  ///< of Study::quantities
   double value = 0;                                ///< of Study::error, where it looks for one
   double reached = 0;                              ///< x of the last row of the history
   double particle_steps = 0, wall = 0, speed = 0;  ///< speed: particle-steps per second of stepping

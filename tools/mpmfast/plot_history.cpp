@@ -1,0 +1,203 @@
+#include "plot_history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "exit_codes.hpp"
+#include "tools/study/column_names.hpp"
+#include "tools/study/handy_units.hpp"
+#include "tools/study/line_chart.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Which columns one of the usual charts shows.
+struct UsualChart {
+  const char* stem;
+  const char* title;
+  const char* unit;
+  const char* part;  ///< of the column's name
+};
+constexpr UsualChart kUsual[] = {
+    {"plot_energy", "Energy", "J", "_J"},
+    {"plot_momentum", "Momentum", "kg m/s", "momentum_"},
+    {"plot_stress", "Mean stress", "Pa", ".mean_stress_"},
+    {"plot_force", "Force", "N", ".force_"},
+};
+constexpr std::size_t kMostCurves = 16;  // more cannot be told apart: then those of all bodies together
+
+bool matches(const std::string& name, const std::string& part) {
+  if (part == "_J") return unit_of_column(name) == "J";
+  return name.find(part) != std::string::npos;
+}
+
+std::vector<std::string> chosen_columns(const Table& history, const std::string& part) {
+  std::vector<std::string> out;
+  for (const std::string& name : history.names)
+    if (matches(name, part)) out.push_back(name);
+  if (out.size() <= kMostCurves) return out;
+  std::vector<std::string> together;
+  for (const std::string& name : out)
+    if (name.rfind("all.", 0) == 0) together.push_back(name);
+  if (together.empty()) together.assign(out.begin(), out.begin() + kMostCurves);
+  return together;
+}
+
+Expression column(const std::string& name) {
+  return std::get<Expression>(Expression::parse("`" + name + "`"));
+}
+
+struct RunHistory {
+  std::string folder, name;  ///< as given, and in a legend
+  Table table;
+};
+
+/// The last parts of their paths tell runs apart, or else the paths as given.
+std::vector<RunHistory> read_histories(const std::vector<std::string>& folders) {
+  std::vector<RunHistory> out;
+  for (const std::string& folder : folders)
+    out.push_back({folder, fs::absolute(fs::path(folder) / "").lexically_normal().parent_path().filename(),
+                   read_table(fs::path(folder) / "history.csv")});
+  const auto is_taken = [&](const std::string& name) {
+    return std::count_if(out.begin(), out.end(), [&](const RunHistory& run) { return run.name == name; }) > 1;
+  };
+  if (std::any_of(out.begin(), out.end(), [&](const RunHistory& run) { return is_taken(run.name); }))
+    for (RunHistory& run : out) run.name = run.folder;
+  return out;
+}
+
+/// The expression for all runs, or nothing after saying, once, what is wrong with it.
+std::optional<Expression> read_expression(const std::string& option, const std::string& text,
+                                          const std::vector<RunHistory>& runs) {
+  const auto refuse = [&](const std::string& why, const std::string& hint) {
+    fmt::print(stderr, "mpmfast: {}: {}, got '{}'{}\n", option, why, text, hint.empty() ? "" : ". " + hint);
+  };
+  // A column that is no name of an expression, such as left-block.vx, is meant as it stands.
+  const auto parsed = Expression::parse(runs[0].table.find(text) ? "`" + text + "`" : text);
+  if (const auto* wrong = std::get_if<std::string>(&parsed)) {
+    refuse("not an expression: " + *wrong, "");
+    return std::nullopt;
+  }
+  for (const RunHistory& run : runs) {
+    const std::vector<UnknownName> unknown = unknown_names(std::get<Expression>(parsed), run.table.names);
+    for (const UnknownName& one : unknown)
+      refuse(fmt::format("no column '{}'{}", one.name, runs.size() > 1 ? " in " + run.folder : ""), one.hint);
+    if (!unknown.empty()) return std::nullopt;
+  }
+  return std::get<Expression>(parsed);
+}
+
+/// Brings numbers of one unit into one that reads well, and returns its symbol.
+std::string make_handy(const std::string& unit, const std::vector<std::vector<double>*>& all) {
+  double largest = 0;
+  for (const std::vector<double>* numbers : all)
+    for (const double number : *numbers) largest = std::fmax(largest, std::abs(number));
+  const HandyUnit handy = handy_unit(unit, largest);
+  for (std::vector<double>* numbers : all)
+    for (double& number : *numbers) number *= handy.factor;
+  return handy.symbol;
+}
+
+std::string axis_label(const std::string& quantity, const std::string& unit) {
+  if (quantity.empty() || unit.empty()) return quantity + unit;
+  return fmt::format("{} ({})", quantity, unit);
+}
+
+class Plot {
+ public:
+  Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x)
+      : runs_(runs), files_(files), x_(x) {}
+
+  bool draw(const UsualChart& usual) const {
+    std::vector<Expression> columns;
+    for (const std::string& name : chosen_columns(runs_[0].table, usual.part))
+      columns.push_back(column(name));
+    return columns.empty() || draw(usual.stem, usual.title, usual.unit, columns);
+  }
+
+  bool draw(const std::string& stem, const std::string& title, const std::string& unit,
+            const std::vector<Expression>& columns) const {
+    LineChart chart{title, "", "", {{"", curves(columns)}}};
+    std::vector<std::vector<double>*> x, y;
+    for (ChartCurve& curve : chart.panels[0].curves) {
+      x.push_back(&curve.curve.x);
+      y.push_back(&curve.curve.y);
+    }
+    chart.x_label = axis_label(shown(x_) == "time_s" ? "time" : shown(x_), make_handy(unit_of(x_), x));
+    chart.y_label = axis_label(quantity_in(unit), make_handy(unit, y));
+    return draw(stem, chart);
+  }
+
+ private:
+  static std::string shown(const Expression& expression) {
+    std::string out = expression.text();
+    out.erase(std::remove(out.begin(), out.end(), '`'), out.end());
+    return out;
+  }
+
+  std::vector<ChartCurve> curves(const std::vector<Expression>& columns) const {
+    std::vector<ChartCurve> out;
+    for (const RunHistory& run : runs_)
+      for (const Expression& column : columns) {
+        const std::string title = runs_.size() > 1 ? run.name + ": " + shown(column) : shown(column);
+        out.push_back(
+            {title, {evaluate(x_, run.table, {}), evaluate(column, run.table, {})}, out.size(), false});
+      }
+    return out;
+  }
+
+  bool draw(const std::string& stem, const LineChart& chart) const {
+    const fs::path& picture = files_.picture;
+    const ChartFiles where =
+        picture.empty() ? ChartFiles{files_.folder, stem}
+                        : ChartFiles{files_.folder, picture.stem(), picture.extension().string().substr(1)};
+    const std::string why_not = draw_line_chart(where, chart);
+    if (!why_not.empty()) {
+      fmt::print(stderr, "mpmfast: {}\n", why_not);
+      return false;
+    }
+    fmt::print("chart            {}\n", files_.at(stem + ".png").string());
+    return true;
+  }
+
+  const std::vector<RunHistory>& runs_;
+  const PlotFiles& files_;
+  const Expression& x_;
+};
+
+/// That of all of them, or none.
+std::string common_unit(const std::vector<Expression>& columns) {
+  const std::string unit = unit_of(columns[0]);
+  const bool alike = std::all_of(columns.begin(), columns.end(),
+                                 [&](const Expression& other) { return unit_of(other) == unit; });
+  return alike ? unit : "";
+}
+
+}  // namespace
+
+int plot_history(const CommandLine& line, const PlotFiles& files) {
+  const std::vector<RunHistory> runs = read_histories(line.folders);
+  const auto x = read_expression("--x", line.x, runs);
+  std::vector<Expression> columns;
+  for (const std::string& text : line.columns)
+    if (const auto column = read_expression("--columns", text, runs)) columns.push_back(*column);
+  if (!x || columns.size() < line.columns.size()) return kExitWrongInput;
+  const Plot plot(runs, files, *x);
+  if (!columns.empty()) {
+    const std::string title = line.title.empty() ? "History" : line.title;
+    return plot.draw("plot_columns", title, common_unit(columns), columns) ? 0 : kExitFile;
+  }
+  bool all = true;
+  for (const UsualChart& chart : kUsual) all = plot.draw(chart) && all;
+  return all ? 0 : kExitFile;
+}
+
+}  // namespace mpmfast
