@@ -32,6 +32,7 @@ constexpr UsualChart kUsual[] = {
     {"plot_stress", "Mean stress", "Pa", ".mean_stress_"},
     {"plot_force", "Force", "N", ".force_"},
 };
+constexpr UsualChart kStressStrain{"plot_stress_strain", "Mean stress against strain", "Pa", ".mean_stress_"};
 constexpr std::size_t kMostCurves = 16;  // more cannot be told apart: then those of all bodies together
 
 bool matches(const std::string& name, const std::string& part) {
@@ -53,6 +54,13 @@ std::vector<std::string> chosen_columns(const Table& history, const std::string&
 
 Expression column(const std::string& name) {
   return std::get<Expression>(Expression::parse("`" + name + "`"));
+}
+
+/// That of a piston, where there is one.
+std::optional<Expression> strain_of(const Table& history) {
+  for (const std::string& name : history.names)
+    if (name.ends_with(".strain")) return column(name);
+  return std::nullopt;
 }
 
 struct RunHistory {
@@ -197,6 +205,8 @@ int plot_history(const CommandLine& line, const PlotFiles& files) {
   }
   bool all = true;
   for (const UsualChart& chart : kUsual) all = plot.draw(chart) && all;
+  if (const auto strain = strain_of(runs[0].table); strain && line.x == "time_s")
+    all = Plot(runs, files, *strain).draw(kStressStrain) && all;
   return all ? 0 : kExitFile;
 }
 
