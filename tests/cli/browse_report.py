@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 MISSING = 77
 try:
@@ -56,6 +57,29 @@ grid: {size: [10 mm, 10 mm], cell: 1 mm}
 time: {end: 1 ms}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 bodies: [{name: missile, box: {from: [2 mm, 4 mm], to: [4 mm, 6 mm]}, material: m, velocity: [40 m/s, 0 m/s]}]
+output: {frames: 8, history: 10}
+"""
+AXIS = """
+title: A ball on the axis
+space: axisymmetric
+grid: {size: [8 mm, 12 mm], cell: 0.5 mm}
+time: {end: 200 us}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: ball, disk: {centre: [0, 5 mm], radius: 3 mm}, material: soft, velocity: [0, -20 m/s]}
+  - {name: floor, box: {from: [0, 0.5 mm], to: [6 mm, 1.5 mm]}, material: soft}
+boundaries: {left: symmetry, bottom: wall}
+output: {frames: 5, history: 10, picture: none}
+"""
+OUTFLOW = """
+title: One of two blocks flies out
+space: plane_strain
+grid: {size: [10 mm, 10 mm], cell: 1 mm, leaving: outflow}
+time: {end: 400 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: missile, box: {from: [2 mm, 4 mm], to: [4 mm, 6 mm]}, material: m, velocity: [40 m/s, 0]}
+  - {name: rest, box: {from: [0, 0], to: [4 mm, 2 mm]}, material: m}
 output: {frames: 8, history: 10}
 """
 
@@ -158,14 +182,14 @@ def read_frame(folder, frame):
     return vtk_to_numpy(grid.GetPoints().GetData()), arrays
 
 
-def check_hover(browser, folder, field, frame, values, names):
-    """Every 20th particle is pointed at through the page; the tip of one is read as a user would."""
+def check_hover(browser, folder, field, frame, values, names, every=20):
+    """Every 20th particle (or so) is pointed at through the page; the tip of one is read as a user would."""
     points, arrays = read_frame(folder, frame)
     browser.execute_script("player.stop(); player.go(arguments[0])", frame)
     choose(browser, field)
     rounding = browser.execute_script("return [player.frames.axes[0].rounding(), player.column.rounding()]")
     seen = 0
-    for k in range(0, len(points), 20):
+    for k in range(0, len(points), every):
         shown = browser.execute_script(
             "player.pointer = player.view.find(arguments[0]).slice(0, 2); player.hover(); return player.hovered", k)
         if shown is None:
@@ -190,6 +214,8 @@ def check_hover(browser, folder, field, frame, values, names):
 
 def check_view(browser, name, canvas, other_field):
     """The particles are there, and change with the frame, the field, the zoom and the play button."""
+    check(browser.execute_script("return player.frame > 0"), f"{name}: the page begins with the first frame")
+    browser.execute_script("player.go(player.frames.times.length - 1)")
     first = pixels(browser, canvas)
     check(first[0] > 10, f"{name}: the particles are blank ({first[0]} colours)")
     browser.find_element(By.ID, "play").click()
@@ -218,6 +244,49 @@ def check_view(browser, name, canvas, other_field):
     before = pixels(browser, canvas)[1]
     browser.execute_script("player.go(player.frames.times.length - 1)")
     check(pixels(browser, canvas)[1] != before, f"{name}: the particles do not move from frame to frame")
+
+
+# Bodies that some pixel shows, or a particle that is not hidden.
+SEEN = """
+const {view, frames} = player, particles = view.picked ? [...new Set(view.picked)].filter(k => k >= 0)
+  : [...view.colours.keys()].filter(k => view.colours[k] !== 0);
+return [...new Set(particles.map(k => frames.bodies[k]))].sort();
+"""
+
+
+def check_bodies(browser, name, canvas):
+    """A click hides a body and shows it again, a double click shows it alone."""
+    before, button = pixels(browser, canvas)[1], browser.find_element(By.CSS_SELECTOR, "#bodies button")
+    check(browser.execute_script(SEEN) == [0, 1], f"{name}: not both bodies are shown at first")
+    button.click()
+    pixels(browser, canvas)
+    check(browser.execute_script(SEEN) == [1], f"{name}: a click does not hide a body")
+    button.click()
+    check(pixels(browser, canvas)[1] == before, f"{name}: a second click does not show the body again")
+    for seen in ([0], [0, 1]):
+        ActionChains(browser).double_click(button).perform()
+        pixels(browser, canvas)
+        check(browser.execute_script(SEEN) == seen, f"{name}: after a double click, bodies {browser.execute_script(SEEN)}")
+
+
+def check_key(browser, name):
+    """Outliers are left out until a click takes them in; of one value there is no bar."""
+    choose(browser, "von_mises")
+    Select(browser.find_element(By.ID, "range")).select_by_value("all")
+    width = "return player.scale.upper - player.scale.lower"
+    most = browser.execute_script(width)
+    check("1 to 99 %" in browser.find_element(By.ID, "key").text, f"{name}: that outliers are left out is not said")
+    browser.find_element(By.ID, "outliers").click()
+    check(browser.execute_script(width) > most, f"{name}: outliers are not taken in")
+    check("all values" in browser.find_element(By.ID, "key").text, f"{name}: that all values are shown is not said")
+    browser.find_element(By.ID, "outliers").click()
+    check(browser.execute_script(width) == most, f"{name}: outliers are not left out again")
+    Select(browser.find_element(By.ID, "range")).select_by_value("frame")
+    browser.execute_script("player.go(0)")
+    check("0 Pa in this frame" in browser.find_element(By.ID, "key").text, f"{name}: the one value of a field is not said")
+    check(not browser.find_elements(By.CSS_SELECTOR, "#key canvas"), f"{name}: a bar of one value")
+    text = browser.find_element(By.ID, "particles").text
+    check(" mm" in text and "\u00b5m" not in text, f"{name}: lengths are not all in mm")
 
 
 # How many pixels of a canvas have the colour of its first curve.
@@ -280,6 +349,8 @@ def check_plane(browser, program, folder, shots):
     picture_of(browser, shots, "plane")
     check_view(browser, "plane", "#picture canvas", "velocity_x")
     names = ["left", "right"]
+    check_bodies(browser, "plane", "#picture canvas")
+    check_key(browser, "plane")
     check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
     check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
     check_charts(browser, "plane")
@@ -295,6 +366,8 @@ def check_space(browser, program, folder, shots):
         return
     picture_of(browser, shots, "space")
     check_view(browser, "space", "#picture canvas", "speed")
+    check_bodies(browser, "space", "#picture canvas")
+    check_key(browser, "space")
     check_hover(browser, out, "velocity_z", 3, lambda arrays: arrays["velocity"][:, 2], ["left", "right"])
     check_charts(browser, "space")
     quiet(browser, "space")
@@ -320,6 +393,59 @@ def check_failed(browser, program, folder, shots):
     check(reason and reason in browser.find_element(By.ID, "ending").text, "failing: the reason is missing")
     check(pixels(browser, "#picture canvas")[0] > 3, "failing: the particles are blank")
     picture_of(browser, shots, "failing")
+
+
+def check_axis(browser, program, folder, shots):
+    out = run(program, folder, "axis", AXIS)
+    open_page(browser, out)
+    check("axisymmetric" in browser.find_element(By.TAG_NAME, "header").text, "axis: not said to be axisymmetric")
+    check(browser.execute_script("return player.fieldName") == "von_mises", "axis: without a picture the first field is not the von Mises stress")
+    check(browser.execute_script("return player.frame") < 5, "axis: the ball has left the floor in the frame that is shown first")
+    check_bodies(browser, "axis", "#picture canvas")
+    check_hover(browser, out, "stress_zz", 3, lambda arrays: arrays["stress"][:, 2], ["ball", "floor"])
+    tip = browser.find_element(By.ID, "tip").text
+    check(re.search(r"^r ", tip, re.M) and re.search(r"^z ", tip, re.M), f"axis: the tip says '{tip}'")
+    picture_of(browser, shots, "axis")
+    quiet(browser, "axis")
+
+
+def check_outflow(browser, program, folder, shots):
+    """Particles that left are gone from the picture, and counted."""
+    out = run(program, folder, "outflow", OUTFLOW)
+    open_page(browser, out)
+    browser.execute_script("player.go(0)")
+    pixels(browser, "#picture canvas")
+    check(browser.execute_script(SEEN) == [0, 1], "outflow: not both bodies are shown at first")
+    browser.execute_script("player.go(player.frames.times.length - 1)")
+    pixels(browser, "#picture canvas")
+    check(browser.execute_script(SEEN) == [1], "outflow: what left is still shown")
+    check("16 particles" in browser.find_element(By.ID, "figures").text, "outflow: what left is not counted")
+    check_hover(browser, out, "velocity_x", 2, lambda arrays: arrays["velocity"][:, 0], ["missile", "rest"], every=3)
+    picture_of(browser, shots, "outflow")
+    quiet(browser, "outflow")
+
+
+def check_stopped(browser, program, folder, shots):
+    """A signal ends it in the middle; the page shows the frames until then."""
+    out = folder / "stopped"
+    (folder / "stopped.yaml").write_text(PLANE.replace("cell: 0.5 mm", "cell: 0.5 mm, leaving: wall")
+                                         .replace("end: 60 us", "end: 60 s").replace("frames: 6", "frames: 600000"))
+    going = subprocess.Popen([program, "run", folder / "stopped.yaml", "--out", out, "--progress", "none"],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    begun = time.monotonic()
+    while not (out / "particles" / "000002.vtu").exists() and time.monotonic() - begun < 60:
+        time.sleep(0.05)
+    going.terminate()
+    check(going.wait() == 143, "stopped: the signal did not end the run")
+    made = subprocess.run([program, "report", out], capture_output=True, text=True)
+    check(made.returncode == 0, f"report stopped: exit {made.returncode}: {made.stderr}")
+    open_page(browser, out)
+    check(browser.find_element(By.ID, "status").text == "stopped", "stopped: not said to be")
+    check("mpmfast resume" in browser.find_element(By.ID, "ending").text, "stopped: how to go on is not said")
+    check(browser.execute_script("return player.frame === player.frames.times.length - 1 && player.frame > 0"), "stopped: not the last frame is shown")
+    check(pixels(browser, "#picture canvas")[0] > 3, "stopped: the particles are blank")
+    picture_of(browser, shots, "stopped")
+    quiet(browser, "stopped")
 
 
 def check_bare(browser, program, folder):
@@ -348,6 +474,9 @@ def main():
             check_space(browser, program, folder, shots)
             check_without_webgl(browser, folder)
             check_failed(browser, program, folder, shots)
+            check_axis(browser, program, folder, shots)
+            check_outflow(browser, program, folder, shots)
+            check_stopped(browser, program, folder, shots)
             check_bare(browser, program, folder)
     finally:
         browser.quit()

@@ -48,6 +48,7 @@ function figuresCard() {
     ['speed', `${significant(run.particle_steps_per_s / 1e6, 3)} million particle-steps a second`], ['memory', memoryText(run.peak_memory_bytes)],
     ['time step', run.dt_min_s > 0 ? `${timeText(run.dt_min_s)} to ${timeText(run.dt_max_s)}` : undefined],
     ['velocity fields', run.fields], ['active nodes', run.nodes_active_peak && `${run.nodes_active_peak.toLocaleString('en')} at most`],
+    ['left the grid', run.outflow && `${run.outflow.particles.toLocaleString('en')} particles with ${significant(run.outflow.kg)} kg and ${valueText(run.outflow.J, 'J')}`],
     ['resumed', run.resumes > 0 ? `${run.resumes} times` : undefined], ['checksum', run.checksum && element('code', {}, run.checksum)]];
   return element('section', {class: 'card', id: 'figures'}, element('h2', {}, 'The run'), facts(rows));
 }
