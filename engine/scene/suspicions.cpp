@@ -113,9 +113,15 @@ class Suspicions {
         say(path,
             fmt::format("waves would run at {:.3g} m/s in it (usual: {:g} to {:g})", speed_[m], kSlowest,
                         kFastest),
-            speed_[m] > kFastest ? "Is the density too small, or a modulus too large?"
-                                 : "Is the density too large, or a modulus too small?");
+            speed_[m] > kFastest ? "Is the density too small, or a modulus too large?" : slow_because(path));
     }
+  }
+
+  std::string slow_because(const std::string& path) const {
+    for (const char* key : {"young", "bulk", "shear", "lambda"})
+      if (is_bare(join(path, key)) && has_units(path))
+        return fmt::format("Is a unit missing? {} is read as {} Pa", key, node_at(join(path, key)).scalar);
+    return "Is the density too large, or a modulus too small?";
   }
 
   /// Does any other value of the material have a unit?

@@ -392,6 +392,7 @@ def check_failed(browser, program, folder, shots):
     check(browser.find_element(By.ID, "status").text == "failed", "failing: not said to have failed")
     check(reason and reason in browser.find_element(By.ID, "ending").text, "failing: the reason is missing")
     check(pixels(browser, "#picture canvas")[0] > 3, "failing: the particles are blank")
+    check("0 Pa everywhere" in browser.find_element(By.ID, "key").text, "failing: the one value of the field is not said")
     picture_of(browser, shots, "failing")
 
 

@@ -47,6 +47,9 @@ TEST_CASE("waves that run too fast or too slowly tell of a modulus in the wrong 
         "Is the density "
         "too small, or a modulus too large?\n");
   CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210")), "waves would run at 0.19 m/s"));
+  CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210")),
+              "Is a unit missing? young is read as 210 Pa"));
+  CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210 Pa")), "or a modulus too small?"));
 }
 
 TEST_CASE(

@@ -180,6 +180,7 @@ class Player {
     notes.push(`Rounded for this page: places within ${valueText(places, 'm', 2)}${field}. The particle files hold all digits.`);
     notes.push(this.frames.dimension === 3 ? 'Balls have the volume that a particle began with. Drag to turn, shift-drag to move, wheel to zoom.' :
       'Drag to move, wheel to zoom, space to play, arrow keys for single frames.');
+    if (!this.bodies.root.hidden) notes.push('A click on the name of a body hides it or shows it again, a double click shows it alone.');
     this.notes.replaceChildren(...notes.map(text => element('li', {}, text)));
   }
 }
