@@ -37,6 +37,11 @@ PictureText picture_text(const Scene& scene, const std::string& label, double ti
   return {scene.title, fmt::format("{} at {:.4g} {}", label, time / unit.in_si, time == 0 ? "s" : unit.name)};
 }
 
+std::string value_text(double value, const std::string& si_unit) {
+  const DisplayUnit unit = display_unit(std::abs(value), si_unit);
+  return fmt::format("{:.4g} {}", value / unit.in_si, unit.name);
+}
+
 /// The colour of every particle, and the bar that explains it.
 struct Colouring {
   Colouring(const FieldValues& field, const Framing& framing)
@@ -44,6 +49,7 @@ struct Colouring {
   Colour operator()(std::size_t p) const {
     return by_body ? body_colour(static_cast<std::size_t>((*value)[p])) : scale((*value)[p]);
   }
+  bool has_bar() const { return !by_body && !scale.has_one_value(); }
   bool by_body;
   ColourScale scale;
   const std::vector<double>* value;
@@ -122,13 +128,13 @@ Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
   const double margin = 0.02 * std::max(x.width(), y.width());
   const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
-  Picture picture(wider(x), wider(y), !colour.by_body);
+  Picture picture(wider(x), wider(y), colour.has_bar());
   for (const std::uint32_t p : order_by_id(particles)) {
     Corners corners = shape_of(particles, scene, p);
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
     picture.canvas().fill_convex(corners, colour(p));
   }
-  picture.draw_axes();
+  picture.draw_axes(length_unit(scene), scene.space == Space::axisymmetric ? "rz" : "xy");
   return picture;
 }
 
@@ -156,19 +162,24 @@ Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
               z = box_range(framing, scene, 2);
   const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
-  Picture picture(view.across(), view.up(), !colour.by_body);
+  Picture picture(view.across(), view.up(), colour.has_bar());
   view.draw_edges(picture);
   std::stable_sort(balls.begin(), balls.end(),
                    [](const Ball& a, const Ball& b) { return a.view[2] < b.view[2]; });
   for (const Ball& ball : balls)
     draw_ball(picture, picture.at(ball.view[0], ball.view[1]), ball.radius * picture.pixels_per_metre(),
               colour(ball.particle));
-  view.draw_labels(picture);
+  view.draw_labels(picture, length_unit(scene));
   picture.draw_frame();
   return picture;
 }
 
 }  // namespace
+
+DisplayUnit length_unit(const Scene& scene) {
+  const auto& size = scene.grid.size;
+  return display_unit(0.5 * *std::max_element(size.begin(), size.begin() + scene.dimension()), "m");
+}
 
 void Framing::include(const Framing& other) {
   const auto widen = [](std::optional<Range>& own, const std::optional<Range>& theirs) {
@@ -195,8 +206,12 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
   const FieldValues values = field_values(particles, scene, field);
   const Colouring colour(values, framing);
   Picture picture = paint(particles, scene, colour, framing);
-  picture.write_titles(picture_text(scene, values.label, time));
-  if (!colour.by_body) picture.draw_colour_bar(colour.scale, values.unit);
+  PictureText text = picture_text(scene, values.label, time);
+  if (colour.has_bar())
+    picture.draw_colour_bar(colour.scale, values.unit);
+  else if (!colour.by_body)
+    text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
+  picture.write_titles(text);
   return picture.canvas();
 }
 

@@ -20,14 +20,32 @@ constexpr std::array<std::string_view, 95> kGlyphs{
     "00DJF11", "00MPGGG", "00EGE1U", "88S8896", "00HHHJD", "00HHHA4", "00HHLLA", "00HA4AH", "00HHF1E",
     "00V248V", "2448442", "4444444", "8442448", "008L200"};
 
-constexpr std::array<std::pair<std::string_view, char>, 6> kNear{
-    {{"\u2013", '-'}, {"\u2212", '-'}, {"\u00b5", 'u'}, {"\u03bc", 'u'}, {"\u00d7", 'x'}, {"\u2019", '\''}}};
+/// µ, °, ², ³ and ·: letters 1 to 5.
+constexpr std::array<std::string_view, 5> kOfUnits{"00HHJTG", "EAE0000", "C24E000", "C242C00", "000CC00"};
+
+constexpr std::array<std::pair<std::string_view, char>, 10> kNear{{{"\u2013", '-'},
+                                                                   {"\u2212", '-'},
+                                                                   {"\u00b5", '\1'},
+                                                                   {"\u03bc", '\1'},
+                                                                   {"\u00b0", '\2'},
+                                                                   {"\u00b2", '\3'},
+                                                                   {"\u00b3", '\4'},
+                                                                   {"\u00b7", '\5'},
+                                                                   {"\u00d7", 'x'},
+                                                                   {"\u2019", '\''}}};
+
+bool is_of_units(char letter) { return letter >= 1 && letter <= static_cast<char>(kOfUnits.size()); }
+
+std::string_view glyph(char letter) {
+  if (is_of_units(letter)) return kOfUnits[static_cast<std::size_t>(letter - 1)];
+  if (letter < ' ' || letter > '~') letter = '?';
+  return kGlyphs[static_cast<std::size_t>(letter - ' ')];
+}
 
 }  // namespace
 
 bool glyph_dot(char letter, int row, int column) {
-  if (letter < ' ' || letter > '~') letter = '?';
-  const char digit = kGlyphs[static_cast<std::size_t>(letter - ' ')][static_cast<std::size_t>(row)];
+  const char digit = glyph(letter)[static_cast<std::size_t>(row)];
   const int dots = digit <= '9' ? digit - '0' : digit - 'A' + 10;
   return (dots >> (kGlyphWidth - 1 - column) & 1) != 0;
 }
@@ -38,7 +56,8 @@ std::string printable(std::string_view text) {
     std::size_t length = 1;
     while (i + length < text.size() && (static_cast<unsigned char>(text[i + length]) & 0xC0) == 0x80)
       ++length;
-    char letter = length == 1 && text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
+    const bool known = length == 1 && ((text[i] >= ' ' && text[i] <= '~') || is_of_units(text[i]));
+    char letter = known ? text[i] : '?';
     for (const auto& [code_point, near] : kNear)
       if (text.substr(i, length) == code_point) letter = near;
     out += letter;

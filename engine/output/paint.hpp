@@ -23,6 +23,9 @@ struct Framing {
   void include(const Framing& other);
 };
 
+/// The unit of lengths on all pictures and pages of a run.
+DisplayUnit length_unit(const Scene& scene);
+
 /// The particles with their domains, and the field's range without its outliers.
 /// @param field  as field_values, which says what it throws
 template <int Dim>

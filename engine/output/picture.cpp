@@ -1,5 +1,7 @@
 #include "engine/output/picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,8 +63,7 @@ void Picture::write_titles(const PictureText& text) {
 
 void Picture::draw_frame() { canvas_.frame(box_upper_left_, box_lower_right_, kLineWidth, kInk); }
 
-void Picture::draw_axes() {
-  const DisplayUnit unit = display_unit(0.5 * std::max(x_.width(), y_.width()), "m");
+void Picture::draw_axes(const DisplayUnit& unit, std::string_view names) {
   const auto scaled = [&](Range r) { return Range{r.lower / unit.in_si, r.upper / unit.in_si}; };
   const double width = x_.width() * scale_, height = y_.width() * scale_;
   const double bottom = box_lower_right_.y, left = box_upper_left_.x;
@@ -78,8 +79,9 @@ void Picture::draw_axes() {
     canvas_.line({left - kTick, y}, {left, y}, kLineWidth, kInk);
     canvas_.text({left - kTick - 6, y}, Align::right, tick_label(tick, spacing_of(ticks_y)), kInk);
   }
-  canvas_.text({left + 0.5 * width, bottom + 46}, Align::centre, "x (" + unit.name + ")", kInk);
-  canvas_.text({left - kTick - 6, box_upper_left_.y - 14}, Align::right, "y (" + unit.name + ")", kInk);
+  const auto label = [&](std::size_t axis) { return fmt::format("{} ({})", names[axis], unit.name); };
+  canvas_.text({left + 0.5 * width, bottom + 46}, Align::centre, label(0), kInk);
+  canvas_.text({left - kTick - 6, box_upper_left_.y - 14}, Align::right, label(1), kInk);
   draw_frame();
 }
 

@@ -28,7 +28,9 @@ class Picture {
   Canvas& canvas() { return canvas_; }
 
   void write_titles(const PictureText& text);
-  void draw_axes();
+  /// @param unit   of lengths
+  /// @param names  a letter for each axis
+  void draw_axes(const DisplayUnit& unit, std::string_view names);
   void draw_frame();
   void draw_colour_bar(const ColourScale& scale, const std::string& si_unit);
 

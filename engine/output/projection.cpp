@@ -54,22 +54,28 @@ void ViewBox::draw_edges(Picture& picture) const {
                               place(picture, corner(lower_, upper_, c | 1 << d)), 1.5, kEdge);
 }
 
-void ViewBox::draw_labels(Picture& picture) const {
-  const DisplayUnit unit = display_unit(0.5 * (upper_ - lower_).maxCoeff(), "m");
+void ViewBox::draw_labels(Picture& picture, const DisplayUnit& unit) const {
   constexpr std::array<char, 3> kAxes{'x', 'y', 'z'};
   constexpr std::array<int, 3> kFrom{0, 1, 0};  // the edges that are free of particles from this side
   constexpr std::array<PixelPoint, 3> kShift{{{-8, 16}, {10, 12}, {-10, 0}}};
+  constexpr std::array<PixelPoint, 3> kNameShift{{{-24, 48}, {30, 36}, {14, -20}}};
+  constexpr int kTicksOfEdge = 4;
   constexpr std::array<Align, 3> kAlign{Align::right, Align::left, Align::right};
   for (std::size_t d = 0; d < 3; ++d) {
     const int axis = static_cast<int>(d);
     const Vec<3> from = corner(lower_, upper_, kFrom[d]), to = corner(lower_, upper_, kFrom[d] | 1 << axis);
-    const auto write = [&](double share, const std::string& text) {
-      const PixelPoint p = place(picture, (1 - share) * from + share * to);
-      picture.canvas().text({p.x + kShift[d].x, p.y + kShift[d].y}, kAlign[d], text, kInk);
+    const auto write = [&](double at, const PixelPoint& shift, const std::string& text) {
+      Vec<3> point = from;
+      point[axis] = at;
+      const PixelPoint p = place(picture, point);
+      picture.canvas().text({p.x + shift.x, p.y + shift.y}, kAlign[d], text, kInk);
     };
-    write(0.08, fmt::format("{:.4g}", from[axis] / unit.in_si));
-    write(0.5, fmt::format("{} ({})", kAxes[d], unit.name));
-    write(0.92, fmt::format("{:.4g}", to[axis] / unit.in_si));
+    const std::vector<double> ticks =
+        round_ticks({from[axis] / unit.in_si, to[axis] / unit.in_si}, kTicksOfEdge);
+    const double spacing = ticks.size() > 1 ? ticks[1] - ticks[0] : 1;
+    for (const double tick : ticks) write(tick * unit.in_si, kShift[d], tick_label(tick, spacing));
+    const double name_at = axis == 2 ? to[axis] : 0.5 * (from[axis] + to[axis]);  // z: above its numbers
+    write(name_at, kNameShift[d], fmt::format("{} ({})", kAxes[d], unit.name));
   }
 }
 

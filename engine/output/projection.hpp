@@ -10,14 +10,14 @@ namespace mpmfast {
 /// To the right of the picture, up in it, and towards the eye.
 Vec<3> to_view(const Vec<3>& point);
 
-/// The box around the particles: its outline behind them and the coordinates of its corners.
+/// The box around the particles: its outline behind them and coordinates along its edges.
 class ViewBox {
  public:
   ViewBox(const Vec<3>& lower, const Vec<3>& upper);
   Range across() const { return across_; }
   Range up() const { return up_; }
   void draw_edges(Picture& picture) const;
-  void draw_labels(Picture& picture) const;
+  void draw_labels(Picture& picture, const DisplayUnit& unit) const;
 
  private:
   PixelPoint place(const Picture& picture, const Vec<3>& point) const;

@@ -46,20 +46,20 @@ Range robust_range(std::span<const double> values) {
     std::nth_element(finite.begin(), nth, finite.end());
     return *nth;
   };
-  Range range{percentile(0.005), percentile(0.995)};
-  // A constant field: any range that holds it and is wider than its rounding.
-  const double size = std::max(std::abs(range.lower), std::abs(range.upper));
-  if (range.width() <= 1e-9 * size || range.width() == 0) {
-    const double margin = size > 0 ? 0.05 * size : 1;
-    range = {range.lower - margin, range.upper + margin};
-  }
-  return range;
+  const Range most{percentile(0.01), percentile(0.99)};
+  return most.width() > 0 ? most : Range{percentile(0), percentile(1)};
 }
 
 ColourScale::ColourScale(Range values) : range_(values) {
+  const double size = std::max(std::abs(values.lower), std::abs(values.upper));
+  one_value_ = values.width() <= 1e-9 * size;
+  if (one_value_) {  // any range that holds it and is wider than its rounding
+    const double margin = size > 0 ? 0.05 * size : 1;
+    range_ = {values.lower - margin, values.upper + margin};
+    return;
+  }
   // A trace of the other sign (noise about zero) would waste half of the colours.
   constexpr double kTrace = 0.1;
-  const double size = std::max(-values.lower, values.upper);
   diverging_ = values.lower < -kTrace * size && values.upper > kTrace * size;
   if (diverging_) range_ = {-size, size};
 }
@@ -76,12 +76,12 @@ DisplayUnit display_unit(double size, std::string_view si_unit) {
   const std::string unit(si_unit);
   if (unit.empty() || unit == "-" || unit == "K" || unit == "m/s") return {unit, 1};
   constexpr std::array<std::pair<std::string_view, double>, 8> prefixes{
-      {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1}, {"m", 1e-3}, {"u", 1e-6}, {"n", 1e-9}}};
+      {{"T", 1e12}, {"G", 1e9}, {"M", 1e6}, {"k", 1e3}, {"", 1}, {"m", 1e-3}, {"µ", 1e-6}, {"n", 1e-9}}};
   const auto usual = [&](std::string_view prefix) {  // nobody writes ks, Mm or mPa
     if (unit == "Pa")
       return prefix == "T" || prefix == "G" || prefix == "M" || prefix == "k" || prefix.empty();
     if (unit == "m" && prefix == "k") return true;
-    return prefix.empty() || prefix == "m" || prefix == "u" || prefix == "n";
+    return prefix.empty() || prefix == "m" || prefix == "µ" || prefix == "n";
   };
   DisplayUnit smallest{unit, 1};
   if (!(size > 0) || !std::isfinite(size)) return smallest;

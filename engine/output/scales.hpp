@@ -17,8 +17,8 @@ struct Range {
   double width() const { return upper - lower; }
 };
 
-/// From the 0.5 to the 99.5 percentile of the finite values, so that a few outliers do not hide the rest;
-/// never empty.
+/// From the 1st to the 99th percentile of the finite values, so that outliers do not hide the rest; of all of
+/// them where most are one value.
 Range robust_range(std::span<const double> values);
 
 /// A linear scale of colours: sequential, or diverging and symmetric about zero when the values take both
@@ -27,11 +27,12 @@ class ColourScale {
  public:
   explicit ColourScale(Range values);
   Range range() const { return range_; }
+  bool has_one_value() const { return one_value_; }
   Colour operator()(double value) const;  ///< grey for NaN; the end colours beyond the range
 
  private:
   Range range_;
-  bool diverging_ = false;
+  bool diverging_ = false, one_value_ = false;
 };
 
 /// The colour of a body: neighbours in the list of bodies differ strongly.

@@ -24,7 +24,7 @@ std::string list_text(std::span<const std::string> words) {
 /// What else an unknown key may be: half a number, two words run together, a key of another section.
 std::string hint_for_key(const Key& key, const Node& value, std::span<const std::string> known) {
   const std::string& text = key.text;
-  if (value.kind == Node::Kind::null && text.find_first_not_of("0123456789") == std::string::npos)
+  if (value.kind == Node::Kind::null && !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])))
     return "The decimal sign is a point, not a comma";
   const std::string first = text.substr(0, text.find(':'));
   if (first.size() < text.size() && std::find(known.begin(), known.end(), first) != known.end())
@@ -148,7 +148,7 @@ std::optional<Vec3> Value::vector(Measure kind, int count, const Limit& limit) c
   note({Form::Kind::vector, kind, limit, count, count});
   const Silence within(problems_->recorder());
   if (!is(Node::Kind::list) || size() != static_cast<std::size_t>(count)) {
-    complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)));
+    complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)), vector_hint(kind, count));
     return std::nullopt;
   }
   Vec3 out{};
@@ -162,6 +162,18 @@ std::optional<Vec3> Value::vector(Measure kind, int count, const Limit& limit) c
   return out;
 }
 
+std::string Value::vector_hint(Measure kind, int count) const {
+  if (!is(Node::Kind::scalar) || std::holds_alternative<QuantityError>(parse_quantity(node_->scalar, kind)))
+    return "";
+  const bool length = kind == Measure::length, falls = kind == Measure::acceleration;
+  std::string number = node_->scalar.substr(node_->scalar[0] == '+' ? 1 : 0);
+  if (falls && number[0] != '-') number = "-" + number;
+  if (falls && parse_number(number)) number += fmt::format(" {}", kind_of(kind).si);
+  std::vector<std::string> parts(static_cast<std::size_t>(count), length ? number : "0");
+  parts[falls ? 1 : 0] = number;
+  return fmt::format("Perhaps [{}]", fmt::join(parts, ", "));
+}
+
 int Value::word_index(std::span<const std::string> known) const {
   if (Recorder* recorder = problems_->recorder()) {
     for (const std::string& word : known) recorder->note_word(path_, word, "");
@@ -171,6 +183,7 @@ int Value::word_index(std::span<const std::string> known) const {
 
 int Value::reference(std::span<const std::string> known) const {
   note({Form::Kind::name});
+  if (known.empty() && !problems_->empty()) return -1;  // they could not be read themselves
   return index_among(known);
 }
 

@@ -58,6 +58,8 @@ class Value {
   std::optional<std::string> name() const;
   /// Exactly `count` quantities; the rest of the result is zero.
   std::optional<Vec3> vector(Measure kind, int count, const Limit& limit = kAny) const;
+  /// The list that one number in its place may stand for: gravity pulls down, lengths are alike.
+  std::string vector_hint(Measure kind, int count) const;
   /// A quantity (constant in time), {times: […], values: […]}, or a list of [time, value].
   std::optional<TimeTable> table(Measure kind) const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <vector>
@@ -104,9 +105,20 @@ struct Written {
   std::string_view unit;  ///< empty: none
 };
 
+/// "Write 1.2 g/cm^3" for "1,2 g/cm^3", "Write 10000 m" for "10 000 m"; nothing for "1,000", which may be
+/// either.
+std::string without_separator(std::string_view number, std::string_view rest) {
+  const bool comma = rest.front() == ',', between = comma || rest.front() == '_';
+  if (between) rest.remove_prefix(1);
+  const auto digits = std::find_if_not(rest.begin(), rest.end(), is_digit) - rest.begin();
+  if (digits == 0 || comma == (digits == 3)) return "";
+  return fmt::format("Write {}{}{}", number, comma ? "." : "", rest);
+}
+
 std::variant<Written, QuantityError> parse_written(std::string_view written, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
-  std::string_view text = trimmed(written);
+  const std::string_view whole = trimmed(written);
+  std::string_view text = whole;
   const auto numerator = take_number(text, kind);
   if (const auto* error = std::get_if<QuantityError>(&numerator)) return *error;
   double over = 1;
@@ -124,7 +136,9 @@ std::variant<Written, QuantityError> parse_written(std::string_view written, Mea
   Unit unit;
   if (!text.empty()) {
     if (text.front() == '_' || text.front() == ',' || is_digit(text.front())) {
-      return QuantityError{"digits take no separator, and the decimal sign is a point", ""};
+      const std::string_view number = trimmed(whole.substr(0, whole.size() - text.size()));
+      return QuantityError{"digits take no separator, and the decimal sign is a point",
+                           without_separator(number, text)};
     }
     auto parsed = parse_unit(text, expected);
     if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;

@@ -116,11 +116,8 @@ void read_velocity(MapReader& map, int dimension, BodySpec& body) {
   map.otherwise("velocity", body.velocity, Measure::velocity, dimension);
   if (!value) return;
   if (!value->is_list(dimension, dimension)) {
-    return value->complain(
-        fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension),
-        value->is(Node::Kind::scalar)
-            ? fmt::format("Write [{}, 0{}]", value->node().scalar, dimension == 3 ? ", 0" : "")
-            : "");
+    return value->complain(fmt::format("not a list of {} (velocities: m/s, mm/s, km/s)", dimension),
+                           value->vector_hint(Measure::velocity, dimension));
   }
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     if (const auto table = value->item(k).table(Measure::velocity)) {
@@ -330,6 +327,14 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
   }
 }
 
+/// For those who name the bodies by keys, or forgot the dashes.
+std::string list_hint(const Node& bodies) {
+  if (bodies.kind != Node::Kind::map || bodies.keys.empty()) return "";
+  const bool names = index_of(bodies.items[0], "material") >= 0;
+  return names ? fmt::format("A body begins with '- name: {}'", bodies.keys[0].text)
+               : fmt::format("A body begins with a dash, '- {}: …'", bodies.keys[0].text);
+}
+
 }  // namespace
 
 void read_bodies(MapReader& top, bool grid_known, Scene& scene) {
@@ -337,7 +342,7 @@ void read_bodies(MapReader& top, bool grid_known, Scene& scene) {
   if (!section) return;
   if (!section->is_list(1)) {
     if (section->is(Node::Kind::list)) return section->report("no bodies");
-    return section->complain("not a list of maps {box | disk | …, material, …}");
+    return section->complain("not a list of maps {box | disk | …, material, …}", list_hint(section->node()));
   }
   std::vector<BodyPlace> places;
   BodyReader reader(scene, places);

@@ -77,6 +77,9 @@ void read_time(MapReader& top, TimeSpec& time) {
 void read_gravity(MapReader& top, int dimension, GravitySpec& gravity) {
   const auto section = top.find("gravity");
   if (!section) return;
+  if (section->is(Node::Kind::scalar))
+    return section->complain("not a vector or a map {acceleration, ramp}",
+                             section->vector_hint(Measure::acceleration, dimension));
   if (section->is(Node::Kind::list)) {
     gravity.acceleration = section->vector(Measure::acceleration, dimension).value_or(Vec3{});
     return;

@@ -84,8 +84,9 @@ std::optional<Node> read_tree(const std::string& text, const std::filesystem::pa
   };
   apply(true);
   merge_includes(*root, file, problems);
+  const auto used = names_in_expressions(*root);  // also what an override takes the place of
   apply(false);
-  if (root->kind == Node::Kind::map) expand_variables(*root, problems);
+  if (root->kind == Node::Kind::map) expand_variables(*root, problems, used);
   return root;
 }
 

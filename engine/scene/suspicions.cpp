@@ -45,6 +45,7 @@ class Suspicions {
     materials();
     bodies();
     if (!doubtful_) times();
+    find_idle_cells(place_of("grid.size"), scene_, found_);
     friction(scene_.contact.friction, "contact.friction");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
       if (scene_.contact.pairs[k].law.friction != scene_.contact.friction)
@@ -56,11 +57,11 @@ class Suspicions {
  private:
   static constexpr int kMostFrames = 1000;
   static constexpr double kFewestCells = 2, kMostSteps = 1e8, kMostFriction = 2;
-  static constexpr double kLightest = 1e-1, kHeaviest = 3e4;  // kg/m³
-  static constexpr double kSlowest = 1, kFastest = 2e4;       // m/s
+  static constexpr double kLightest = 1e-1, kLightestBare = 25, kHeaviest = 3e4;  // kg/m³
+  static constexpr double kSlowest = 1, kFastest = 2e4;                           // m/s
 
-  /// The place of a path, or of as much of it as the scene states.
-  Place place_of(const std::string& path) const {
+  /// What stands at a path, or at as much of it as the scene states.
+  const Node& node_at(const std::string& path) const {
     const Node* node = &root_;
     for (std::size_t at = 0; at <= path.size();) {
       const std::size_t end = std::min(path.find('.', at), path.size());
@@ -76,8 +77,10 @@ class Suspicions {
       }
       at = end + 1;
     }
-    return node->place;
+    return *node;
   }
+  Place place_of(const std::string& path) const { return node_at(path).place; }
+  bool is_bare(const std::string& path) const { return parse_number(node_at(path).scalar).has_value(); }
 
   void say(const std::string& path, const std::string& what, const std::string& hint = "") {
     found_.add(place_of(path), path, what, hint);
@@ -97,17 +100,37 @@ class Suspicions {
       const double density = density_of(material);
       const bool heavy = density < kLightest || density > kHeaviest;
       const bool fast = speed_[m] < kSlowest || speed_[m] > kFastest;
-      doubtful_ = doubtful_ || heavy || fast;
+      const bool forgotten = density < kLightestBare && is_bare(path + ".density") && has_units(path);
+      doubtful_ = doubtful_ || heavy || fast || forgotten;
       if (heavy)
         say(path + ".density", fmt::format("{:.4g} kg/m^3 is no density of a solid or a liquid", density),
             meant(density));
+      else if (forgotten)
+        say(path + ".density",
+            fmt::format("a bare density is in kg/m^3, and {:g} is that of a gas or a foam", density),
+            fmt::format("Did you mean {:g} g/cm^3?", density));
       else if (fast)
         say(path,
             fmt::format("waves would run at {:.3g} m/s in it (usual: {:g} to {:g})", speed_[m], kSlowest,
                         kFastest),
-            speed_[m] > kFastest ? "Is the density too small, or a modulus too large?"
-                                 : "Is the density too large, or a modulus too small?");
+            speed_[m] > kFastest ? "Is the density too small, or a modulus too large?" : slow_because(path));
     }
+  }
+
+  std::string slow_because(const std::string& path) const {
+    for (const char* key : {"young", "bulk", "shear", "lambda"})
+      if (is_bare(join(path, key)) && has_units(path))
+        return fmt::format("Is a unit missing? {} is read as {} Pa", key, node_at(join(path, key)).scalar);
+    return "Is the density too large, or a modulus too small?";
+  }
+
+  /// Does any other value of the material have a unit?
+  bool has_units(const std::string& path) const {
+    const Node& material = node_at(path);
+    return std::any_of(material.items.begin(), material.items.end(), [](const Node& value) {
+      const auto amount = parse_amount(value.scalar);
+      return std::holds_alternative<Amount>(amount) && std::get<Amount>(amount).dimensions != Dimensions{};
+    });
   }
 
   /// 2780 g/cm^3 for 2780 kg/m^3, 2.78 kg/cm^3 for 2.78 g/cm^3: a thousand, or a million, too much or too
@@ -222,6 +245,7 @@ class Suspicions {
 
 void find_suspicions(const Node& root, const Scene& scene, Problems& found) {
   Suspicions(root, scene, found).all();
+  find_suspicious_text(root, found);
 }
 
 }  // namespace mpmfast

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
@@ -86,7 +87,28 @@ std::string other_spelling(const std::string& symbol) {
   return "";
 }
 
-QuantityError unknown_unit(const std::string& symbol, Measure expected) {
+/// The letters and digits of a compound unit, which people join in many ways: "kgm-3", "kg m^-3", "m s-1".
+std::string bare_letters(std::string_view text) {
+  std::string out;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) && c != '1') out += c;
+  return out;
+}
+
+/// "Write kg/m^3", where the unit is one of the usual ones but for the signs in it, or a point behind it.
+std::string other_signs(const std::string& symbol, const QuantityKind& kind) {
+  const std::string units = kind.units;
+  for (std::size_t at = 0; at < units.size();) {
+    const std::size_t end = std::min(units.find(", ", at), units.size());
+    const std::string unit = units.substr(at, end - at);
+    if (unit != symbol && bare_letters(unit) == bare_letters(symbol)) return "Write " + unit;
+    at = end + 2;
+  }
+  return "";
+}
+
+/// @param symbol  what is not known of `whole`
+QuantityError unknown_unit(const std::string& symbol, const std::string& whole, Measure expected) {
   const QuantityKind& kind = kind_of(expected);
   std::vector<std::string> same_kind, all;
   for (const NamedUnit& named : kUnits) {
@@ -94,6 +116,7 @@ QuantityError unknown_unit(const std::string& symbol, Measure expected) {
     if (named.unit.dimensions == kind.dimensions) same_kind.emplace_back(named.symbol);
   }
   std::string hint = other_spelling(symbol);
+  if (hint.empty()) hint = other_signs(whole, kind);
   if (hint.empty()) hint = did_you_mean(symbol, same_kind);
   if (hint.empty()) hint = did_you_mean(symbol, all);
   return {fmt::format("unknown unit '{}' ({}{})", symbol, kind.name,
@@ -168,7 +191,7 @@ std::vector<std::string> unit_symbols() {
 }
 
 std::variant<Unit, QuantityError> parse_unit(std::string_view written, Measure expected) {
-  const std::string text = plain_spelling(written);
+  const std::string whole(written), text = plain_spelling(written);
   const auto skip_blanks = [&](std::size_t& at) {
     while (at < text.size() && text[at] == ' ') ++at;
   };
@@ -177,11 +200,12 @@ std::variant<Unit, QuantityError> parse_unit(std::string_view written, Measure e
   std::size_t at = 0;
   while (true) {
     const std::optional<Factor> factor = next_factor(text, at);
-    if (!factor) return unknown_unit(std::string(written), expected);
-    if (!apply(factor->symbol, sign * factor->exponent, unit)) return unknown_unit(factor->symbol, expected);
+    if (!factor) return unknown_unit(whole, whole, expected);
+    if (!apply(factor->symbol, sign * factor->exponent, unit))
+      return unknown_unit(factor->symbol, whole, expected);
     skip_blanks(at);
     if (at == text.size()) break;
-    if (text[at] != '*' && text[at] != '/') return unknown_unit(std::string(written), expected);
+    if (text[at] != '*' && text[at] != '/') return unknown_unit(whole, whole, expected);
     sign = text[at++] == '/' ? -1 : 1;
     skip_blanks(at);
   }

@@ -41,7 +41,8 @@ std::string trimmed(const std::string& text) {
 
 class Expander {
  public:
-  Expander(Node& root, Problems& problems) : root_(root), problems_(problems) {}
+  Expander(Node& root, Problems& problems, const std::set<std::string>& used)
+      : root_(root), problems_(problems), used_(used) {}
 
   void all() {
     collect();
@@ -67,6 +68,7 @@ class Expander {
     for (std::size_t k = 0; k < section.items.size(); ++k) {
       const Key& key = section.keys[k];
       Variable variable{key, &section.items[k], join("variables", key.text)};
+      variable.used = used_.contains(key.text);
       if (!may_name_variable(key.text)) {
         variable.used = true;  // one complaint is enough
         problems_.add(key.place, variable.path,
@@ -243,6 +245,7 @@ class Expander {
 
   Node& root_;
   Problems& problems_;
+  const std::set<std::string>& used_;
   std::vector<Variable> variables_;
   std::vector<std::string> names_;
   std::map<std::string, std::size_t> index_;
@@ -252,6 +255,27 @@ class Expander {
 
 }  // namespace
 
-void expand_variables(Node& root, Problems& problems) { Expander(root, problems).all(); }
+void expand_variables(Node& root, Problems& problems, const std::set<std::string>& used) {
+  Expander(root, problems, used).all();
+}
+
+std::set<std::string> names_in_expressions(const Node& root) {
+  std::set<std::string> names;
+  for (const Node& item : root.items) names.merge(names_in_expressions(item));
+  const std::string& text = root.scalar;
+  std::size_t end = 0;
+  for (std::size_t at = text.find("${"); at != std::string::npos; at = text.find("${", end)) {
+    end = text.find('}', at);
+    if (end == std::string::npos) break;
+    if (at > 0 && text[at - 1] == '$') continue;  // $${ stands for itself
+    const std::string inside = trimmed(text.substr(at + 2, end - at - 2));
+    if (inside.size() > kLongestExpression) continue;
+    names.insert(inside);
+    const auto parsed = Expression::parse(inside);
+    if (const auto* good = std::get_if<Expression>(&parsed))
+      names.insert(good->names().begin(), good->names().end());
+  }
+  return names;
+}
 
 }  // namespace mpmfast

@@ -6,190 +6,24 @@ usage: browse_report.py MPMFAST SOURCE_DIR [SCREENSHOTS]    exit 77 where Chromi
 import json
 import pathlib
 import re
-import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
-MISSING = 77
-try:
-    from selenium import webdriver
-    from selenium.webdriver.chrome.options import Options
-    from selenium.webdriver.chrome.service import Service
-    from selenium.webdriver.common.action_chains import ActionChains
-    from selenium.webdriver.common.by import By
-    from selenium.webdriver.support.ui import Select, WebDriverWait
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
-except ImportError as missing:
-    print(f"skipped: {missing}")
-    sys.exit(MISSING)
-
-PLANE = """
-title: "Two <b>blocks</b> & a {{wall}} </script>"
-space: plane_strain
-grid: {size: [12 mm, 8 mm], cell: 0.5 mm}
-time: {end: 60 us}
-materials:
-  soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}
-  stiff: {model: neo_hookean, density: 2400 kg/m^3, bulk: 160 MPa, shear: 60 MPa}
-bodies:
-  - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: soft, velocity: [40 m/s, 0 m/s]}
-  - {name: right, box: {from: [5.5 mm, 1 mm], to: [10 mm, 6 mm]}, material: stiff, velocity: [-40 m/s, 0 m/s]}
-output: {frames: 6, history: 30, picture: von_mises}
-"""
-SPACE = """
-title: Two balls
-space: 3d
-grid: {size: [12 mm, 8 mm, 8 mm], cell: 1 mm}
-time: {end: 60 us}
-materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies:
-  - {name: left, sphere: {centre: [3.5 mm, 4 mm, 4 mm], radius: 2 mm}, material: soft, velocity: [30 m/s, 0, 0]}
-  - {name: right, sphere: {centre: [8 mm, 4 mm, 4 mm], radius: 2 mm}, material: soft, velocity: [-30 m/s, 0, 0]}
-output: {frames: 4, history: 10}
-"""
-FAILING = """
-title: A block that leaves the grid
-space: plane_strain
-grid: {size: [10 mm, 10 mm], cell: 1 mm}
-time: {end: 1 ms}
-materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies: [{name: missile, box: {from: [2 mm, 4 mm], to: [4 mm, 6 mm]}, material: m, velocity: [40 m/s, 0 m/s]}]
-output: {frames: 8, history: 10}
-"""
-
-failures = []
-checks = 0
-
-
-def check(holds, what):
-    global checks
-    checks += 1
-    if not holds:
-        failures.append(what)
-        print(f"FAILED: {what}")
-
-
-def start_browser():
-    """Without a network and a graphics card; nothing where there is no Chromium."""
-    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    if not chromium or not driver:
-        print("skipped: chromium or chromedriver is missing")
-        sys.exit(MISSING)
-    options = Options()
-    options.binary_location = chromium
-    for word in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
-                 "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--window-size=1280,900"]:
-        options.add_argument(word)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    browser = webdriver.Chrome(service=Service(driver), options=options)
-    browser.execute_cdp_cmd("Network.enable", {})
-    browser.execute_cdp_cmd("Network.emulateNetworkConditions",
-                            {"offline": True, "latency": 0, "downloadThroughput": 0, "uploadThroughput": 0})
-    return browser
-
-
-def run(program, folder, name, scene, code=0, words=()):
-    (folder / f"{name}.yaml").write_text(scene)
-    done = subprocess.run([program, "run", folder / f"{name}.yaml", "--out", folder / name, "--progress", "none",
-                           *words], capture_output=True, text=True)
-    check(done.returncode == code, f"run {name}: exit {done.returncode}: {done.stderr}")
-    made = subprocess.run([program, "report", folder / name], capture_output=True, text=True)
-    check(made.returncode == 0, f"report {name}: exit {made.returncode}: {made.stderr}")
-    return folder / name
-
-
-def open_page(browser, folder):
-    """Loads the page; what it says on the console, and any other address in it, is a failure."""
-    page = folder / "report.html"
-    text = re.sub(r'<script type="text/plain".*?</script>', "", page.read_text(), flags=re.S)
-    check(not re.search(r'(https?:)?//[\w-]+\.[\w.-]+/|src=|@import|url\(', re.sub(r"^\s*//.*$", "", text, flags=re.M)),
-          f"{folder.name}: the page names another address")
-    browser.get(page.as_uri())
-    try:
-        WebDriverWait(browser, 60).until(lambda b: b.execute_script("return document.body.dataset.ready"))
-    except Exception:
-        check(False, f"{folder.name}: the page was not drawn")
-    quiet(browser, folder.name)
-
-
-def quiet(browser, name):
-    for entry in browser.get_log("browser"):
-        check(entry["level"] not in ("SEVERE", "ERROR"), f"{name}: console: {entry['message']}")
-
-
-# Distinct colours of a canvas, and a sum that changes with its pixels.
-PIXELS = """
-const canvas = document.querySelector(arguments[0]), copy = document.createElement('canvas');
-if (!canvas) return [0, 0];
-copy.width = canvas.width; copy.height = canvas.height;
-const context = copy.getContext('2d');
-context.drawImage(canvas, 0, 0);
-const data = new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer), colours = new Set(data);
-let sum = 0;
-for (let i = 0; i < data.length; ++i) sum = (Math.imul(sum, 31) + data[i]) | 0;
-return [colours.size, sum];
-"""
-SETTLED = """
-const done = arguments[arguments.length - 1];
-requestAnimationFrame(() => requestAnimationFrame(done));
-"""
-
-
-def pixels(browser, selector):
-    browser.execute_async_script(SETTLED)
-    return browser.execute_script(PIXELS, selector)
-
-
-def choose(browser, field):
-    Select(browser.find_element(By.ID, "field")).select_by_value(field)
-    WebDriverWait(browser, 20).until(lambda b: b.execute_script(
-        "return player.column ? player.column.name === arguments[0] : ['body', 'material'].includes(arguments[0])", field))
-
-
-def read_frame(folder, frame):
-    reader = vtkXMLUnstructuredGridReader()
-    reader.SetFileName(str(folder / "particles" / f"{frame:06}.vtu"))
-    reader.Update()
-    grid = reader.GetOutput()
-    data = grid.GetPointData()
-    arrays = {data.GetArrayName(k): vtk_to_numpy(data.GetArray(k)) for k in range(data.GetNumberOfArrays())}
-    return vtk_to_numpy(grid.GetPoints().GetData()), arrays
-
-
-def check_hover(browser, folder, field, frame, values, names):
-    """Every 20th particle is pointed at through the page; the tip of one is read as a user would."""
-    points, arrays = read_frame(folder, frame)
-    browser.execute_script("player.stop(); player.go(arguments[0])", frame)
-    choose(browser, field)
-    rounding = browser.execute_script("return [player.frames.axes[0].rounding(), player.column.rounding()]")
-    seen = 0
-    for k in range(0, len(points), 20):
-        shown = browser.execute_script(
-            "player.pointer = player.view.find(arguments[0]).slice(0, 2); player.hover(); return player.hovered", k)
-        if shown is None:
-            continue
-        i = shown["particle"]  # in space another one may lie before it
-        seen += 1
-        check(shown["id"] == arrays["id"][i] and shown["body"] == arrays["body"][i], f"{folder.name}: who particle {i} is")
-        check(all(abs(a - b) <= 1.01 * rounding[0] for a, b in zip(shown["place"], points[i])), f"{folder.name}: where particle {i} is")
-        check(abs(shown["value"] - values(arrays)[i]) <= 1.01 * rounding[1], f"{folder.name}: {field} of particle {i}: "
-              f"{shown['value']}, but {values(arrays)[i]} in the file")
-    check(seen > 5, f"{folder.name}: hardly a particle can be pointed at")
-    spot = browser.execute_script("const [x, y] = player.view.find(arguments[0]), r = player.picture.getBoundingClientRect();"
-                                  "player.picture.scrollIntoView({block: 'center'});"
-                                  "return [x - r.width / 2, y - r.height / 2]", len(points) // 3)
-    picture = browser.find_element(By.ID, "picture")
-    ActionChains(browser).move_to_element_with_offset(picture, round(spot[0]), round(spot[1])).perform()
-    tip = browser.find_element(By.ID, "tip")
-    check(tip.is_displayed(), f"{folder.name}: no tip at a particle")
-    shown = browser.execute_script("return player.hovered")
-    check(shown and f"particle {shown['id']}" in tip.text and names[shown["body"]] in tip.text, f"{folder.name}: the tip says '{tip.text}'")
+sys.dont_write_bytecode = True
+import report_browser
+from report_browser import SETTLED, check, check_hover, choose, open_page, picture_of, pixels, quiet, run, start_browser
+from report_scenes import AXIS, FAILING, OUTFLOW, PLANE, SPACE
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select, WebDriverWait
 
 
 def check_view(browser, name, canvas, other_field):
     """The particles are there, and change with the frame, the field, the zoom and the play button."""
+    check(browser.execute_script("return player.frame > 0"), f"{name}: the page begins with the first frame")
+    browser.execute_script("player.go(player.frames.times.length - 1)")
     first = pixels(browser, canvas)
     check(first[0] > 10, f"{name}: the particles are blank ({first[0]} colours)")
     browser.find_element(By.ID, "play").click()
@@ -218,6 +52,49 @@ def check_view(browser, name, canvas, other_field):
     before = pixels(browser, canvas)[1]
     browser.execute_script("player.go(player.frames.times.length - 1)")
     check(pixels(browser, canvas)[1] != before, f"{name}: the particles do not move from frame to frame")
+
+
+# Bodies that some pixel shows, or a particle that is not hidden.
+SEEN = """
+const {view, frames} = player, particles = view.picked ? [...new Set(view.picked)].filter(k => k >= 0)
+  : [...view.colours.keys()].filter(k => view.colours[k] !== 0);
+return [...new Set(particles.map(k => frames.bodies[k]))].sort();
+"""
+
+
+def check_bodies(browser, name, canvas):
+    """A click hides a body and shows it again, a double click shows it alone."""
+    before, button = pixels(browser, canvas)[1], browser.find_element(By.CSS_SELECTOR, "#bodies button")
+    check(browser.execute_script(SEEN) == [0, 1], f"{name}: not both bodies are shown at first")
+    button.click()
+    pixels(browser, canvas)
+    check(browser.execute_script(SEEN) == [1], f"{name}: a click does not hide a body")
+    button.click()
+    check(pixels(browser, canvas)[1] == before, f"{name}: a second click does not show the body again")
+    for seen in ([0], [0, 1]):
+        ActionChains(browser).double_click(button).perform()
+        pixels(browser, canvas)
+        check(browser.execute_script(SEEN) == seen, f"{name}: after a double click, bodies {browser.execute_script(SEEN)}")
+
+
+def check_key(browser, name):
+    """Outliers are left out until a click takes them in; of one value there is no bar."""
+    choose(browser, "von_mises")
+    Select(browser.find_element(By.ID, "range")).select_by_value("all")
+    width = "return player.scale.upper - player.scale.lower"
+    most = browser.execute_script(width)
+    check("1 to 99 %" in browser.find_element(By.ID, "key").text, f"{name}: that outliers are left out is not said")
+    browser.find_element(By.ID, "outliers").click()
+    check(browser.execute_script(width) > most, f"{name}: outliers are not taken in")
+    check("all values" in browser.find_element(By.ID, "key").text, f"{name}: that all values are shown is not said")
+    browser.find_element(By.ID, "outliers").click()
+    check(browser.execute_script(width) == most, f"{name}: outliers are not left out again")
+    Select(browser.find_element(By.ID, "range")).select_by_value("frame")
+    browser.execute_script("player.go(0)")
+    check("0 Pa in this frame" in browser.find_element(By.ID, "key").text, f"{name}: the one value of a field is not said")
+    check(not browser.find_elements(By.CSS_SELECTOR, "#key canvas"), f"{name}: a bar of one value")
+    text = browser.find_element(By.ID, "particles").text
+    check(" mm" in text and "\u00b5m" not in text, f"{name}: lengths are not all in mm")
 
 
 # How many pixels of a canvas have the colour of its first curve.
@@ -262,15 +139,6 @@ def check_words(browser, folder):
           f"{folder.name}: the scene is not the one that was run")
 
 
-def picture_of(browser, shots, name):
-    if shots:
-        high = browser.execute_script("window.scrollTo(0, 0); return document.documentElement.scrollHeight")
-        browser.set_window_size(1280, high + 140)
-        browser.execute_async_script(SETTLED)
-        browser.save_screenshot(str(pathlib.Path(shots) / f"{name}.png"))
-        browser.set_window_size(1280, 900)
-
-
 def check_plane(browser, program, folder, shots):
     out = run(program, folder, "plane", PLANE)
     open_page(browser, out)
@@ -280,6 +148,8 @@ def check_plane(browser, program, folder, shots):
     picture_of(browser, shots, "plane")
     check_view(browser, "plane", "#picture canvas", "velocity_x")
     names = ["left", "right"]
+    check_bodies(browser, "plane", "#picture canvas")
+    check_key(browser, "plane")
     check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
     check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
     check_charts(browser, "plane")
@@ -295,6 +165,8 @@ def check_space(browser, program, folder, shots):
         return
     picture_of(browser, shots, "space")
     check_view(browser, "space", "#picture canvas", "speed")
+    check_bodies(browser, "space", "#picture canvas")
+    check_key(browser, "space")
     check_hover(browser, out, "velocity_z", 3, lambda arrays: arrays["velocity"][:, 2], ["left", "right"])
     check_charts(browser, "space")
     quiet(browser, "space")
@@ -319,7 +191,61 @@ def check_failed(browser, program, folder, shots):
     check(browser.find_element(By.ID, "status").text == "failed", "failing: not said to have failed")
     check(reason and reason in browser.find_element(By.ID, "ending").text, "failing: the reason is missing")
     check(pixels(browser, "#picture canvas")[0] > 3, "failing: the particles are blank")
+    check("0 Pa everywhere" in browser.find_element(By.ID, "key").text, "failing: the one value of the field is not said")
     picture_of(browser, shots, "failing")
+
+
+def check_axis(browser, program, folder, shots):
+    out = run(program, folder, "axis", AXIS)
+    open_page(browser, out)
+    check("axisymmetric" in browser.find_element(By.TAG_NAME, "header").text, "axis: not said to be axisymmetric")
+    check(browser.execute_script("return player.fieldName") == "von_mises", "axis: without a picture the first field is not the von Mises stress")
+    check(browser.execute_script("return player.frame") < 5, "axis: the ball has left the floor in the frame that is shown first")
+    check_bodies(browser, "axis", "#picture canvas")
+    check_hover(browser, out, "stress_zz", 3, lambda arrays: arrays["stress"][:, 2], ["ball", "floor"])
+    tip = browser.find_element(By.ID, "tip").text
+    check(re.search(r"^r ", tip, re.M) and re.search(r"^z ", tip, re.M), f"axis: the tip says '{tip}'")
+    picture_of(browser, shots, "axis")
+    quiet(browser, "axis")
+
+
+def check_outflow(browser, program, folder, shots):
+    """Particles that left are gone from the picture, and counted."""
+    out = run(program, folder, "outflow", OUTFLOW)
+    open_page(browser, out)
+    browser.execute_script("player.go(0)")
+    pixels(browser, "#picture canvas")
+    check(browser.execute_script(SEEN) == [0, 1], "outflow: not both bodies are shown at first")
+    browser.execute_script("player.go(player.frames.times.length - 1)")
+    pixels(browser, "#picture canvas")
+    check(browser.execute_script(SEEN) == [1], "outflow: what left is still shown")
+    check("16 particles" in browser.find_element(By.ID, "figures").text, "outflow: what left is not counted")
+    check_hover(browser, out, "velocity_x", 2, lambda arrays: arrays["velocity"][:, 0], ["missile", "rest"], every=3)
+    picture_of(browser, shots, "outflow")
+    quiet(browser, "outflow")
+
+
+def check_stopped(browser, program, folder, shots):
+    """A signal ends it in the middle; the page shows the frames until then."""
+    out = folder / "stopped"
+    (folder / "stopped.yaml").write_text(PLANE.replace("cell: 0.5 mm", "cell: 0.5 mm, leaving: wall")
+                                         .replace("end: 60 us", "end: 60 s").replace("frames: 6", "frames: 600000"))
+    going = subprocess.Popen([program, "run", folder / "stopped.yaml", "--out", out, "--progress", "none"],
+                             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    begun = time.monotonic()
+    while not (out / "particles" / "000002.vtu").exists() and time.monotonic() - begun < 60:
+        time.sleep(0.05)
+    going.terminate()
+    check(going.wait() == 143, "stopped: the signal did not end the run")
+    made = subprocess.run([program, "report", out], capture_output=True, text=True)
+    check(made.returncode == 0, f"report stopped: exit {made.returncode}: {made.stderr}")
+    open_page(browser, out)
+    check(browser.find_element(By.ID, "status").text == "stopped", "stopped: not said to be")
+    check("mpmfast resume" in browser.find_element(By.ID, "ending").text, "stopped: how to go on is not said")
+    check(browser.execute_script("return player.frame === player.frames.times.length - 1 && player.frame > 0"), "stopped: not the last frame is shown")
+    check(pixels(browser, "#picture canvas")[0] > 3, "stopped: the particles are blank")
+    picture_of(browser, shots, "stopped")
+    quiet(browser, "stopped")
 
 
 def check_bare(browser, program, folder):
@@ -348,11 +274,14 @@ def main():
             check_space(browser, program, folder, shots)
             check_without_webgl(browser, folder)
             check_failed(browser, program, folder, shots)
+            check_axis(browser, program, folder, shots)
+            check_outflow(browser, program, folder, shots)
+            check_stopped(browser, program, folder, shots)
             check_bare(browser, program, folder)
     finally:
         browser.quit()
-    print(f"{checks} checks, {len(failures)} failed")
-    return 1 if failures else 0
+    print(f"{report_browser.checks} checks, {len(report_browser.failures)} failed")
+    return 1 if report_browser.failures else 0
 
 
 if __name__ == "__main__":

@@ -9,6 +9,8 @@
 #include <memory>
 #include <stdexcept>
 
+#include "engine/output/font.hpp"
+#include "engine/output/paint.hpp"
 #include "engine/output/scales.hpp"
 #include "tests/unit/output_fixture.hpp"
 
@@ -114,11 +116,16 @@ TEST_CASE("a few outliers do not stretch the colour range, and a constant field 
   values[0] = -1e30;
   values[1000] = std::numeric_limits<double>::quiet_NaN();
   const Range range = robust_range(values);
-  CHECK(range.lower == doctest::Approx(5));
-  CHECK(range.upper == doctest::Approx(994));
-  const Range constant = robust_range(std::vector<double>(10, 3.0));
-  CHECK(constant.lower < 3);
-  CHECK(constant.upper > 3);
+  CHECK(range.lower == doctest::Approx(10));
+  CHECK(range.upper == doctest::Approx(989));
+  const ColourScale constant(robust_range(std::vector<double>(10, 3.0)));
+  CHECK(constant.has_one_value());
+  CHECK(constant.range().lower < 3);
+  CHECK(constant.range().upper > 3);
+  CHECK_FALSE(ColourScale(range).has_one_value());
+  std::vector<double> nearly(1000, 3.0);
+  nearly[5] = 4;
+  CHECK(robust_range(nearly).upper == 4);
   CHECK(robust_range({}).width() > 0);
 }
 
@@ -128,6 +135,37 @@ TEST_CASE(
   CHECK(ColourScale({-7, 5}).range().upper == 7);
   CHECK(ColourScale({-0.1, 5}).range().lower == -0.1);
   CHECK(ColourScale({1, 5}).range().lower == 1);
+}
+
+TEST_CASE("the letters of units that are not ASCII are drawn as themselves") {
+  CHECK(printable("3 µs ° ² ³ ·") == "3 \1s \2 \3 \4 \5");
+  CHECK(printable(printable("\u03bcm")) == "\1m");  // the Greek letter too
+  CHECK(printable("é") == "?");
+  int differing = 0;
+  for (int row = 0; row < kGlyphHeight; ++row)
+    for (int column = 0; column < kGlyphWidth; ++column)
+      differing += glyph_dot('\1', row, column) != glyph_dot('u', row, column) ? 1 : 0;
+  CHECK(differing > 2);
+}
+
+TEST_CASE("lengths have one unit in all pictures of a run, that of the grid") {
+  Scene scene = small_scene(Space::plane_strain);
+  scene.grid.size = {2e-3, 1e-3, 0};
+  CHECK(length_unit(scene).name == "mm");
+  scene.grid.size = {1e-3, 1e-3, 0};
+  CHECK(length_unit(scene).name == "µm");
+}
+
+TEST_CASE("where a field has one value, the picture says it and has no bar") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.png";
+  const Scene scene = small_scene(Space::plane_strain);
+  Particles<2> particles = lattice(10);
+  draw_particles(path, particles, scene, "stress_xx", 0);
+  const int with_bar = Png(path).width;
+  for (std::size_t p = 0; p < particles.size(); ++p) particles.column(Quantity::kirchhoff_stress, 0)[p] = 5e6;
+  draw_particles(path, particles, scene, "stress_xx", 0);
+  CHECK(Png(path).width < with_bar);
 }
 
 TEST_CASE("ticks are round and units of a sensible size") {
@@ -140,7 +178,7 @@ TEST_CASE("ticks are round and units of a sensible size") {
   CHECK(tick_label(100, 20) == "100");
   CHECK(display_unit(1.05e11, "Pa").name == "GPa");
   CHECK(display_unit(2e-3, "m").name == "mm");
-  CHECK(display_unit(1.5e-5, "s").name == "us");
+  CHECK(display_unit(1.5e-5, "s").name == "µs");
   CHECK(display_unit(3000, "s").name == "s");
   CHECK(display_unit(0, "Pa").name == "Pa");
 }

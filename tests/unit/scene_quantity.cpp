@@ -55,6 +55,9 @@ TEST_CASE("units may be compound and in the spellings that people paste") {
   CHECK(value("1 kg*m^-3", Measure::density) == 1);
   CHECK(value("7 µm", Measure::length) == 7e-6);
   CHECK(value("5mm", Measure::length) == 0.005);
+  CHECK(value("5e-3m", Measure::length) == 0.005);
+  CHECK(value("0.5 \u00b5s", Measure::time) == 5e-7);
+  CHECK(value("0.5 \u03bcs", Measure::time) == 5e-7);
 }
 
 TEST_CASE("a unit of another dimension is named as what it is") {
@@ -69,6 +72,22 @@ TEST_CASE("an unknown unit suggests the nearest known one") {
         "unknown unit 'GPA' (a pressure: Pa, kPa, MPa, GPa)|Did you mean 'GPa'?");
   CHECK(error("5 MM", Measure::length) == "unknown unit 'MM' (a length: m, cm, mm, um)|Did you mean 'mm'?");
   CHECK(error("5 furlong", Measure::length) == "unknown unit 'furlong' (a length: m, cm, mm, um)|");
+}
+
+TEST_CASE("a unit whose signs are written otherwise, and a decimal comma, are told with what works") {
+  const auto hint = [](const char* text, Measure kind) {
+    const std::string all = error(text, kind);
+    return all.substr(all.find('|') + 1);
+  };
+  for (const char* text : {"1200 kgm-3", "1200 kg m^-3", "1200 kg m-3", "1200 kg·m-3", "1200 kg/m^3."})
+    CHECK_MESSAGE(hint(text, Measure::density) == "Write kg/m^3", text);
+  CHECK(hint("10 m s-1", Measure::velocity) == "Write m/s");
+  CHECK(hint("10 ms-1", Measure::velocity) == "Write m/s");
+  CHECK(hint("10 MPa.", Measure::pressure) == "Write MPa");
+  CHECK(hint("1,25 g/cm^3", Measure::density) == "Write 1.25 g/cm^3");
+  CHECK(hint("10 000 m", Measure::length) == "Write 10000 m");
+  CHECK(hint("10_000 m", Measure::length) == "Write 10000 m");
+  CHECK(hint("1,000 m", Measure::length).empty());  // one, or a thousand?
 }
 
 TEST_CASE("a unit without a number, and a number cut short, are errors") {

@@ -47,6 +47,9 @@ TEST_CASE("waves that run too fast or too slowly tell of a modulus in the wrong 
         "Is the density "
         "too small, or a modulus too large?\n");
   CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210")), "waves would run at 0.19 m/s"));
+  CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210")),
+              "Is a unit missing? young is read as 210 Pa"));
+  CHECK(holds(warnings(replaced(plain_scene(), "210 GPa", "210 Pa")), "or a modulus too small?"));
 }
 
 TEST_CASE(
@@ -64,6 +67,38 @@ TEST_CASE(
   CHECK(holds(warnings(plain_scene(), {{"bodies.0.particles_per_cell", "[1, 2]"}}),
               "warning: bodies.0.particles_per_cell: body 'block' has one particle along a cell's side"));
   CHECK(warnings(solid_scene(), {{"bodies.0.particles_per_cell", "2"}}).empty());
+}
+
+TEST_CASE("a bare density among values with units, and degrees without their unit, are told") {
+  CHECK(
+      warnings(replaced(plain_scene(), "7.85 g/cm^3", "7.85")) ==
+      "scene.yaml:5:43: warning: materials.steel.density: a bare density is in kg/m^3, and 7.85 is that of a "
+      "gas or a foam. Did you mean 7.85 g/cm^3?\n");
+  CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3", "7.85 kg/m^3")).find("bare") == std::string::npos);
+  CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3, young: 210 GPa", "7.85, young: 100e6")).empty());
+  const auto falls = [](const std::string& how) {
+    return warnings(plain_scene() + "gravity: [" + how + "]\n");
+  };
+  CHECK(falls("${9.81*sin(30)}, 0") ==
+        "scene.yaml:8:11: warning: gravity.0: a bare number is in radians in sin(30). Did you mean sin(30 "
+        "deg)?\n");
+  CHECK(falls("${9.81*sin(30 deg)}, ${9.81*cos(6.2)}").empty());
+  const std::string soft = replaced(plain_scene(), "linear_elastic", "neo_hookean");
+  CHECK(holds(warnings(replaced(soft, "material: steel", "material: steel, seeding: {angle: 45}")),
+              "seeding.angle: a bare number is in radians: 7.1"));
+}
+
+TEST_CASE("a grid that bodies cannot reach is told with the size that would do") {
+  // The block lies at 1 to 4 mm, 1 to 3 mm; with cells of 0.02 mm and 1 us at rest it keeps to a margin of
+  // two.
+  const std::string fine = replaced(plain_scene(), "cell: 1 mm", "cell: 0.02 mm");
+  CHECK(warnings(fine) ==
+        "scene.yaml:2:14: warning: grid.size: bodies can reach 3.2 % of its 5e+05 cells. origin: [0.00096 m, "
+        "0.00096 m], size: [0.00308 m, 0.00208 m] would do, with less memory and time\n");
+  CHECK(warnings(fine + "gravity: [0, -1e9]\n").empty());
+  CHECK(warnings(replaced(fine, "material: steel", "material: steel, velocity: [0, 4 km/s]")).empty());
+  CHECK(warnings(fine + "boundaries: {left: {piston: 3 km/s}}\n").empty());
+  CHECK(warnings(replaced(plain_scene(), "cell: 1 mm", "cell: 0.1 mm")).empty());
 }
 
 TEST_CASE("times, friction and frames far from the usual are told") {

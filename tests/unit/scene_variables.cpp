@@ -156,3 +156,11 @@ TEST_CASE("variables may not make endless text, nor long chains") {
               "nested too deeply"));
   CHECK(holds(fault(replaced(plain_scene(), "1 us", "${((1 m)^50)^50}")), "has no unit"));
 }
+
+TEST_CASE("a variable that the file uses may be overridden away, one that nobody ever used stays a fault") {
+  const std::string text = with_cell("dx: 0.5 mm", "${2*dx}");
+  CHECK(parse(text, {{"grid.cell", "2 mm"}}).grid.cell == 0.002);
+  CHECK(holds(fault(text, {{"variables.dy", "1 mm"}}), "nobody uses this variable. Did you mean 'dx'?"));
+  CHECK(holds(fault(with_cell("dx: 1 mm", "1 mm") + "title: $${dx}\n", {{"grid.cell", "2 mm"}}),
+              "nobody uses this variable"));
+}

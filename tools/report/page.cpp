@@ -12,6 +12,7 @@
 #include "assets.hpp"
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
+#include "engine/output/paint.hpp"
 #include "engine/scene/diagnostic.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "frames.hpp"
@@ -198,6 +199,10 @@ ReportResult write_report(const fs::path& folder, const fs::path& html) {
   json["materials"] = Json::array();
   if (scene)
     for (const auto& material : scene->materials) json["materials"].push_back(material.name);
+  if (scene) {
+    const DisplayUnit unit = length_unit(*scene);
+    json["length"] = {{"name", unit.name}, {"size", unit.in_si}};
+  }
   json["axisymmetric"] = scene && scene->space == Space::axisymmetric;
   json["picture"] = scene ? scene->output.picture : "pressure";
   json["failed_file"] = fs::exists(folder / "failed.vtu", error);

@@ -22,13 +22,14 @@ function interpolated(map, place) {
 
 // A linear scale over a range; about zero and symmetric when the values take both signs.
 function colourScale(lower, upper) {
-  if (!(upper > lower)) {
+  const oneValue = !(upper > lower);
+  if (oneValue) {
     const margin = Math.abs(upper) > 0 ? 0.05 * Math.abs(upper) : 1;
     lower -= margin;
     upper += margin;
   }
   const size = Math.max(-lower, upper), trace = 0.1 * size;
-  const diverging = lower < -trace && upper > trace;
+  const diverging = !oneValue && lower < -trace && upper > trace;
   if (diverging) { lower = -size; upper = size; }
   const map = diverging ? DIVERGING : SEQUENTIAL;
   return {lower, upper, diverging,

@@ -45,12 +45,12 @@ class Column {
     for (let k = 1; k < this.table.length; ++k) widest = Math.max(widest, this.table[k] - this.table[k - 1]);
     return widest / 2;
   }
-  // From the least to the largest value of some levels, leaving out a share at both ends.
+  // From the least to the largest value of some levels, leaving out a share at both ends; null where there is no value.
   range(from, to, share) {
     const counts = new Uint32Array(this.none + 1);
     for (let i = from; i < to; ++i) ++counts[this.levels[i]];
     const all = to - from - counts[this.none];
-    if (all === 0) return [0, 1];
+    if (all === 0) return null;
     const at = wanted => {
       let level = 0;
       for (let seen = counts[0]; seen <= wanted; seen += counts[level]) ++level;

@@ -11,7 +11,9 @@ function usualPrefix(prefix, unit) {
 }
 
 // The unit of the same quantity in which `size` has one to three digits before the point, and its size in SI.
+// Lengths have one unit on the whole page.
 function displayUnit(size, unit) {
+  if (unit === 'm' && report.length) return report.length;
   if (!['m', 's', 'Pa', 'J', 'N', 'W', 'J/m^3'].includes(unit) || !(size > 0) || !isFinite(size))
     return {name: prettyUnit(unit), size: 1};
   let smallest = {name: prettyUnit(unit), size: 1};

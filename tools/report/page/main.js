@@ -23,6 +23,7 @@ async function build() {
     place.append(player.root);
     window.player = player;
     await player.choose(player.fieldName);
+    player.go(player.tellingFrame());
     player.view?.fit();
   } else {
     place.append(element('section', {class: 'card', id: 'particles'}, element('h2', {}, 'Particles'),

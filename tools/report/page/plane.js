@@ -69,7 +69,7 @@ class PlaneView {
     const scale = this.scale * ratio, [cx, cy] = this.centre, frames = this.frames, edges = new Float64Array(4);
     for (let i = 0; i < frames.count; ++i) {
       const x = frames.place(0, this.frame, i), y = frames.place(1, this.frame, i);
-      if (Number.isNaN(x) || Number.isNaN(y)) continue;
+      if (Number.isNaN(x) || Number.isNaN(y) || this.colours[i] === 0) continue;
       const px = wide / 2 + (x - cx) * scale, py = high / 2 - (y - cy) * scale;
       frames.halfEdges(this.frame, i, edges);
       const ax = edges[0] * scale, ay = -edges[2] * scale, bx = edges[1] * scale, by = -edges[3] * scale;
@@ -84,7 +84,20 @@ class PlaneView {
       this.fillDomain(px, py, ax * outer, ay * outer, bx * outer, by * outer, darker(this.colours[i]), i);
       this.fillDomain(px, py, ax * inner, ay * inner, bx * inner, by * inner, this.colours[i], i);
     }
+    this.outlineBodies(wide, high);
     this.raster.getContext('2d').putImageData(this.image, 0, 0);
+  }
+
+  // A thin line where two bodies meet, whatever their colours.
+  outlineBodies(wide, high) {
+    const {picked, pixels} = this, bodies = this.frames.bodies, line = pixel([40, 40, 40]);
+    for (let row = 0; row + 1 < high; ++row)
+      for (let at = row * wide, end = at + wide - 1; at < end; ++at) {
+        if (picked[at] < 0) continue;
+        const body = bodies[picked[at]];
+        for (const next of [at + 1, at + wide])
+          if (picked[next] >= 0 && bodies[picked[next]] !== body) pixels[at] = line;
+      }
   }
 
   // The pixels whose middle is centre + s a + t b with |s|, |t| <= 1: of a row, where two strips meet. One at least.

@@ -1,5 +1,7 @@
 // The card of the particles: frames, time, field, range, and what lies under the pointer.
 
+const OUTLIERS = 0.01;  // the share of the values at each end that the colours leave out, as in the pictures
+
 class Player {
   constructor(frames) {
     this.frames = frames;
@@ -8,10 +10,11 @@ class Player {
     this.pixels = new Uint32Array(frames.count);
     this.picture = element('div', {class: 'picture', id: 'picture'});
     this.tip = element('div', {class: 'tip', id: 'tip', hidden: true});
-    this.key = element('div', {class: 'key', id: 'key'});
+    this.key = new ColourKey(() => this.chooseRange(this.range === 'extremes' ? 'all' : 'extremes'));
+    this.bodies = new BodyList([...new Set(frames.bodies)].sort((a, b) => a - b), () => this.view && this.go(this.frame, false));
     this.makeControls();
     this.root = element('section', {class: 'card', id: 'particles'}, element('h2', {}, 'Particles'), this.controls,
-      element('div', {class: 'stage'}, this.picture, this.key), this.slides, this.notes = element('ul', {class: 'notes'}));
+      element('div', {class: 'stage'}, this.picture, this.key.root), this.bodies.root, this.slides, this.notes = element('ul', {class: 'notes'}));
     try {
       this.view = frames.dimension === 3 ? new SpaceView(this.picture, frames) : new PlaneView(this.picture, frames);
     } catch (error) {
@@ -20,12 +23,11 @@ class Player {
     }
     this.picture.append(this.tip);
     this.listen();
-    new ResizeObserver(() => this.drawKey()).observe(this.key);
   }
 
   makeControls() {
     const names = [...this.frames.fields.map(field => field.name), ...NAMED_FIELDS];
-    this.fieldName = names.includes(report.picture) ? report.picture : names[0];
+    this.fieldName = [report.picture, 'von_mises', names[0]].find(name => names.includes(name));
     this.play = element('button', {class: 'main', id: 'play', onclick: () => this.toggle()}, '\u25b6 Play');
     this.slider = element('input', {type: 'range', id: 'frame', min: 0, max: this.frames.times.length - 1, value: this.frame, 'aria-label': 'frame',
       oninput: () => { this.stop(); this.go(Number(this.slider.value)); }});
@@ -33,7 +35,7 @@ class Player {
     const field = select(names.map(name => [name, fieldLabel(name)]), this.fieldName, name => this.choose(name));
     field.id = 'field';
     this.fieldList = field;
-    this.rangeList = select([['all', 'of all frames'], ['frame', 'of this frame'], ['extremes', 'all, with outliers']], 'all', range => { this.range = range; this.colour(); });
+    this.rangeList = select([['all', 'of all frames'], ['frame', 'of this frame'], ['extremes', 'all, with outliers']], 'all', range => this.chooseRange(range));
     this.rangeList.id = 'range';
     this.controls = element('div', {class: 'bar'}, element('label', {}, 'colour', field), this.rangeLabel = element('label', {}, 'range', this.rangeList),
       element('span', {class: 'grow'}), element('button', {id: 'fit-frame', onclick: () => this.view?.fit(this.frames.boundingBox(this.frame)), title: 'show all of this frame'}, 'Fit frame'),
@@ -50,6 +52,23 @@ class Player {
     this.colour();
   }
 
+  chooseRange(range) {
+    this.range = this.rangeList.value = range;
+    this.colour();
+  }
+
+  // To begin with: the last frame, or where little is left to see in it (all came to rest, or left) the one with most.
+  tellingFrame() {
+    const last = this.frames.times.length - 1, n = this.frames.count;
+    if (!this.column || runStatus() !== 'finished') return last;
+    const spread = this.frames.times.map((_, frame) => {
+      const [lower, upper] = this.column.range(frame * n, (frame + 1) * n, 0.05) ?? [0, 0];
+      return upper - lower;
+    });
+    const most = Math.max(...spread);
+    return spread[last] >= most / 2 ? last : spread.indexOf(most);
+  }
+
   numbers() { return this.fieldName === 'body' ? this.frames.bodies : this.frames.materials; }
 
   // The range of the colours; then all that depends on it.
@@ -57,7 +76,10 @@ class Player {
     if (this.column) {
       const n = this.frames.count, all = this.column.levels.length;
       const [from, to] = this.range === 'frame' ? [this.frame * n, (this.frame + 1) * n] : [0, all];
-      this.scale = colourScale(...this.column.range(from, to, this.range === 'extremes' ? 0 : 0.005));
+      const within = share => this.column.range(from, to, share) ?? [0, 1];
+      this.shown = within(this.range === 'extremes' ? 0 : OUTLIERS);
+      if (this.shown[0] === this.shown[1]) this.shown = within(0);  // most are one value
+      this.scale = colourScale(...this.shown);
       this.table = new Uint32Array(this.column.none + 1);
       const last = this.column.table ? this.column.table.length : this.column.none;
       for (let level = 0; level < last; ++level) this.table[level] = pixel(this.scale.colour(this.column.value(level)));
@@ -82,6 +104,7 @@ class Player {
       const numbers = this.numbers();
       for (let i = 0; i < n; ++i) this.pixels[i] = pixel(bodyColour(numbers[i]));
     }
+    for (let i = 0; i < n; ++i) if (!this.bodies.shows(this.frames.bodies[i])) this.pixels[i] = 0;
     this.view.show(frame, this.pixels);
     this.hover();
     this.note();
@@ -89,7 +112,8 @@ class Player {
 
   toggle() {
     if (this.timer) return this.stop();
-    if (this.frame + 1 >= this.frames.times.length) this.go(0);
+    if (!this.played || this.frame + 1 >= this.frames.times.length) this.go(0);
+    this.played = true;
     const wait = Math.min(200, Math.max(50, 5000 / this.frames.times.length));
     this.play.textContent = '\u275a\u275a Pause';
     this.timer = setInterval(() => this.frame + 1 < this.frames.times.length ? this.go(this.frame + 1) : this.stop(), wait);
@@ -101,39 +125,13 @@ class Player {
   }
 
   drawKey() {
-    if (!this.column) return this.drawNames();
-    let canvas = this.key.querySelector('canvas');
-    if (!canvas) this.key.replaceChildren(canvas = element('canvas', {}));
-    const {context: c, width, height} = fitCanvas(canvas), top = 46, bottom = height - 46, wide = 20;
-    c.clearRect(0, 0, width, height);
-    if (bottom <= top || !this.scale) return;
-    const {lower, upper, colour} = this.scale, at = value => bottom - (value - lower) / (upper - lower) * (bottom - top);
-    for (let y = top; y < bottom; ++y) {
-      c.fillStyle = css(colour(lower + (bottom - y - 0.5) / (bottom - top) * (upper - lower)));
-      c.fillRect(0, y, wide, 1.5);
+    if (this.column) {
+      const [lower, upper] = this.shown, where = this.range === 'frame' ? 'in this frame' : 'everywhere';
+      if (lower === upper) return this.key.oneValue(fieldLabel(this.fieldName), valueText(lower, this.column.unit), where);
+      return this.key.bar(fieldLabel(this.fieldName), this.column.unit, this.scale, this.range === 'extremes');
     }
-    const unit = displayUnit(Math.max(Math.abs(lower), Math.abs(upper)), this.column.unit), ticks = roundTicks(lower / unit.size, upper / unit.size, (bottom - top) / 50);
-    c.font = '12px ' + getComputedStyle(document.body).fontFamily;
-    c.fillStyle = themeColour('soft');
-    c.strokeStyle = themeColour('soft');
-    c.textBaseline = 'middle';
-    for (const tick of ticks.at) {
-      const y = Math.round(at(tick * unit.size)) + 0.5;
-      c.beginPath(); c.moveTo(wide, y); c.lineTo(wide + 4, y); c.stroke();
-      c.fillText(tickLabel(tick, ticks.spacing), wide + 8, y);
-    }
-    c.fillStyle = themeColour('ink');
-    c.textBaseline = 'top';
-    c.fillText(fieldLabel(this.fieldName), 0, 4);
-    c.fillStyle = themeColour('soft');
-    if (unit.name) c.fillText('in ' + unit.name, 0, 21);
-    if (this.range !== 'extremes') c.fillText('beyond: end colours', 0, bottom + 10);
-  }
-
-  drawNames() {
     const name = this.fieldName === 'body' ? bodyName : materialName, present = [...new Set(this.numbers())].sort((a, b) => a - b);
-    this.key.replaceChildren(element('ul', {}, ...present.map(k =>
-      element('li', {}, element('span', {class: 'swatch', style: `background:${css(bodyColour(k))}`}), name(k)))));
+    this.key.names(present.map(number => [bodyColour(number), name(number)]));
   }
 
   listen() {
@@ -182,6 +180,7 @@ class Player {
     notes.push(`Rounded for this page: places within ${valueText(places, 'm', 2)}${field}. The particle files hold all digits.`);
     notes.push(this.frames.dimension === 3 ? 'Balls have the volume that a particle began with. Drag to turn, shift-drag to move, wheel to zoom.' :
       'Drag to move, wheel to zoom, space to play, arrow keys for single frames.');
+    if (!this.bodies.root.hidden) notes.push('A click on the name of a body hides it or shows it again, a double click shows it alone.');
     this.notes.replaceChildren(...notes.map(text => element('li', {}, text)));
   }
 }

@@ -23,7 +23,7 @@ function endingCard() {
   if (status === 'finished') return null;
   const lines = [];
   if (!run) lines.push('There is no run.json: the run goes on now, or was killed. What it has written so far is shown; mpmfast resume may carry it on.');
-  else if (run.reason) lines.push(run.reason);
+  else if (run.reason) lines.push(run.reason === 'signal' ? 'A signal ended it: Ctrl-C, kill, or a terminal that was closed.' : run.reason);
   if (status === 'failed' && report.failed_file) lines.push('failed.vtu holds the particles around the place of the failure, with all that a frame has.');
   if (status === 'stopped') lines.push('mpmfast resume carries it on from its checkpoint.');
   const title = status === 'failed' ? 'The run failed' : status === 'stopped' ? 'The run was stopped' : 'The run has not ended';
@@ -48,6 +48,7 @@ function figuresCard() {
     ['speed', `${significant(run.particle_steps_per_s / 1e6, 3)} million particle-steps a second`], ['memory', memoryText(run.peak_memory_bytes)],
     ['time step', run.dt_min_s > 0 ? `${timeText(run.dt_min_s)} to ${timeText(run.dt_max_s)}` : undefined],
     ['velocity fields', run.fields], ['active nodes', run.nodes_active_peak && `${run.nodes_active_peak.toLocaleString('en')} at most`],
+    ['left the grid', run.outflow && `${run.outflow.particles.toLocaleString('en')} particles with ${significant(run.outflow.kg)} kg and ${valueText(run.outflow.J, 'J')}`],
     ['resumed', run.resumes > 0 ? `${run.resumes} times` : undefined], ['checksum', run.checksum && element('code', {}, run.checksum)]];
   return element('section', {class: 'card', id: 'figures'}, element('h2', {}, 'The run'), facts(rows));
 }
