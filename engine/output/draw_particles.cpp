@@ -209,7 +209,7 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
   PictureText text = picture_text(scene, values.label, time);
   if (colour.has_bar())
     picture.draw_colour_bar(colour.scale, values.unit);
-  else if (!colour.by_body)
+  else if (!colour.by_body && framing.values)
     text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
   picture.write_titles(text);
   return picture.canvas();

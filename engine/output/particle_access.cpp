@@ -72,8 +72,10 @@ std::vector<std::string> field_names(int dimension) {
   return names;
 }
 
+namespace {
+
 template <int Dim>
-FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
+FieldValues values_of_all(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
   const Quantity stress = Quantity::kirchhoff_stress;
   const auto names = [](FieldValues values) {
     values.names = true;
@@ -114,6 +116,18 @@ FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, co
     }));
   throw std::invalid_argument(
       fmt::format("unknown field '{}' (one of {})", field, fmt::join(field_names(Dim), ", ")));
+}
+
+}  // namespace
+
+template <int Dim>
+FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
+  FieldValues values = values_of_all(particles, scene, field);
+  if (values.names || values.unit == "m/s") return values;
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    if (is_rigid(scene, scene.bodies[particles.body()[p]]))
+      values.value[p] = std::numeric_limits<double>::quiet_NaN();
+  return values;
 }
 
 template std::vector<std::uint32_t> order_by_id(const Particles<2>&);

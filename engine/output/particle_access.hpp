@@ -32,7 +32,8 @@ struct CauchyStress {
 template <int Dim>
 CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p);
 
-/// One scalar of every particle, in the particles' own order; NaN where the columns for it are missing.
+/// One scalar of every particle, in the particles' own order; NaN where the columns for it are missing,
+/// and for rigid bodies, which move and have no stress or strain.
 struct FieldValues {
   std::vector<double> value;
   std::string label, unit;

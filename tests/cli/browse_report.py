@@ -205,6 +205,10 @@ def check_axis(browser, program, folder, shots):
     check_hover(browser, out, "stress_zz", 3, lambda arrays: arrays["stress"][:, 2], ["ball", "floor"])
     tip = browser.find_element(By.ID, "tip").text
     check(re.search(r"^r ", tip, re.M) and re.search(r"^z ", tip, re.M), f"axis: the tip says '{tip}'")
+    browser.find_element(By.XPATH, "//*[@id='histories']//button[text()='stress against strain']").click()
+    against = Select(browser.find_element(By.CSS_SELECTOR, "#histories label select")).first_selected_option
+    check(against.get_attribute("value") == "top.strain", "axis: stress is not drawn against the strain of the piston")
+    check(pixels(browser, "#histories .chart canvas")[0] > 10, "axis: the chart of stress against strain is blank")
     picture_of(browser, shots, "axis")
     quiet(browser, "axis")
 

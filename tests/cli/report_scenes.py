@@ -42,7 +42,7 @@ materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear
 bodies:
   - {name: ball, disk: {centre: [0, 5 mm], radius: 3 mm}, material: soft, velocity: [0, -20 m/s]}
   - {name: floor, box: {from: [0, 0.5 mm], to: [6 mm, 1.5 mm]}, material: soft}
-boundaries: {left: symmetry, bottom: wall}
+boundaries: {left: symmetry, bottom: wall, top: {piston: 5 m/s, direction: down}}
 output: {frames: 5, history: 10, picture: none}
 """
 OUTFLOW = """

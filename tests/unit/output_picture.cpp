@@ -11,6 +11,7 @@
 
 #include "engine/output/font.hpp"
 #include "engine/output/paint.hpp"
+#include "engine/output/particle_access.hpp"
 #include "engine/output/scales.hpp"
 #include "tests/unit/output_fixture.hpp"
 
@@ -72,6 +73,18 @@ TEST_CASE("a picture is a PNG of the right size whose particles leave no gaps") 
   // The plot box is the unit square and 2 % around it, in a picture with some 90 pixels of margins.
   CHECK(first + second > 0.9 * std::pow((png.width - 120) / 1.04, 2));
   CHECK_FALSE(std::filesystem::exists(folder.path() / "picture_body.png.tmp"));
+}
+
+TEST_CASE("rigid bodies have speeds and names, and neither stress nor strain") {
+  const Scene scene = small_scene(Space::plane_strain);
+  const Particles<2> particles = particles_in_order<2>(ascending(9));  // every third of the punch
+  for (const char* field :
+       {"pressure", "stress_xy", "volume_ratio", "speed", "velocity_x", "body", "material"}) {
+    CAPTURE(std::string(field));
+    const FieldValues values = field_values(particles, scene, field);
+    const bool of_all = values.names || values.unit == "m/s";
+    for (std::size_t p = 0; p < 9; ++p) CHECK(std::isnan(values.value[p]) == (p % 3 == 2 && !of_all));
+  }
 }
 
 TEST_CASE("pictures of no particles, of NaN and of missing columns do not fail") {

@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/output_fixture.hpp"
+#include "tools/report/frame_fields.hpp"
 #include "tools/report/frames.hpp"
 
 using namespace output_test;
@@ -67,6 +69,18 @@ TEST_CASE("a page holds all frames and fields of a run that fits") {
     CHECK_MESSAGE(run.has(field), field);
   CHECK_FALSE(run.has("velocity_z"));
   CHECK_FALSE(run.json.contains("ids"));
+}
+
+TEST_CASE("rigid bodies have a speed on a page, and no stress") {
+  const TemporaryFolder folder;
+  write_frames(folder.path(), small_scene(Space::plane_strain));
+  const FrameFile file(folder.path() / "particles/000000.vtu");
+  for (const FrameField& field : frame_fields(file.reader(), 2, "pressure", {2})) {
+    CAPTURE(field.name);
+    const std::vector<double> values = field.values(file);
+    for (std::size_t i = 0; i < 9; ++i)
+      CHECK(std::isnan(values[i]) == (i % 3 == 2 && field.array != "velocity"));
+  }
 }
 
 TEST_CASE("a page that would be too large leaves out fields, then shapes, then frames, and says so") {

@@ -56,10 +56,17 @@ std::vector<double> FrameField::values(const FrameFile& file) const {
     if (kind == Kind::magnitude) out[i] = std::hypot(tuple[0], tuple[1], tuple[2]);
     if (kind == Kind::determinant) out[i] = determinant(tuple);
   }
+  if (const VtuArray* body = file.reader().find("body"); body != nullptr && !without.empty()) {
+    const std::vector<double>& bodies = file.values(*body);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (without.count(static_cast<std::uint32_t>(bodies[i])) > 0)
+        out[i] = std::numeric_limits<double>::quiet_NaN();
+  }
   return out;
 }
 
-std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const std::string& picture) {
+std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const std::string& picture,
+                                     const std::set<std::uint32_t>& rigid) {
   using Kind = FrameField::Kind;
   std::vector<FrameField> fields;
   for (const VtuArray& array : file.point_data()) {
@@ -80,6 +87,8 @@ std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const
                         Kind::component});
     }
   }
+  for (FrameField& field : fields)
+    if (field.array != "velocity") field.without = rigid;
   const auto rank = [&](const FrameField& field) {
     if (field.name == picture) return std::ptrdiff_t{-1};
     return std::find(kFirst.begin(), kFirst.end(), field.name) - kFirst.begin();

@@ -2,8 +2,10 @@
 
 /// @file Which scalars a page shows of a particle file, and their values.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -31,12 +33,16 @@ struct FrameField {
   std::string array;
   std::size_t component = 0;
   Kind kind = Kind::component;
+  std::set<std::uint32_t> without{};  ///< bodies that have none of it
 
-  /// NaN where the file has no such array.
+  /// NaN where the file has no such array, and for the bodies without.
   std::vector<double> values(const FrameFile& file) const;
 };
 
-/// Those of a file, the ones that are looked at most first. @param picture  the field that the scene names
-std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const std::string& picture);
+/// Those of a file, the ones that are looked at most first.
+/// @param picture  the field that the scene names
+/// @param rigid    numbers of rigid bodies, which have a velocity and no stress or strain
+std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const std::string& picture,
+                                     const std::set<std::uint32_t>& rigid);
 
 }  // namespace mpmfast

@@ -57,13 +57,14 @@ void Extent::include(const std::vector<double>& values, std::size_t stride) {
 }
 
 FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t particle_stride, int dimension,
-                          const std::string& picture, std::vector<std::string>& notices) {
+                          const std::string& picture, const std::set<std::uint32_t>& rigid,
+                          std::vector<std::string>& notices) {
   FrameSurvey survey;
   survey.particle_stride = particle_stride;
   for (const SeriesFrame& frame : frames) {
     try {
       const FrameFile file(frame.file);
-      if (survey.frames.empty()) survey.fields = frame_fields(file.reader(), dimension, picture);
+      if (survey.frames.empty()) survey.fields = frame_fields(file.reader(), dimension, picture, rigid);
       survey.extents.resize(survey.fields.size());
       look_at(file, frames.size(), survey);
       survey.frames.push_back(frame);

@@ -37,7 +37,8 @@ struct FrameSurvey {
 /// Of every `particle_stride`-th particle by its id. A frame that cannot be read is left out and named in
 /// `notices`.
 FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t particle_stride, int dimension,
-                          const std::string& picture, std::vector<std::string>& notices);
+                          const std::string& picture, const std::set<std::uint32_t>& rigid,
+                          std::vector<std::string>& notices);
 
 /// Where the particles of a file that are shown lie: in the file, and in the survey's ids.
 struct Places {

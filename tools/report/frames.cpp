@@ -209,6 +209,13 @@ std::size_t particles_of(const std::vector<SeriesFrame>& frames) {
   return 0;
 }
 
+std::set<std::uint32_t> rigid_bodies(const std::optional<Scene>& scene) {
+  std::set<std::uint32_t> out;
+  for (std::uint32_t b = 0; scene && b < scene->bodies.size(); ++b)
+    if (is_rigid(*scene, scene->bodies[b])) out.insert(b);
+  return out;
+}
+
 }  // namespace
 
 Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int dimension,
@@ -226,10 +233,11 @@ Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int 
   const std::size_t particle_stride = particles * few / limits.values + 1;
   std::size_t frame_stride = particles / particle_stride * all.size() / limits.values + 1;
   const std::string picture = scene ? scene->output.picture : "pressure";
+  const std::set<std::uint32_t> rigid = rigid_bodies(scene);
   for (;; frame_stride *= 2) {
     std::vector<std::string> own;
     const std::vector<SeriesFrame> chosen = thinned(all, frame_stride);
-    FrameSurvey survey = survey_frames(chosen, particle_stride, dimension, picture, own);
+    FrameSurvey survey = survey_frames(chosen, particle_stride, dimension, picture, rigid, own);
     if (survey.frames.empty()) {
       notices.insert(notices.end(), own.begin(), own.end());
       notices.push_back("No particle file could be read, so there is no view of the particles.");

@@ -3,10 +3,12 @@
 const USUAL = [
   {name: 'energies', label: 'energy', unit: 'J', matches: name => name.endsWith('_J')},
   {name: 'mean stress', label: 'mean stress', unit: 'Pa', matches: name => name.includes('.mean_stress_')},
+  {name: 'stress against strain', label: 'mean stress', unit: 'Pa', matches: name => name.includes('.mean_stress_'), against: name => name.endsWith('.strain')},
   {name: 'forces', label: 'force', unit: 'N', matches: name => name.includes('.force_')},
   {name: 'momentum', label: 'momentum', unit: 'kg m/s', matches: name => name.startsWith('momentum_')},
   {name: 'velocities', label: 'velocity', unit: 'm/s', matches: name => /\.v[xyz]$/.test(name)},
   {name: 'time step', label: 'time step', unit: 's', matches: name => name === 'dt_s'}];
+const isThere = (usual, names) => names.some(usual.matches) && (!usual.against || names.some(usual.against));
 const MOST_CURVES = 10;  // more cannot be told apart
 
 function columnUnit(name) {
@@ -25,16 +27,16 @@ class Histories {
     this.x = 'time_s';
     this.chart = new LineChart();
     this.names = [...history.columns.keys()];
-    this.tabs = USUAL.filter(usual => this.names.some(usual.matches)).map(usual =>
+    this.tabs = USUAL.filter(usual => isThere(usual, this.names)).map(usual =>
       [usual, element('button', {onclick: () => this.showUsual(usual)}, usual.name)]);
     this.chooseTab = element('button', {id: 'choose', onclick: () => this.choose()}, 'choose\u2026');
     this.chooser = element('div', {class: 'chooser', hidden: true});
     this.search = element('input', {type: 'search', oninput: () => this.filter()});
     this.finder = element('label', {hidden: true}, 'find', this.search);
-    const against = select(this.names.map(name => [name, columnLabel(name)]), this.x, name => { this.x = name; this.draw(); });
+    this.against = select(this.names.map(name => [name, columnLabel(name)]), this.x, name => { this.x = name; this.draw(); });
     this.root = element('section', {class: 'card', id: 'histories'}, element('h2', {}, 'Histories'),
       element('div', {class: 'bar'}, ...this.tabs.map(([, button]) => button), this.chooseTab, this.finder, element('span', {class: 'grow'}),
-        element('label', {}, 'against', against)),
+        element('label', {}, 'against', this.against)),
       this.chooser, this.chart.root,
       element('p', {class: 'hint'}, 'Drag to zoom in, double-click for everything; with the chart in focus the wheel zooms.'));
     if (this.tabs.length > 0) this.showUsual(this.tabs[0][0]);
@@ -56,6 +58,7 @@ class Histories {
     if (names.length > MOST_CURVES && together.length > 0) names = together;
     this.chosen = names.slice(0, MOST_CURVES);
     this.label = usual.label;
+    this.x = this.against.value = usual.against ? this.names.find(usual.against) : 'time_s';
     this.draw();
   }
 

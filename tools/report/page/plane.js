@@ -67,6 +67,7 @@ class PlaneView {
     this.pixels.fill(0);
     this.picked.fill(-1);
     const scale = this.scale * ratio, [cx, cy] = this.centre, frames = this.frames, edges = new Float64Array(4);
+    const near = this.usualSize() * scale >= 6;
     for (let i = 0; i < frames.count; ++i) {
       const x = frames.place(0, this.frame, i), y = frames.place(1, this.frame, i);
       if (Number.isNaN(x) || Number.isNaN(y) || this.colours[i] === 0) continue;
@@ -75,7 +76,7 @@ class PlaneView {
       const ax = edges[0] * scale, ay = -edges[2] * scale, bx = edges[1] * scale, by = -edges[3] * scale;
       const size = Math.sqrt(Math.min(ax * ax + ay * ay, bx * bx + by * by));
       const outer = 1 + 0.3 / Math.max(size, 0.3);  // slits thinner than a pixel would show as dots
-      if (size < 5) {
+      if (!near) {
         this.fillDomain(px, py, ax * outer, ay * outer, bx * outer, by * outer, this.colours[i], i);
         continue;
       }
@@ -86,6 +87,20 @@ class PlaneView {
     }
     this.outlineBodies(wide, high);
     this.raster.getContext('2d').putImageData(this.image, 0, 0);
+  }
+
+  // Half the side of a domain, m: a mean over some of the particles.
+  usualSize() {
+    const frames = this.frames, stride = Math.ceil(frames.count / 500), edges = new Float64Array(4);
+    let sum = 0, count = 0;
+    for (let i = 0; i < frames.count; i += stride) {
+      frames.halfEdges(this.frame, i, edges);
+      const area = Math.abs(edges[0] * edges[3] - edges[1] * edges[2]);
+      if (!(area > 0)) continue;
+      sum += Math.sqrt(area);
+      ++count;
+    }
+    return count > 0 ? sum / count : 0;
   }
 
   // A thin line where two bodies meet, whatever their colours.
