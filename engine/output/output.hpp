@@ -187,13 +187,14 @@ struct RunSummary {
   std::string resolved_yaml;                ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 
-// Beyond these a run is worth a second look; the compaction of the ellipses stays below each by a factor of
-// four.
+// Beyond these a run is worth a second look; the compaction of the ellipses stays below the shares by a
+// factor of four.
 inline constexpr double kMostUnconverged = 0.01;    ///< of the regressions
 inline constexpr double kMostFallbacks = 0.2;       ///< of the regressions
 inline constexpr double kMostPairFallbacks = 0.05;  ///< of the nodes that solve pairs
 inline constexpr double kMostScreened = 0.2;        ///< of the nodes where fields meet
 inline constexpr double kMostDrift = 0.1;           ///< of the energy at work
+inline constexpr double kPartedBy = 1.1;            ///< times what the basis bridges, between particles
 /// Fewer normals, pairs or meetings than this say nothing yet: the first touch of two bodies is all edges.
 inline constexpr std::uint64_t kEnoughToJudge = 1000;
 

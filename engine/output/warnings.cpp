@@ -54,7 +54,7 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
              "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
              "contact.volume_screen or contact.mass_screen",
              100 * part, 100 * kMostScreened)});
-  if (summary.spacing > summary.most_spacing)
+  if (summary.spacing > kPartedBy * summary.most_spacing)
     out.push_back(
         {"spacing",
          fmt::format(

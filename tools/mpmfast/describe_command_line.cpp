@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <vector>
 
+#include "engine/output/particle_access.hpp"
 #include "engine/scene/catalogue.hpp"
+#include "engine/scene/schema/write_schema.hpp"
 #include "mpmfast_version.hpp"
 
 namespace mpmfast {
@@ -105,6 +108,32 @@ std::string choices(const std::string& type_name) {
   return out;
 }
 
+/// "grid.cell=", "gravity=": what --set may change but for bodies, materials and boundaries, whose names are
+/// the scene's.
+std::vector<std::string> settings() {
+  std::vector<std::string> out;
+  const auto schema = nlohmann::json::parse(write_schema());
+  for (const auto& [section, says] : schema["properties"].items()) {
+    if ((says.contains("type") && says["type"] == "array") || section == "materials" ||
+        section == "boundaries")
+      continue;
+    std::vector<nlohmann::json> forms = says.value("anyOf", std::vector<nlohmann::json>{});
+    forms.push_back(says);
+    const std::size_t before = out.size();
+    for (const auto& form : forms)
+      if (form.contains("properties"))
+        for (const auto& key : form["properties"].items()) out.push_back(section + "." + key.key() + "=");
+    if (out.size() == before) out.push_back(section + "=");
+  }
+  return out;
+}
+
+/// A case of the word before, after which these words may stand.
+std::string offer(const std::string& option, const std::vector<std::string>& words) {
+  return fmt::format("    --{}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", option,
+                     fmt::join(words, " "));
+}
+
 }  // namespace
 
 std::string man_page(const CLI::App& app) {
@@ -122,7 +151,7 @@ std::string man_page(const CLI::App& app) {
 
 std::string bash_completion(const CLI::App& app) {
   std::vector<std::string> names;
-  std::string cases, values;
+  std::string cases, values = offer("field", field_names(3)) + offer("frame", {"first", "last"});
   for (const CLI::App* command : app.get_subcommands({})) {
     names.push_back(command->get_name());
     std::vector<std::string> options;
@@ -130,8 +159,7 @@ std::string bash_completion(const CLI::App& app) {
       const std::string& name = option->get_lnames()[0];
       options.push_back("--" + name);
       const std::string words = choices(option->get_type_name());
-      const std::string line =
-          fmt::format("    --{}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", name, words);
+      const std::string line = offer(name, {words});
       if (!words.empty() && values.find(line) == std::string::npos) values += line;
     }
     cases += fmt::format("    {}) options='{}'; {} ;;\n", command->get_name(), fmt::join(options, " "),
@@ -148,12 +176,13 @@ std::string bash_completion(const CLI::App& app) {
       "  fi\n"
       "  case $before in\n{}"
       "    --out) COMPREPLY=($(compgen -d -- \"$word\")); return ;;\n"
+      "    --set) COMPREPLY=($(compgen -W '{}' -- \"$word\")); compopt -o nospace 2>/dev/null; return ;;\n"
       "  esac\n"
       "  case ${{COMP_WORDS[1]}} in\n{}  esac\n"
       "  case $word in -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;; esac\n"
       "}}\n"
       "complete -o filenames -F _mpmfast mpmfast\n",
-      fmt::join(names, " "), values, cases);
+      fmt::join(names, " "), values, fmt::join(settings(), " "), cases);
 }
 
 }  // namespace mpmfast
