@@ -51,7 +51,7 @@ completes bases mpmfast list ba
 completes von_mises mpmfast plot runs --field v
 completes time.cfl= mpmfast run --set time.c
 completes contact.friction= mpmfast check --set contact.f
-completes gravity= mpmfast check --set grav
+completes gravity.ramp= mpmfast check --set grav
 
 # A program and a script of somebody else's.
 expect "the examples find the library" cmake -S "$source_dir/tools/examples" -B examples -G Ninja \
