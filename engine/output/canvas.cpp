@@ -114,7 +114,7 @@ void Canvas::text(PixelPoint anchor, Align align, std::string_view text, Colour 
                                                                 : width));
   const double top = std::round(anchor.y - kTextHeight / 2);
   for (const char letter : printable(text)) {
-    for (int row = 0; row < kGlyphHeight; ++row)
+    for (int row = 0; row < kGlyphRows; ++row)
       for (int column = 0; column < kGlyphWidth; ++column)
         if (glyph_dot(letter, row, column)) {
           const double x = left + kDot * column, y = top + kDot * row;

@@ -39,7 +39,7 @@ PictureText picture_text(const Scene& scene, const std::string& label, double ti
 
 std::string value_text(double value, const std::string& si_unit) {
   const DisplayUnit unit = display_unit(std::abs(value), si_unit);
-  return fmt::format("{:.4g} {}", value / unit.in_si, unit.name);
+  return fmt::format("{:.4g} {}", value / unit.in_si + 0.0, unit.name);  // no -0
 }
 
 /// The colour of every particle, and the bar that explains it.

@@ -7,7 +7,8 @@
 
 namespace mpmfast {
 
-inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;
+inline constexpr int kGlyphWidth = 5, kGlyphHeight = 7;  ///< of capitals
+inline constexpr int kGlyphRows = 9;                     ///< with what goes below the line
 
 /// Is the dot of this letter set? Row 0 is the top.
 bool glyph_dot(char letter, int row, int column);

@@ -155,7 +155,7 @@ TEST_CASE("the letters of units that are not ASCII are drawn as themselves") {
   CHECK(printable(printable("\u03bcm")) == "\1m");  // the Greek letter too
   CHECK(printable("é") == "?");
   int differing = 0;
-  for (int row = 0; row < kGlyphHeight; ++row)
+  for (int row = 0; row < kGlyphRows; ++row)
     for (int column = 0; column < kGlyphWidth; ++column)
       differing += glyph_dot('\1', row, column) != glyph_dot('u', row, column) ? 1 : 0;
   CHECK(differing > 2);
