@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/sections.hpp"
+#include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
 
@@ -13,20 +14,13 @@ namespace {
 constexpr double kFewestCells = 1e5;   // fewer cost nothing
 constexpr double kLeastReached = 0.1;  // of all cells
 
-/// The greatest magnitude in a table of speeds.
-double greatest(const TimeTable& table) {
-  double out = 0;
-  for (const double value : table.value) out = std::max(out, std::abs(value));
-  return out;
-}
-
 double speed_of(const BodySpec& body, const Bounds& box) {
   Vec3 speed = body.velocity, size{};
   for (std::size_t k = 0; k < 3; ++k) {
-    if (body.rigid_velocity[k]) speed[k] = greatest(*body.rigid_velocity[k]);
+    if (body.rigid_velocity[k]) speed[k] = largest(*body.rigid_velocity[k]);
     size[k] = box.upper[k] - box.lower[k];
   }
-  const double turns = body.rotation ? greatest(body.rotation->speed) : 0;
+  const double turns = body.rotation ? largest(body.rotation->speed) : 0;
   return std::hypot(speed[0], speed[1], speed[2]) + turns * std::hypot(size[0], size[1], size[2]);
 }
 
@@ -36,8 +30,8 @@ double reach(const Scene& scene, const std::vector<Bounds>& boxes) {
   for (std::size_t b = 0; b < boxes.size(); ++b)
     fastest = std::max(fastest, speed_of(scene.bodies[b], boxes[b]));
   for (const BoundarySpec& boundary : scene.boundaries)
-    fastest = std::max(fastest,
-                       std::visit([](const auto& one) { return greatest(one.speed); }, boundary.condition));
+    fastest =
+        std::max(fastest, std::visit([](const auto& one) { return largest(one.speed); }, boundary.condition));
   const Vec3& gravity = scene.gravity.acceleration;
   fastest += std::hypot(gravity[0], gravity[1], gravity[2]) * scene.time.end;
   return 2 * fastest * scene.time.end;
