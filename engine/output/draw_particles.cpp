@@ -176,6 +176,18 @@ Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring
 
 }  // namespace
 
+std::string beyond_text(const FieldValues& field, const Range& colours) {
+  Extent all;
+  for (const double value : field.value) all.include(value);
+  const double margin = 0.005 * colours.width();
+  const bool below = all.lower < colours.lower - margin;
+  const bool above = all.upper > colours.upper + margin;
+  const std::string least = value_text(all.lower, field.unit), most = value_text(all.upper, field.unit);
+  if (below && above) return fmt::format(", values from {} to {}", least, most);
+  if (below) return fmt::format(", values down to {}", least);
+  return above ? fmt::format(", values up to {}", most) : "";
+}
+
 DisplayUnit length_unit(const Scene& scene) {
   const auto& size = scene.grid.size;
   return display_unit(0.5 * *std::max_element(size.begin(), size.begin() + scene.dimension()), "m");
@@ -207,9 +219,10 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
   const Colouring colour(values, framing);
   Picture picture = paint(particles, scene, colour, framing);
   PictureText text = picture_text(scene, values.label, time);
-  if (colour.has_bar())
+  if (colour.has_bar()) {
     picture.draw_colour_bar(colour.scale, values.unit);
-  else if (!colour.by_body && framing.values)
+    text.subtitle += beyond_text(values, *framing.values);
+  } else if (!colour.by_body && framing.values)
     text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
   picture.write_titles(text);
   return picture.canvas();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/output/canvas.hpp"
+#include "engine/output/particle_access.hpp"
 #include "engine/output/scales.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/particles.hpp"
@@ -25,6 +26,9 @@ struct Framing {
 
 /// The unit of lengths on all pictures and pages of a run.
 DisplayUnit length_unit(const Scene& scene);
+
+/// What the colours do not reach, for a title: outliers, or what a range that was asked for leaves out.
+std::string beyond_text(const FieldValues& field, const Range& colours);
 
 /// The particles with their domains, and the field's range without its outliers.
 /// @param field  as field_values, which says what it throws

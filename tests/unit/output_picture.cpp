@@ -181,6 +181,15 @@ TEST_CASE("where a field has one value, the picture says it and has no bar") {
   CHECK(Png(path).width < with_bar);
 }
 
+TEST_CASE("a title tells the values that the colours do not reach") {
+  const FieldValues field{{-3e6, 0, 5e6, std::numeric_limits<double>::quiet_NaN()}, "pressure", "Pa"};
+  CHECK(beyond_text(field, {-3e6, 5e6}).empty());
+  CHECK(beyond_text(field, {-3e6, 4e6}) == ", values up to 5 MPa");
+  CHECK(beyond_text(field, {-1e6, 9e6}) == ", values down to -3 MPa");
+  CHECK(beyond_text(field, {0, 1}) == ", values from -3 MPa to 5 MPa");
+  CHECK(beyond_text(FieldValues{}, {0, 1}).empty());
+}
+
 TEST_CASE("ticks are round and units of a sensible size") {
   const auto ticks = round_ticks({-0.03, 1.02}, 5);
   REQUIRE(ticks.size() == 6);
