@@ -210,7 +210,9 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
 /// Version, commit, compiler and flags of this program.
 std::string program_text();
 
-/// The largest resident set of this process so far, bytes.
+/// The largest resident set of this process since forget_peak_memory(), bytes; where the system forgets
+/// nothing, since it began.
 std::uint64_t peak_memory_bytes();
+void forget_peak_memory();
 
 }  // namespace mpmfast

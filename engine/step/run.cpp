@@ -1,7 +1,6 @@
 #include "engine/step/run.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,9 +12,11 @@
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/make_row.hpp"
 #include "engine/step/overlap_at_start.hpp"
+#include "engine/step/pause.hpp"
 #include "engine/step/run_counters.hpp"
 #include "engine/step/run_log.hpp"
 #include "engine/step/step.hpp"
+#include "engine/step/threads.hpp"
 #include "engine/step/write_grid.hpp"
 
 namespace mpmfast {
@@ -136,9 +137,10 @@ class Run {
     if (counters_.last_frame_step != step_.state().step) write_frame();
     draw("last");
     const bool ended = has_ended(step_.state().time, origin_.end);
-    const RunSummary summary = summarise(stopped_ ? "stopped" : "finished", stopped_ ? "signal"
-                                                                            : ended  ? ""
-                                                                                     : "steps");
+    const bool stopped = !stop_reason_.empty();
+    const RunSummary summary = summarise(stopped ? "stopped" : "finished", stopped ? stop_reason_
+                                                                           : ended ? ""
+                                                                                   : "steps");
     if (unsaved) std::rethrow_exception(unsaved);
     return summary;
   }
@@ -161,10 +163,7 @@ class Run {
     auto& state = step_.state();
     const double end = origin_.end;
     while (!has_ended(state.time, end) && state.step < origin_.max_steps) {
-      if (options_.stop_signal && *options_.stop_signal) {
-        stopped_ = true;
-        return;
-      }
+      if (is_stop_asked()) return;
       if (state.step == 0) counters_.first_dt = step_.stable_dt();
       const double dt = step_.dt_towards(end, counters_.first_dt);
       counters_.particle_steps += static_cast<double>(state.particles.size());
@@ -185,6 +184,12 @@ class Run {
       if (is_save_due()) save();
       report();
     }
+  }
+
+  bool is_stop_asked() {
+    if (options_.stop_signal && *options_.stop_signal) stop_reason_ = "signal";
+    if (options_.stop && asking_.due() && options_.stop()) stop_reason_ = "request";
+    return !stop_reason_.empty();
   }
 
   bool is_save_due() const {
@@ -344,7 +349,8 @@ class Run {
   std::optional<ParticleSeries<Dim>> series_;
   std::optional<FrameSeries> grid_series_;
   std::uint64_t saved_step_ = kNever;  ///< of the last checkpoint
-  bool stopped_ = false;
+  std::string stop_reason_;            ///< empty: it was not stopped
+  Pause asking_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_, last_save_ = start_;
 };
 
@@ -359,13 +365,15 @@ RunSummary go_on(const Scene& scene, const RunOptions& options, const RunOrigin&
 }  // namespace
 
 RunSummary run_scene(const Scene& scene, const RunOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  const ThreadCount threads(options.threads);
+  forget_peak_memory();
   if (scene.dimension() == 3) return Run<3>(scene, options).execute();
   return Run<2>(scene, options).execute();
 }
 
 std::optional<RunSummary> resume_run(const RunOptions& options) {
-  if (options.threads > 0) omp_set_num_threads(options.threads);
+  const ThreadCount threads(options.threads);
+  forget_peak_memory();
   const std::filesystem::path path = options.folder / kCheckpointName;
   std::error_code error;
   if (!std::filesystem::exists(path, error))

@@ -41,6 +41,7 @@ struct RunOptions {
   std::function<void(const Progress&)> progress;  ///< may be empty
   std::function<void(const std::string&)> warn;   ///< may be empty
   const volatile int* stop_signal = nullptr;      ///< non-zero: finish the step and stop
+  std::function<bool()> stop;  ///< asked between steps, every 50 ms at most: true stops it; may be empty
 };
 
 /// Runs a scene and writes everything of design §4. Throws FileError (exit 4); RunFailure (exit 3) after the

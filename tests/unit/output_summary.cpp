@@ -2,7 +2,9 @@
 
 #include <bit>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "engine/errors.hpp"
@@ -112,6 +114,16 @@ TEST_CASE("run.json states what left the grid where a scene lets it, and else no
 TEST_CASE("the peak of memory is that of a living process") {
   CHECK(peak_memory_bytes() > std::uint64_t{1} << 20);
   CHECK(peak_memory_bytes() < std::uint64_t{1} << 42);
+}
+
+TEST_CASE("the peak of memory is that of the run, not of what the process did before") {
+  constexpr std::size_t kMuch = std::size_t{1} << 28;
+  // No page is the machine's before it is written to.
+  std::make_unique<std::vector<char>>(kMuch, 'a').reset();
+  CHECK(peak_memory_bytes() > kMuch);
+  forget_peak_memory();
+  if (!std::ofstream("/proc/self/clear_refs")) return;  // a system that forgets nothing
+  CHECK(peak_memory_bytes() < kMuch);
 }
 
 TEST_CASE(

@@ -4,6 +4,7 @@
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
 
+#include <omp.h>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -173,6 +174,37 @@ TEST_CASE("a signal stops the run after the step, with a checkpoint, also before
   CHECK(stopped.steps == 0);
   REQUIRE(resume_run(into(folder / "stopped")));
   check_same_files(folder / "stopped", folder / "whole");
+}
+
+TEST_CASE("a program that runs a scene stops it between two steps, with a checkpoint") {
+  const Folder folder;
+  RunOptions options = into(folder / "stopped");
+  int asked = 0;
+  options.stop = [&] { return ++asked == 2; };
+  const RunSummary stopped = run_scene(
+      scene_from(kDisks,
+                 {{"time.end", "1 s"}, {"bodies.0.velocity", "[0, 0]"}, {"bodies.1.velocity", "[0, 0]"}}),
+      options);
+  CHECK(asked == 2);
+  CHECK(stopped.status == "stopped");
+  CHECK(stopped.reason == "request");
+  CHECK(stopped.steps > 0);
+  CHECK(stopped.wall >= 0.1);
+  options.stop = {};
+  options.until = stopped.time * 1.01;
+  REQUIRE(resume_run(options));
+}
+
+TEST_CASE("a run has the threads that it is given, and the caller as many as before") {
+  const Folder folder;
+  const int before = omp_get_max_threads();
+  RunOptions options = into(folder / "run");
+  options.threads = before + 2;
+  run_scene(scene_from(kDisks), options);
+  CHECK(omp_get_max_threads() == before);
+  options.until = 50e-6;
+  resume_run(options);
+  CHECK(omp_get_max_threads() == before);
 }
 
 TEST_CASE("a run that has come to its end is left alone, and goes further where a later one is asked for") {

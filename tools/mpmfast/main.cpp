@@ -11,8 +11,8 @@
 #include "complain.hpp"
 #include "engine/errors.hpp"
 #include "engine/scene/diagnostic.hpp"
+#include "engine/step/threads.hpp"
 #include "exit_codes.hpp"
-#include "quiet_threads.hpp"
 
 namespace {
 

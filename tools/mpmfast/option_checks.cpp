@@ -5,12 +5,11 @@
 #include <cstdint>
 
 #include "engine/scene/quantity.hpp"
+#include "engine/step/threads.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-constexpr int kMostThreads = 4096;
 
 /// A name like an option is one that misses its value before it: --out --force.
 bool is_name(const std::string& text) { return !text.empty() && text[0] != '-'; }

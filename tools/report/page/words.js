@@ -23,7 +23,9 @@ function endingCard() {
   if (status === 'finished') return null;
   const lines = [];
   if (!run) lines.push('There is no run.json: the run goes on now, or was killed. What it has written so far is shown; mpmfast resume may carry it on.');
-  else if (run.reason) lines.push(run.reason === 'signal' ? 'A signal ended it: Ctrl-C, kill, or a terminal that was closed.' : run.reason);
+  else if (run.reason === 'signal') lines.push('A signal ended it: Ctrl-C, kill, or a terminal that was closed.');
+  else if (run.reason === 'request') lines.push('The program that ran it asked it to stop.');
+  else if (run.reason) lines.push(run.reason);
   if (status === 'failed' && report.failed_file) lines.push('failed.vtu holds the particles around the place of the failure, with all that a frame has.');
   if (status === 'stopped') lines.push('mpmfast resume carries it on from its checkpoint.');
   const title = status === 'failed' ? 'The run failed' : status === 'stopped' ? 'The run was stopped' : 'The run has not ended';

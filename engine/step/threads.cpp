@@ -1,11 +1,18 @@
-#include "quiet_threads.hpp"
+#include "engine/step/threads.hpp"
 
+#include <omp.h>
 #include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
 
 namespace mpmfast {
+
+ThreadCount::ThreadCount(int threads) : before_(omp_get_max_threads()) {
+  if (threads > 0) omp_set_num_threads(threads);
+}
+
+ThreadCount::~ThreadCount() { omp_set_num_threads(before_); }
 
 void wait_quietly(char** arguments) {
   if (std::getenv("OMP_WAIT_POLICY") || std::getenv("GOMP_SPINCOUNT")) return;
