@@ -1,11 +1,15 @@
 #pragma once
 
 /// @file mpmfast as a library: load a scene, step, read the particles. The one header that is installed; it
-/// needs nothing but the standard library, and changes only with the major version.
+/// needs nothing but the standard library, and changes only with the version (before 1.0 the minor one).
+///
+/// Any number of simulations may live side by side, each used by one thread at a time; results are the same
+/// to the bit on any number of threads. What the library throws is an Error.
 
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <stdexcept>
@@ -21,8 +25,9 @@ namespace mpmfast {
 /// What goes wrong, with the message that the program would print.
 class MPMFAST_API Error : public std::runtime_error {
  public:
-  /// As the exit codes of the program.
-  enum class Kind { scene = 2, failure = 3, file = 4 };
+  /// As the exit codes of the program; misuse: a call that makes no sense, such as for a column that is not
+  /// there.
+  enum class Kind { misuse = 1, scene = 2, failure = 3, file = 4 };
   Error(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
   Kind kind() const { return kind_; }
 
@@ -32,6 +37,14 @@ class MPMFAST_API Error : public std::runtime_error {
 
 /// Dotted path of a scene and the text that replaces what stands there, as --set PATH=TEXT.
 using Settings = std::vector<std::pair<std::string, std::string>>;
+
+/// What a caller hears of a run while it goes on, and may say; each may be empty. They are called by the
+/// thread that called the run, and what they throw ends it.
+struct Callbacks {
+  std::function<bool()> stop;  ///< asked between steps, every 50 ms at most: true stops it
+  std::function<void(const std::string&)>
+      warn;  ///< what is likely a mistake, or was found worth a second look
+};
 
 /// Where the energy is, J; in 2-D of the scene's thickness. What was dissipated and worked counts from the
 /// start.
@@ -43,14 +56,17 @@ struct Energies {
 };
 
 /// A scene that is stepped by its caller and writes no files. Everything is SI. Spans show the memory of the
-/// simulation itself; they hold until the next step, which may sort the particles anew.
+/// simulation itself; they hold until the next step, which may sort the particles anew, and no longer than
+/// the simulation: copy what is to be kept. One thread at a time may use a simulation, also to read it. One
+/// that was moved from can be assigned to and destroyed, every other call of it throws.
 class MPMFAST_API Simulation {
  public:
   /// Reads the scene and seeds its particles. Throws Error.
-  explicit Simulation(const std::filesystem::path& scene, const Settings& settings = {});
+  /// @param threads  for its steps; 0: OMP_NUM_THREADS or the cores
+  explicit Simulation(const std::filesystem::path& scene, const Settings& settings = {}, int threads = 0);
   /// The same from text; relative paths in it count from `folder`.
   static Simulation from_text(const std::string& yaml, const std::filesystem::path& folder = ".",
-                              const Settings& settings = {});
+                              const Settings& settings = {}, int threads = 0);
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
   ~Simulation();
@@ -61,16 +77,26 @@ class MPMFAST_API Simulation {
   double end() const;   ///< s, of the scene
   std::uint64_t steps() const;
   double stable_dt() const;  ///< s, of the next step
+  /// Is the end reached? The last step may miss it by round-off.
+  bool finished() const;
+  /// What in the scene is likely a mistake, a line each, as `mpmfast check` says it.
+  const std::vector<std::string>& warnings() const;
 
+  /// The next step that `mpmfast run` would take towards end(), to the bit; returns its dt, s. Where the
+  /// scene is finished() it does nothing and returns 0.
+  double step();
   /// One step of dt, at most stable_dt() where it is to stay stable. Throws Error.
   void advance(double dt);
-  /// As many steps as it takes to get to `time`, as `mpmfast run` would take them; returns how many. Throws
-  /// Error.
-  std::uint64_t advance_to(double time);
+  /// As many steps as it takes to get to `time`, as `mpmfast run --until` would take them; returns how many.
+  /// The last one or two are cut to meet it: a way in several parts has other steps than one that goes to the
+  /// end.
+  /// @param stop  asked between steps, every 50 ms at most: true ends it there; may be empty
+  std::uint64_t advance_to(double time, const std::function<bool()>& stop = {});
 
   /// Names of the columns: velocity.x, kirchhoff_stress.xy, mass … What a scene does not need is not there.
   std::vector<std::string> columns() const;
-  /// One number a particle. Throws std::out_of_range for a column that is not there.
+  bool has_column(std::string_view name) const;
+  /// One number a particle. Throws for a column that is not there.
   std::span<const double> column(std::string_view name) const;
   /// Unit of a column: m/s, Pa, kg …
   std::string unit(std::string_view name) const;
@@ -82,7 +108,7 @@ class MPMFAST_API Simulation {
 
   /// For what acts on the particles from outside: adds to their velocities along an axis (0, 1, 2), one
   /// number a particle in the order of the columns. The energy counts as work of body forces; rigid bodies do
-  /// not mind. Throws std::invalid_argument for a wrong axis, length or a number that is not finite.
+  /// not mind. Throws for a wrong axis, length or a number that is not finite.
   void add_velocity(int axis, std::span<const double> change);
 
   Energies energies();
@@ -102,14 +128,23 @@ class MPMFAST_API Simulation {
 
  private:
   explicit Simulation(std::unique_ptr<Implementation> implementation);
+  Implementation& there() const;
   std::unique_ptr<Implementation> implementation_;
 };
 
 /// Runs a scene as `mpmfast run` does and writes its folder. Returns run.json's text. Throws Error.
-/// @param replace  a folder that is there
+/// @param force    replaces the run in a folder that is there
 /// @param threads  0: OMP_NUM_THREADS or the cores
+/// @param callbacks  a run that `stop` ended has a checkpoint, and in run.json the status "stopped"
 MPMFAST_API std::string run(const std::filesystem::path& scene, const std::filesystem::path& folder,
-                            const Settings& settings = {}, bool replace = false, int threads = 0);
+                            const Settings& settings = {}, bool force = false, int threads = 0,
+                            const Callbacks& callbacks = {});
+
+/// For the first line of main, with its argv. Threads of libgomp that wait spin for long, which makes a
+/// program many times slower where others want the cores, and libgomp reads its settings before main: unless
+/// OMP_WAIT_POLICY or GOMP_SPINCOUNT is set, this sets a short spin and starts the program again. Whoever
+/// cannot call it sets one of the two before the program starts.
+MPMFAST_API void use_quiet_threads(char** arguments);
 
 /// "0.2.0"
 MPMFAST_API std::string version();

@@ -1,0 +1,159 @@
+// The shared library through its one header, as another program has it.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <type_traits>
+
+#include "engine/library/simulation.hpp"
+
+namespace {
+
+using namespace mpmfast;
+
+const char* const kScene = R"(
+space: plane_strain
+grid: {size: [10 mm, 10 mm], cell: 1 mm}
+time: {end: 100 us}
+materials: {soft: {model: neo_hookean, density: 1000 kg/m^3, young: 10 MPa, poisson: 0.3}}
+bodies:
+  - {name: left, box: {from: [1 mm, 2 mm], to: [4 mm, 6 mm]}, material: soft, velocity: [5, 0]}
+  - {name: right, box: {from: [5 mm, 2 mm], to: [8 mm, 6 mm]}, material: soft}
+output: {frames: 0, picture: none}
+)";
+
+Simulation simulation_of(const Settings& settings = {}, int threads = 0) {
+  return Simulation::from_text(kScene, ".", settings, threads);
+}
+
+/// A folder that is removed, with the scene in it.
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / "mpmfast_library_test";
+  std::filesystem::path scene = path / "scene.yaml";
+  Folder() {
+    std::filesystem::remove_all(path);
+    std::filesystem::create_directories(path);
+    std::ofstream(scene) << kScene;
+  }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+template <class F>
+Error::Kind kind_of(F f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    return error.kind();
+  }
+  FAIL("no Error was thrown");
+  return {};
+}
+
+TEST_CASE("steps one by one are those of one way to the end, and end with it") {
+  Simulation by_steps = simulation_of(), at_once = simulation_of();
+  double time = 0;
+  while (!by_steps.finished()) time += by_steps.step();
+  at_once.advance_to(at_once.end());
+  CHECK(at_once.finished());
+  CHECK(by_steps.steps() == at_once.steps());
+  CHECK(by_steps.checksum() == at_once.checksum());
+  CHECK(time == doctest::Approx(by_steps.end()));
+  CHECK(by_steps.step() == 0);
+  CHECK(by_steps.steps() == at_once.steps());
+}
+
+TEST_CASE("a way in ten parts takes ten, whatever round-off makes of its parts") {
+  for (const char* end : {"100 us", "7 us", "0.3 ms"}) {
+    Simulation simulation = simulation_of({{"time.end", end}});
+    int parts = 0;
+    for (int k = 1; !simulation.finished(); ++k, ++parts) simulation.advance_to(simulation.end() * k / 10);
+    CHECK(parts == 10);
+  }
+}
+
+TEST_CASE("a simulation has the threads that it is given, and the same bits on any number") {
+  std::array<std::string, 2> checksums;
+  for (int threads : {1, 3}) {
+    Simulation simulation = simulation_of({{"grid.cell", "0.1 mm"}, {"time.end", "2 us"}}, threads);
+    simulation.advance_to(simulation.end());
+    checksums[threads == 1 ? 0 : 1] = simulation.checksum();
+  }
+  CHECK(checksums[0] == checksums[1]);
+  CHECK(kind_of([] { simulation_of({}, -1); }) == Error::Kind::misuse);
+  CHECK(kind_of([] { simulation_of({}, 1000000); }) == Error::Kind::misuse);
+}
+
+TEST_CASE("a call that makes no sense throws an Error") {
+  Simulation simulation = simulation_of();
+  CHECK(simulation.has_column("velocity.x"));
+  CHECK_FALSE(simulation.has_column("velocity.z"));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<double> too_few(3), wrong(simulation.particles(), nan), right(simulation.particles());
+  CHECK(kind_of([&] { simulation.column("velocity.z"); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.unit("velocity.z"); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.advance(0); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.advance_to(nan); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.add_velocity(0, too_few); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.add_velocity(0, wrong); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { simulation.add_velocity(2, right); }) == Error::Kind::misuse);
+}
+
+TEST_CASE("a simulation that was moved from says so, and can be assigned to") {
+  Simulation first = simulation_of();
+  Simulation second = std::move(first);
+  CHECK(second.particles() > 0);
+  CHECK(kind_of([&] { first.time(); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { first.step(); }) == Error::Kind::misuse);
+  CHECK(kind_of([&] { first.energies(); }) == Error::Kind::misuse);
+  first = std::move(second);
+  CHECK(first.particles() > 0);
+}
+
+TEST_CASE("what is likely a mistake in a scene is told") {
+  CHECK(simulation_of().warnings().empty());
+  const Settings heavy{{"materials.soft.density", "1000 g/cm^3"}};
+  const Folder folder;
+  const std::vector<std::string> warnings = Simulation(folder.scene, heavy).warnings();
+  REQUIRE(!warnings.empty());
+  std::vector<std::string> told;
+  const Callbacks callbacks{.stop = {}, .warn = [&](const std::string& text) { told.push_back(text); }};
+  const std::string json = run(folder.scene, folder.path / "out", heavy, false, 0, callbacks);
+  REQUIRE(told.size() >= warnings.size());
+  CHECK(std::equal(warnings.begin(), warnings.end(), told.begin()));
+  CHECK(json.find("is no density of a solid") != std::string::npos);
+}
+
+TEST_CASE("whoever steps may stop, and a run that was stopped has a checkpoint") {
+  const Settings endless{{"time.end", "100 s"}, {"bodies.0.velocity", "[0, 0]"}};
+  Simulation simulation = simulation_of(endless);
+  int asked = 0;
+  simulation.advance_to(simulation.end(), [&] { return ++asked == 2; });
+  CHECK(asked == 2);
+  CHECK(simulation.steps() > 0);
+  CHECK_FALSE(simulation.finished());
+  const Folder folder;
+  const std::string json =
+      run(folder.scene, folder.path / "out", endless, false, 0, {.stop = [] { return true; }, .warn = {}});
+  CHECK(json.find("\"status\": \"stopped\"") != std::string::npos);
+  CHECK(std::filesystem::exists(folder.path / "out" / "checkpoint.h5"));
+}
+
+TEST_CASE("a folder that is there is replaced by force only, and the message has the word") {
+  const Folder folder;
+  run(folder.scene, folder.path / "out");
+  try {
+    run(folder.scene, folder.path / "out");
+    FAIL("it was replaced");
+  } catch (const Error& error) {
+    CHECK(error.kind() == Error::Kind::file);
+    CHECK(std::string(error.what()).find("with force") != std::string::npos);
+  }
+  run(folder.scene, folder.path / "out", {}, true);
+}
+
+}  // namespace
