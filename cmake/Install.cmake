@@ -15,12 +15,22 @@ install(FILES ${PROJECT_BINARY_DIR}/generated/mpmfastConfig.cmake
 install(FILES ${PROJECT_BINARY_DIR}/generated/mpmfast.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${PROJECT_BINARY_DIR}/generated/mpmfast.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
   RENAME mpmfast)
-install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/mpmfast)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DATADIR}/mpmfast
+  PATTERN "*.md" EXCLUDE PATTERN gallery EXCLUDE)
+# The pages with all that they point to, where they find it.
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
-install(DIRECTORY tools/manual DESTINATION ${CMAKE_INSTALL_DOCDIR}/tools)
+install(DIRECTORY configs DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY bench/results DESTINATION ${CMAKE_INSTALL_DOCDIR}/bench)
+install(DIRECTORY tools/manual tools/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/tools PATTERN __pycache__ EXCLUDE)
+foreach(file tools/README.md tools/python/README.md engine/plan/plan.cpp engine/step/step.cpp
+    kernels/contact/laws.hpp)
+  get_filename_component(folder ${file} DIRECTORY)
+  install(FILES ${file} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 if(MPMFAST_PYTHON)
-  install(TARGETS mpmfast_python DESTINATION lib/python3/dist-packages)
+  install(TARGETS mpmfast_python DESTINATION lib/python3/dist-packages/mpmfast)
+  install(DIRECTORY tools/python/mpmfast DESTINATION lib/python3/dist-packages PATTERN __pycache__ EXCLUDE)
 endif()
 
 set(CPACK_GENERATOR DEB)

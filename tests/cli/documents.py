@@ -3,6 +3,7 @@
 to is looked up.
 
 usage: documents.py MPMFAST SOURCE_DIR [--slow] [--only FILE.md]
+       documents.py --links FOLDER    of all pages in a folder, such as an installed one, the links alone
 
 A mark is an HTML comment on the line before a fenced block, which a reader of the page does not see:
 
@@ -32,8 +33,9 @@ import unicodedata
 try:
     import yaml
 except ImportError:
-    print("PyYAML is missing: tools/setup tests")
-    sys.exit(77)
+    if sys.argv[1:2] != ["--links"]:
+        print("PyYAML is missing: tools/setup tests")
+        sys.exit(77)
 
 SHORT_STEPS = 30
 FENCE = re.compile(r"^(\s*)(```+)\s*(\S*)\s*$")
@@ -218,7 +220,7 @@ def anchors_of(path):
 
 
 def check_links(path, name, prose, source):
-    """Relative links and pictures exist, inside the repository, and so do the headings that they name."""
+    """Relative links and pictures exist, inside the folder of the pages, and so do the headings that they name."""
     for number, line in prose:
         line = re.sub(r"`[^`]*`", "", line)
         for found in LINK.finditer(line):
@@ -316,7 +318,17 @@ def keys_of_scenes(program, source, folder):
     return keys
 
 
+def check_links_of(folder):
+    for path, name in pages_of(folder):
+        check_links(path, name, read_page(path, name)[1], folder)
+    expect(checks > 0, folder, "it has no links")
+    print(f"{checks} checks of links, {len(failures)} wrong")
+    return 1 if failures else 0
+
+
 def main():
+    if sys.argv[1:2] == ["--links"]:
+        return check_links_of(pathlib.Path(sys.argv[2]).resolve())
     options = [word for word in sys.argv[1:] if word.startswith("--")]
     words = [word for word in sys.argv[1:] if not word.startswith("--")]
     only = words.pop() if "--only" in options else ""

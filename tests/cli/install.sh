@@ -53,6 +53,10 @@ completes time.cfl= mpmfast run --set time.c
 completes contact.friction= mpmfast check --set contact.f
 completes gravity.ramp= mpmfast check --set grav
 
+# Its pages point to what is there.
+expect "links of the pages" /usr/bin/python3 "$source_dir/tests/cli/documents.py" --links "$prefix/share"
+expect "the manual" test -f "$prefix/share/doc/mpmfast/tools/manual/output.md"
+
 # A program and a script of somebody else's.
 expect "the examples find the library" cmake -S "$source_dir/tools/examples" -B examples -G Ninja \
   -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_BUILD_TYPE=Release
@@ -61,6 +65,8 @@ write_good_scene
 sed -i 's/^time.*/time: {end: 100 us}/' scene.yaml
 expect "the example runs" examples/drag scene.yaml 2000
 cp out drag.csv
+env -u OMP_WAIT_POLICY OMP_DISPLAY_ENV=verbose examples/drag scene.yaml 2000 >out 2>err
+says err "GOMP_SPINCOUNT = '1000'"
 expect "energies of the example" /usr/bin/python3 - drag.csv <<'PYTHON'
 import csv, math, sys
 rows = [[float(x) for x in row.values()] for row in csv.DictReader(open(sys.argv[1]))]
@@ -71,15 +77,35 @@ for time, kinetic, stored, work in rows:
     assert abs(kinetic + stored - rows[0][1] - work) < 1e-6 * rows[0][1], (time, kinetic, stored, work)
 assert len(rows) == 11 and rows[-1][0] > 0.99e-4
 PYTHON
+
+# The program that the manual shows.
+mkdir shown
+sed -n '/^#include <mpmfast/,/^```/p' "$prefix/share/doc/mpmfast/tools/manual/output.md" | grep -v '^```' >shown/main.cpp
+cat >shown/CMakeLists.txt <<'CMAKE'
+cmake_minimum_required(VERSION 3.25)
+project(shown LANGUAGES CXX)
+find_package(mpmfast REQUIRED)
+add_executable(shown main.cpp)
+target_link_libraries(shown mpmfast::mpmfast)
+CMAKE
+expect "the manual's program finds the library" cmake -S shown -B shown/build -G Ninja -DCMAKE_PREFIX_PATH="$prefix"
+expect "the manual's program builds" cmake --build shown/build
+expect "the manual's program runs" shown/build/shown
+checks=$((checks + 1))
+[[ $(grep -c '^time_s = ' out) == 10 ]] || fail "the manual's program does not take ten parts"
+
 sed 's/1 mm, 1 mm/1 mm, -1 mm/' scene.yaml >broken.yaml
 checks=$((checks + 1))
 examples/drag broken.yaml >out 2>err
 [[ $? == 2 ]] || fail "a broken scene is no 2"
 says err "lies 0.001 m outside the grid"
 
-module=$(ls "$prefix"/lib/python3/dist-packages/mpmfast*.so 2>/dev/null)
+module=$(ls "$prefix"/lib/python3/dist-packages/mpmfast/_engine*.so 2>/dev/null)
 if [[ -n $module ]]; then
   export PYTHONPATH=$prefix/lib/python3/dist-packages
+  for file in __init__.pyi py.typed; do
+    expect "$file" test -f "$PYTHONPATH/mpmfast/$file"
+  done
   expect "the Python example" /usr/bin/python3 "$source_dir/tools/examples/drag.py" scene.yaml 2000
   cp out drag_python.csv
   expect "C++ and Python agree" cmp drag_python.csv drag.csv
