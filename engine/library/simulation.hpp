@@ -41,9 +41,10 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 /// What a caller hears of a run while it goes on, and may say; each may be empty. They are called by the
 /// thread that called the run, and what they throw ends it.
 struct Callbacks {
-  std::function<bool()> stop;  ///< asked between steps, every 50 ms at most: true stops it
-  std::function<void(const std::string&)>
-      warn;  ///< what is likely a mistake, or was found worth a second look
+  /// Asked between steps, every 50 ms at most: true stops it.
+  std::function<bool()> stop;
+  /// Told what in the scene is likely a mistake, and in the end what of the run is worth a second look.
+  std::function<void(const std::string&)> warn;
 };
 
 /// Where the energy is, J; in 2-D of the scene's thickness. What was dissipated and worked counts from the
