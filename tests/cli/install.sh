@@ -116,6 +116,10 @@ if command -v dpkg-shlibdeps >/dev/null; then
   expect "the package unpacks" dpkg -x package/mpmfast_*.deb unpacked
   program=$work/unpacked/usr/bin/mpmfast
   run 0 check "$work/unpacked/usr/share/mpmfast/configs/gap.yaml"
+  if [[ -n $module ]]; then
+    expect "the package's Python module" env PYTHONPATH="$work/unpacked/usr/lib/python3/dist-packages" \
+      /usr/bin/python3 -c 'import mpmfast, sys; sys.exit(not mpmfast.__file__.startswith(sys.argv[1]))' "$work/unpacked"
+  fi
   expect "the package says what it needs" dpkg-deb -f package/mpmfast_*.deb Depends
   says out libyaml-cpp
 fi
