@@ -225,6 +225,26 @@ int Tiling<Dim>::find(std::int64_t place, int field) const {
 }
 
 template <int Dim>
+bool Tiling<Dim>::within(const NodeIndex<Dim>& tile) const {
+  bool within = true;
+  for (int d = 0; d < Dim; ++d)
+    within &= tile[d] >= -kMargin && tile[d] < span_[static_cast<std::size_t>(d)] - kMargin;
+  return within;
+}
+
+template <int Dim>
+int Tiling<Dim>::slot(const NodeIndex<Dim>& node, int field) const {
+  NodeIndex<Dim> tile;
+  int local = 0;
+  for (int d = Dim - 1; d >= 0; --d) {
+    tile[d] = floor_div(node[d], kTileSide);
+    local = local * kTileSide + (node[d] - tile[d] * kTileSide);
+  }
+  const int found = within(tile) ? find(place(tile), field) : -1;
+  return found < 0 ? -1 : found * kTileNodes<Dim> + local;
+}
+
+template <int Dim>
 void Tiling<Dim>::number_slots() {
   const auto corner_place = [&](const ParticleTile<Dim>& tile, int corner) {
     NodeIndex<Dim> at;
@@ -275,11 +295,8 @@ void Tiling<Dim>::stack_up() {
     std::size_t next = 0;
     for (auto& stack : stacks) {
       const NodeIndex<Dim> at = stack.first_node / kTileSide + side;
-      bool within = true;
-      for (int d = 0; d < Dim; ++d)
-        within &= at[d] >= -kMargin && at[d] < span_[static_cast<std::size_t>(d)] - kMargin;
       stack.neighbour[k] = -1;
-      if (!within) continue;
+      if (!within(at)) continue;
       const std::int64_t wanted = place(at);
       while (next < stacks.size() && place_of(stacks[next]) < wanted) ++next;
       if (next < stacks.size() && place_of(stacks[next]) == wanted)

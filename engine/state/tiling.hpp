@@ -115,8 +115,11 @@ class Tiling {
     }
     return n;
   }
+  /// Slot of a field on the node of these coordinates; −1: it has none there.
+  int slot(const NodeIndex<Dim>& node, int field) const;
 
  private:
+  bool within(const NodeIndex<Dim>& tile) const;
   std::int64_t place(const NodeIndex<Dim>& tile) const;
   NodeIndex<Dim> coordinates(std::int64_t place) const;
   int find(std::int64_t place, int field) const;

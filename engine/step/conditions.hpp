@@ -3,6 +3,8 @@
 /// @file Velocity conditions on nodes: walls, pistons, symmetry planes, prescribed velocities (NN §2.3.2,
 /// §2.5).
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "engine/scene/scene.hpp"
@@ -18,7 +20,10 @@ namespace mpmfast {
 ///
 /// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would
 /// otherwise be thrown by the full force of the particles at the wall; held at the wall's velocity, they
-/// cannot.
+/// cannot. Where the plane cuts a cell, what moves with the wall is the plane: on the rows around it, from
+/// the last one inside, the velocity follows the straight line through u at the plane that takes the least
+/// impulses. To hold the rows beyond it would strain the cut cell as if all of it were filled, and a body
+/// would be pressed by up to a cell less than its wall moved.
 template <int Dim>
 class Conditions {
  public:
@@ -64,19 +69,36 @@ class Conditions {
   struct Constrained {
     int slot, combination;
   };
+  /// A prescribed component on the nodes of a field around a wall's plane, from the last one inside outwards;
+  /// −1: the field has none there.
+  static constexpr int kRows = 4;  ///< as far out as a basis reaches
+  struct Cut {
+    std::array<int, kRows> slot;
+    int component;  ///< index into components_
+  };
 
   bool covers(std::size_t boundary, const NodeIndex<Dim>& node) const;
+  void components_at(const NodeIndex<Dim>& node, std::vector<int>& members) const;
+  std::optional<std::array<NodeIndex<Dim>, kRows>> around_plane(int component,
+                                                                const NodeIndex<Dim>& node) const;
+  bool alone_along(int component, const std::vector<int>& members) const;
+  int combination_of(const std::vector<int>& members);
   void list_nodes(const State<Dim>& state);
   void orthonormalise(Combination& c) const;
   template <class Change>
   void apply(State<Dim>& state, double dt, Change change);
+  template <class Velocity, class Push>
+  void apply_cuts(const State<Dim>& state, Velocity velocity, Push push) const;
+  void book(int component, double impulse, double dt);
 
   const Scene* scene_;
   std::vector<Component> components_;
   std::vector<Combination> combinations_;
   std::vector<Constrained> nodes_;
+  std::vector<Cut> cuts_;
   std::vector<double> speed_;  ///< by boundary, this step
-  std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes beyond it
+  std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it
+  std::vector<double> cut_;    ///< by wall: cells from the last row inside to the plane; 1: it lies on a row
   std::vector<Vec<Dim>> force_;
   double work_ = 0, fastest_ = 0;
   bool stale_ = true;
