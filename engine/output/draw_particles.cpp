@@ -34,7 +34,14 @@ Range box_range(const Framing& framing, const Scene& scene, std::size_t d) {
 
 PictureText picture_text(const Scene& scene, const std::string& label, double time) {
   const DisplayUnit unit = display_unit(std::abs(time), "s");
-  return {scene.title, fmt::format("{} at {:.4g} {}", label, time / unit.in_si, time == 0 ? "s" : unit.name)};
+  return {scene.title, fmt::format("{} at {:.4g} {}", label, time / unit.in_si, time == 0 ? "s" : unit.name),
+          ""};
+}
+
+/// The longest subtitle with a note that pictures of the field can have: as many digits as there may be.
+std::string longest_subtitle(const FieldValues& field) {
+  const std::string value = "-8.888 M" + field.unit;
+  return fmt::format("{} at 888.8 ms, values from {} to {}", field.label, value, value);
 }
 
 std::string value_text(double value, const std::string& si_unit) {
@@ -45,7 +52,10 @@ std::string value_text(double value, const std::string& si_unit) {
 /// The colour of every particle, and the bar that explains it.
 struct Colouring {
   Colouring(const FieldValues& field, const Framing& framing)
-      : by_body(field.names), scale(framing.values.value_or(Range{})), value(&field.value) {}
+      : by_body(field.names),
+        scale(framing.values.value_or(Range{})),
+        value(&field.value),
+        longest(has_bar() ? longest_subtitle(field) : "") {}
   Colour operator()(std::size_t p) const {
     return by_body ? body_colour(static_cast<std::size_t>((*value)[p])) : scale((*value)[p]);
   }
@@ -53,6 +63,7 @@ struct Colouring {
   bool by_body;
   ColourScale scale;
   const std::vector<double>* value;
+  std::string longest;
 };
 
 /// Columns j: half-edge vectors of a particle's domain, m.
@@ -128,7 +139,7 @@ Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
   const double margin = 0.02 * std::max(x.width(), y.width());
   const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
-  Picture picture(wider(x), wider(y), colour.has_bar());
+  Picture picture(wider(x), wider(y), colour.has_bar(), colour.longest);
   for (const std::uint32_t p : order_by_id(particles)) {
     Corners corners = shape_of(particles, scene, p);
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
@@ -162,7 +173,7 @@ Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
               z = box_range(framing, scene, 2);
   const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
-  Picture picture(view.across(), view.up(), colour.has_bar());
+  Picture picture(view.across(), view.up(), colour.has_bar(), colour.longest);
   view.draw_edges(picture);
   std::stable_sort(balls.begin(), balls.end(),
                    [](const Ball& a, const Ball& b) { return a.view[2] < b.view[2]; });
@@ -183,9 +194,9 @@ std::string beyond_text(const FieldValues& field, const Range& colours) {
   const bool below = all.lower < colours.lower - margin;
   const bool above = all.upper > colours.upper + margin;
   const std::string least = value_text(all.lower, field.unit), most = value_text(all.upper, field.unit);
-  if (below && above) return fmt::format(", values from {} to {}", least, most);
-  if (below) return fmt::format(", values down to {}", least);
-  return above ? fmt::format(", values up to {}", most) : "";
+  if (below && above) return fmt::format("values from {} to {}", least, most);
+  if (below) return fmt::format("values down to {}", least);
+  return above ? fmt::format("values up to {}", most) : "";
 }
 
 DisplayUnit length_unit(const Scene& scene) {
@@ -221,7 +232,7 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
   PictureText text = picture_text(scene, values.label, time);
   if (colour.has_bar()) {
     picture.draw_colour_bar(colour.scale, values.unit);
-    text.subtitle += beyond_text(values, *framing.values);
+    text.note = beyond_text(values, *framing.values);
   } else if (!colour.by_body && framing.values)
     text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
   picture.write_titles(text);

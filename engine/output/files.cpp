@@ -15,26 +15,54 @@ void throw_file_error(std::string_view action, const std::filesystem::path& path
                               error != 0 ? std::strerror(error) : "unknown reason"));
 }
 
-void write_aside(const std::filesystem::path& path, std::string_view content) {
-  std::filesystem::path aside = path;
-  aside += ".tmp";
+namespace {
+
+/// Where a chain of links ends, whether or not there is a file.
+std::filesystem::path end_of_links(std::filesystem::path path) {
+  constexpr int kMost = 40;  // as the kernel follows
+  std::error_code error;
+  for (int k = 0; k < kMost && std::filesystem::is_symlink(path, error); ++k)
+    path = path.parent_path() / std::filesystem::read_symlink(path, error);
+  return path;
+}
+
+/// Returns 0 or why it could not.
+int write_parts(const std::filesystem::path& path, std::span<const std::string_view> parts) {
   errno = 0;
-  std::ofstream file(aside, std::ios::binary | std::ios::trunc);
-  file.write(content.data(), static_cast<std::streamsize>(content.size()));
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  for (const std::string_view part : parts)
+    file.write(part.data(), static_cast<std::streamsize>(part.size()));
   file.close();
-  if (!file) {
-    const int reason = errno;
+  if (file) return 0;
+  return errno != 0 ? errno : EIO;
+}
+
+}  // namespace
+
+void write_aside(const std::filesystem::path& path, std::span<const std::string_view> parts) {
+  std::error_code error;
+  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error)) {
+    if (const int reason = write_parts(path, parts)) throw_file_error("write", path, reason);
+    return;
+  }
+  const std::filesystem::path target = end_of_links(path);
+  std::filesystem::path aside = target;
+  aside += ".tmp";
+  if (const int reason = write_parts(aside, parts)) {
     std::error_code ignored;
     std::filesystem::remove(aside, ignored);
     throw_file_error("write", path, reason);
   }
-  std::error_code error;
-  std::filesystem::rename(aside, path, error);
+  std::filesystem::rename(aside, target, error);
   if (error) {
     std::error_code ignored;
     std::filesystem::remove(aside, ignored);
     throw_file_error("write", path, error.value());
   }
+}
+
+void write_aside(const std::filesystem::path& path, std::string_view content) {
+  write_aside(path, std::span(&content, 1));
 }
 
 void make_folder(const std::filesystem::path& folder) {

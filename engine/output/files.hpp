@@ -4,12 +4,16 @@
 
 #include <cerrno>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 
 namespace mpmfast {
 
-/// Writes `content` to a temporary name beside `path` and renames it. Throws FileError.
+/// Writes the parts, one after the other, to a temporary name beside `path` and renames it. A link is
+/// followed; what is there and is no regular file (a device, a pipe) is written to as it is. Throws
+/// FileError.
+void write_aside(const std::filesystem::path& path, std::span<const std::string_view> parts);
 void write_aside(const std::filesystem::path& path, std::string_view content);
 
 /// Makes a folder and its parents. Throws FileError.

@@ -8,10 +8,12 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/output.hpp"
+#include "engine/output/particle_access.hpp"
 
 namespace mpmfast {
 namespace {
@@ -27,22 +29,55 @@ bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
 }
 
+bool all_digits(std::string_view text) {
+  return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+bool is_field(std::string_view text) {
+  for (const int dimension : {2, 3}) {
+    const std::vector<std::string> known = field_names(dimension);
+    if (std::find(known.begin(), known.end(), text) != known.end()) return true;
+  }
+  return false;
+}
+
+/// plot_energy.svg and the like; its script may have been edited.
+bool is_chart(std::string_view name) {
+  const auto point = name.rfind('.');
+  if (point == std::string_view::npos) return false;
+  const std::string_view stem = name.substr(0, point), format = name.substr(point);
+  return (format == ".png" || format == ".svg" || format == ".pdf") &&
+         std::find(kChartStems.begin(), kChartStems.end(), stem) != kChartStems.end();
+}
+
+/// picture_first_FIELD.png, picture_last_FIELD.png, plot_FIELD.png, plot_FIELD_NNNNNN.png.
+bool is_picture(std::string_view name) {
+  if (!ends_with(name, ".png")) return false;
+  name.remove_suffix(4);
+  for (const std::string_view begin : {"picture_first_", "picture_last_"})
+    if (name.substr(0, begin.size()) == begin) return is_field(name.substr(begin.size()));
+  constexpr std::string_view kPlot = "plot_";
+  if (name.substr(0, kPlot.size()) != kPlot) return false;
+  name.remove_prefix(kPlot.size());
+  if (is_field(name)) return true;
+  const auto last = name.rfind('_');
+  return last != std::string_view::npos && name.size() - last > 6 && all_digits(name.substr(last + 1)) &&
+         is_field(name.substr(0, last));
+}
+
 /// A name that a run of ours writes at the top of its folder.
 bool is_ours(std::string name) {
   if (ends_with(name, ".tmp")) name.resize(name.size() - 4);
   if (std::find(kOurFiles.begin(), kOurFiles.end(), name) != kOurFiles.end()) return true;
   // What `mpmfast plot` and `report` made of the earlier run would belong to another one.
-  if (name == "report.html") return true;
-  const bool plot = name.rfind("plot_", 0) == 0, picture = name.rfind("picture_", 0) == 0;
-  return (plot || picture) &&
-         (ends_with(name, ".png") || (plot && (ends_with(name, ".svg") || ends_with(name, ".gp"))));
+  return name == "report.html" || is_chart(name) || is_picture(name);
 }
 
 /// NNNNNN.vtu, or what a kill left of it.
 bool is_frame(std::string name) {
   if (ends_with(name, ".tmp")) name.resize(name.size() - 4);
   if (!ends_with(name, ".vtu") || name.size() < 10) return false;
-  return std::all_of(name.begin(), name.end() - 4, [](char c) { return c >= '0' && c <= '9'; });
+  return all_digits(std::string_view(name).substr(0, name.size() - 4));
 }
 
 template <class Chosen>

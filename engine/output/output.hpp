@@ -21,9 +21,14 @@
 namespace mpmfast {
 
 /// Prepares the output folder: refuses an existing one without `force` (SceneError-free; throws FileError),
-/// with `force` removes what an earlier run of ours left there and nothing else (pictures: picture_*.png).
-/// Writes scene.yaml.
+/// with `force` removes what an earlier run of ours left there, the pictures that `mpmfast plot` made of it
+/// and report.html, and nothing else: not the scripts of charts (.gp), which are there to be edited. Writes
+/// scene.yaml.
 void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
+
+/// The charts of `mpmfast plot`.
+inline constexpr std::array<std::string_view, 6> kChartStems{
+    "plot_energy", "plot_momentum", "plot_stress", "plot_force", "plot_stress_strain", "plot_columns"};
 
 /// What a run leaves when it ends (run.json) or is killed (files half written) must not stay beside one that
 /// goes on. Throws FileError.

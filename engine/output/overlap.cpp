@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 
 #include "engine/output/particle_access.hpp"
@@ -48,10 +49,49 @@ bool holds(const ParticleDomain& q, const Vec<2>& x) {
   return (q.edges.inverse() * (x - q.centre)).cwiseAbs().maxCoeff() <= 1 + 1e-9;
 }
 
-using BinIndex = std::array<std::size_t, 2>;
+struct Box {
+  static constexpr double kFar = std::numeric_limits<double>::max();
+  Vec<2> lower = Vec<2>::Constant(kFar), upper = -lower;
 
-/// Square bins over the plane. A domain is listed, in order, in each bin that its bounding box touches; two
-/// domains are compared in the lowest bin that both boxes touch, so once.
+  void include(const Box& other) {
+    lower = lower.cwiseMin(other.lower);
+    upper = upper.cwiseMax(other.upper);
+  }
+  bool meets(const Box& other) const {
+    return (lower.array() <= other.upper.array()).all() && (other.lower.array() <= upper.array()).all();
+  }
+  bool finite() const { return lower.allFinite() && upper.allFinite(); }
+};
+
+Box box_of(const ParticleDomain& domain) {
+  const Vec<2> reach = domain.edges.cwiseAbs().rowwise().sum();
+  return {domain.centre - reach, domain.centre + reach};
+}
+
+/// Which domains can meet one of another owner: those in the box around another owner's. Of many owners
+/// hardly a domain lies in no other box, and each is taken. A failing run may ask too: what is no number is
+/// nowhere.
+std::vector<bool> may_meet(const std::vector<ParticleDomain>& domains) {
+  constexpr std::size_t kMany = 32;
+  std::map<int, Box> around;
+  std::vector<bool> out(domains.size());
+  for (std::size_t p = 0; p < domains.size(); ++p) {
+    const Box box = box_of(domains[p]);
+    out[p] = box.finite();
+    if (out[p] && around.size() <= kMany) around[domains[p].owner].include(box);
+  }
+  if (around.size() > kMany) return out;
+  for (std::size_t p = 0; p < domains.size(); ++p)
+    out[p] = out[p] && std::any_of(around.begin(), around.end(), [&](const auto& other) {
+               return other.first != domains[p].owner && other.second.meets(box_of(domains[p]));
+             });
+  return out;
+}
+
+using BinIndex = std::array<std::uint32_t, 2>;
+
+/// Square bins over the plane. A domain that may meet another is listed, in order, in each bin that its
+/// bounding box touches; two domains are compared in the lowest bin that both boxes touch, so once.
 class Bins {
  public:
   explicit Bins(const std::vector<ParticleDomain>& domains);
@@ -66,75 +106,63 @@ class Bins {
   }
 
  private:
-  struct Box {
-    Vec<2> lower, upper;
-  };
-  static Box box_of(const ParticleDomain& domain) {
-    const Vec<2> reach = domain.edges.cwiseAbs().rowwise().sum();
-    return {domain.centre - reach, domain.centre + reach};
-  }
   BinIndex at(const Vec<2>& x) const {
     BinIndex bin;
     for (int k = 0; k < 2; ++k)
-      bin[static_cast<std::size_t>(k)] = static_cast<std::size_t>((x[k] - origin_[k]) / width_);
+      bin[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>((x[k] - origin_[k]) / width_);
     return bin;
   }
-  std::size_t flat(const BinIndex& bin) const { return bin[1] * columns_ + bin[0]; }
-  std::size_t lay_out(const std::vector<Box>& boxes);
+  std::size_t flat(const BinIndex& bin) const { return std::size_t{bin[1]} * columns_ + bin[0]; }
+  std::size_t lay_out(const std::vector<ParticleDomain>& domains);
   template <class Visit>
-  void for_each_bin(const std::vector<Box>& boxes, std::size_t p, Visit visit) const {
-    if (!finite_[p]) return;
-    const BinIndex last = at(boxes[p].upper);
-    for (std::size_t y = first_[p][1]; y <= last[1]; ++y)
-      for (std::size_t x = first_[p][0]; x <= last[0]; ++x) visit(flat({x, y}));
+  void for_each_bin(const std::vector<ParticleDomain>& domains, std::size_t p, Visit visit) const {
+    if (!listed_[p]) return;
+    const BinIndex last = at(box_of(domains[p]).upper);
+    for (std::uint32_t y = first_[p][1]; y <= last[1]; ++y)
+      for (std::uint32_t x = first_[p][0]; x <= last[0]; ++x) visit(flat({x, y}));
   }
 
   Vec<2> origin_ = Vec<2>::Zero();
   double width_ = 1;
   std::size_t columns_ = 1;
-  std::vector<bool> finite_;  ///< others are nowhere: a failing run may ask too
+  std::vector<bool> listed_;
   std::vector<BinIndex> first_;
   std::vector<std::size_t> start_;
   std::vector<std::uint32_t> list_;
 };
 
 /// Bins as wide as the mean box, or wider so that there are about as many as domains. Returns their number.
-std::size_t Bins::lay_out(const std::vector<Box>& boxes) {
-  constexpr double kFar = std::numeric_limits<double>::max();
-  Vec<2> lower = Vec<2>::Constant(kFar), upper = -lower;
+std::size_t Bins::lay_out(const std::vector<ParticleDomain>& domains) {
+  Box all;
   double extents = 0, n = 0;
-  for (std::size_t p = 0; p < boxes.size(); ++p) {
-    finite_[p] = boxes[p].lower.allFinite() && boxes[p].upper.allFinite();
-    if (!finite_[p]) continue;
-    lower = lower.cwiseMin(boxes[p].lower);
-    upper = upper.cwiseMax(boxes[p].upper);
-    extents += (boxes[p].upper - boxes[p].lower).maxCoeff();
+  for (std::size_t p = 0; p < domains.size(); ++p) {
+    if (!listed_[p]) continue;
+    const Box box = box_of(domains[p]);
+    all.include(box);
+    extents += (box.upper - box.lower).maxCoeff();
     ++n;
   }
   if (n == 0) return 1;
-  origin_ = lower;
-  const Vec<2> size = upper - lower;
+  origin_ = all.lower;
+  const Vec<2> size = all.upper - all.lower;
   width_ = std::max({extents / n, std::sqrt(size[0] / n * size[1]), size.maxCoeff() / n});
   if (!(width_ > 0)) width_ = 1;
-  const BinIndex last = at(upper);
+  const BinIndex last = at(all.upper);
   columns_ = last[0] + 1;
-  return columns_ * (last[1] + 1);
+  return columns_ * (std::size_t{last[1]} + 1);
 }
 
-Bins::Bins(const std::vector<ParticleDomain>& domains) : finite_(domains.size()), first_(domains.size()) {
-  std::vector<Box> boxes;
-  boxes.reserve(domains.size());
-  for (const ParticleDomain& domain : domains) boxes.push_back(box_of(domain));
-  start_.assign(lay_out(boxes) + 1, 0);
+Bins::Bins(const std::vector<ParticleDomain>& domains) : listed_(may_meet(domains)), first_(domains.size()) {
+  start_.assign(lay_out(domains) + 1, 0);
   for (std::size_t p = 0; p < domains.size(); ++p) {
-    if (finite_[p]) first_[p] = at(boxes[p].lower);
-    for_each_bin(boxes, p, [&](std::size_t bin) { ++start_[bin + 1]; });
+    if (listed_[p]) first_[p] = at(box_of(domains[p]).lower);
+    for_each_bin(domains, p, [&](std::size_t bin) { ++start_[bin + 1]; });
   }
   for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
   list_.resize(start_.back());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t p = 0; p < domains.size(); ++p)
-    for_each_bin(boxes, p, [&](std::size_t bin) { list_[next[bin]++] = static_cast<std::uint32_t>(p); });
+    for_each_bin(domains, p, [&](std::size_t bin) { list_[next[bin]++] = static_cast<std::uint32_t>(p); });
 }
 
 /// The share of one bin: the pairs that it compares, and the particles whose centre it holds.

@@ -13,6 +13,7 @@ namespace {
 constexpr double kLongSide = 1000;  // pixels
 constexpr double kShortestBox = 260;
 constexpr double kLeft = 84, kTop = 84, kBottom = 64, kRight = 30, kRightWithBar = 150;
+constexpr double kMargin = 12, kFirstLine = 20, kLine = 24;
 constexpr double kTick = 6, kLineWidth = 1.5;
 constexpr Colour kInk{30, 30, 30};
 
@@ -33,32 +34,44 @@ double spacing_of(const std::vector<double>& ticks) { return ticks.size() > 1 ? 
 
 }  // namespace
 
-Picture::Layout Picture::make_layout(Range x, Range y, bool room_for_bar) {
+double Picture::Layout::top() const { return kTop + (note_below ? kLine : 0); }
+
+Picture::Layout Picture::make_layout(Range x, Range y, bool room_for_bar, std::string_view longest) {
   const double right = room_for_bar ? kRightWithBar : kRight;
   const double room_x = kLongSide - kLeft - right, room_y = kLongSide - kTop - kBottom;
   double scale = std::min(room_x / x.width(), room_y / y.width());
   widen(x, kShortestBox / scale);
   widen(y, kShortestBox / scale);
   scale = std::min(room_x / x.width(), room_y / y.width());
-  return {x, y, scale, static_cast<int>(std::ceil(kLeft + x.width() * scale + right)),
-          static_cast<int>(std::ceil(kTop + y.width() * scale + kBottom))};
+  const int width = static_cast<int>(std::ceil(kLeft + x.width() * scale + right));
+  Layout layout{x, y, scale, width, 0, Canvas::text_width(longest) > width - 2 * kMargin};
+  layout.height = static_cast<int>(std::ceil(layout.top() + y.width() * scale + kBottom));
+  return layout;
 }
 
-Picture::Picture(Range x, Range y, bool room_for_bar) : Picture(make_layout(x, y, room_for_bar)) {}
+Picture::Picture(Range x, Range y, bool room_for_bar, std::string_view longest)
+    : Picture(make_layout(x, y, room_for_bar, longest)) {}
 
 Picture::Picture(const Layout& layout)
     : x_(layout.x),
       y_(layout.y),
       scale_(layout.scale),
-      box_upper_left_{kLeft, kTop},
-      box_lower_right_{kLeft + layout.x.width() * layout.scale, kTop + layout.y.width() * layout.scale},
+      note_below_(layout.note_below),
+      box_upper_left_{kLeft, layout.top()},
+      box_lower_right_{kLeft + layout.x.width() * layout.scale,
+                       layout.top() + layout.y.width() * layout.scale},
       canvas_(layout.width, layout.height) {}
 
 void Picture::write_titles(const PictureText& text) {
-  constexpr double kMargin = 12;
+  std::vector<std::string> lines{text.title, text.subtitle};
+  if (note_below_)
+    lines.push_back(text.note);
+  else if (!text.note.empty())
+    lines.back() += ", " + text.note;
   const double room = canvas_.width() - 2 * kMargin;
-  canvas_.text({kMargin, 20}, Align::left, fitted(text.title, room), kInk);
-  canvas_.text({kMargin, 44}, Align::left, fitted(text.subtitle, room), kInk);
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    canvas_.text({kMargin, kFirstLine + kLine * static_cast<double>(k)}, Align::left, fitted(lines[k], room),
+                 kInk);
 }
 
 void Picture::draw_frame() { canvas_.frame(box_upper_left_, box_lower_right_, kLineWidth, kInk); }

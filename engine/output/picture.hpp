@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "engine/output/canvas.hpp"
 #include "engine/output/scales.hpp"
@@ -13,13 +14,15 @@ namespace mpmfast {
 /// What a picture shows beside the particles.
 struct PictureText {
   std::string title, subtitle;
+  std::string note;  ///< behind the subtitle, or below it in a narrow picture
 };
 
 /// The plot box and what is written around it. Lengths in m, y up.
 class Picture {
  public:
   /// Widened about its middle where it is too narrow for labels.
-  Picture(Range x, Range y, bool room_for_bar);
+  /// @param longest  the longest subtitle with its note that this picture or another of its series may have
+  Picture(Range x, Range y, bool room_for_bar, std::string_view longest);
 
   PixelPoint at(double x, double y) const {
     return {box_upper_left_.x + (x - x_.lower) * scale_, box_lower_right_.y - (y - y_.lower) * scale_};
@@ -39,12 +42,15 @@ class Picture {
     Range x, y;
     double scale;
     int width, height;
+    bool note_below;
+    double top() const;  ///< of the box, pixels
   };
-  static Layout make_layout(Range x, Range y, bool room_for_bar);
+  static Layout make_layout(Range x, Range y, bool room_for_bar, std::string_view longest);
   explicit Picture(const Layout& layout);
 
   Range x_, y_;
   double scale_;
+  bool note_below_;
   PixelPoint box_upper_left_, box_lower_right_;
   Canvas canvas_;
 };

@@ -49,7 +49,9 @@ class VtuFile {
                         std::span<const std::string_view> component_names, std::string_view data);
 
   std::size_t points_;
-  std::string point_tag_, cell_tags_, point_data_, appended_;
+  std::string point_tag_, cell_tags_, point_data_;
+  std::vector<std::string> appended_;  ///< of each array: put together they would be there twice
+  std::size_t offset_ = 0;
 };
 
 }  // namespace mpmfast

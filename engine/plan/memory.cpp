@@ -65,10 +65,26 @@ std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes 
 
 }  // namespace
 
+double passing_bytes(const Scene& scene, double particles) {
+  // The search lists where the domain of each particle is; what lies in the box of another body it sorts. At
+  // the start there are no nodes yet, and nothing is sorted. What of a frame is compressed is about half as
+  // large, and one column is there as it was.
+  constexpr double kSearch = 145, kSearchAtStart = 80, kFrame = 185, kPicture = 30;  // a particle
+  constexpr double kCanvas = 40 << 20;
+  const bool plane = scene.dimension() == 2;
+  double most = 0;
+  if (scene.output.picture != "none") most = kPicture * particles + kCanvas;
+  if (plane && scene.bodies.size() > 1) most = std::max(most, kSearchAtStart * particles);
+  if (plane && scene.output.overlap) most = std::max(most, kSearch * particles);
+  if (scene.output.frames > 0) most = std::max(most, kFrame * particles);
+  return most;
+}
+
 double estimated_particles(const Scene& scene) { return particles_in_boxes(scene, true); }
 
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
-  return scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles);
+  return passing_bytes(scene, particles) +
+         (scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles));
 }
 
 std::uint64_t machine_memory() {

@@ -314,6 +314,9 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     const BodySpec& body = scene.bodies[b];
     if (!names.insert(body.name).second)
       places[b].name.report(fmt::format("another body is called '{}'", body.name));
+    if (body.name == "all")
+      places[b].name.report("history.csv calls the means over all bodies 'all': they would share columns",
+                            "Give the body another name");
     fields.insert(body.field);
     check_seeding(scene, body, places[b]);
     if (!grid_known) continue;

@@ -100,6 +100,7 @@ class PairReader {
       return who.report(fmt::format("the velocity field '{}' does not meet itself", field(pair.between[0])),
                         "A pair is of two bodies; two parts of one body that meet must be two bodies");
     check_twin(who, pair);
+    check_columns(who, pair);
     scene_.contact.pairs.push_back(pair);
   }
 
@@ -161,6 +162,23 @@ class PairReader {
       };
       if (same(0, 1) || same(1, 0)) return who.report("this pair has a law already");
     }
+  }
+
+  /// history.csv calls a pair NAME+NAME. No other name has a '+'.
+  void check_columns(const Value& who, const ContactPair& pair) const {
+    const auto name = [&](const ContactPair& of, std::size_t k) {
+      const auto index = static_cast<std::size_t>(of.between[k]);
+      return of.materials ? scene_.materials[index].name : scene_.bodies[index].name;
+    };
+    for (const ContactPair& other : scene_.contact.pairs)
+      if (other.materials != pair.materials && name(other, 0) == name(pair, 0) &&
+          name(other, 1) == name(pair, 1))
+        return who.report(
+            fmt::format(
+                "a pair of bodies and a pair of materials are both called '{}+{}': their forces would "
+                "share a column",
+                name(pair, 0), name(pair, 1)),
+            "Name the two of this pair in the other order");
   }
 
   Scene& scene_;

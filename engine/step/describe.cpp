@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "engine/plan/memory.hpp"
 #include "engine/scene/names.hpp"
 #include "engine/step/overlap_at_start.hpp"
 #include "engine/step/run.hpp"
@@ -102,6 +103,9 @@ std::string describe(const Scene& scene) {
   for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
+  const double most =
+      static_cast<double>(planned + step.state().nodes.bytes() + step.state().tiling.bytes()) +
+      passing_bytes(scene, static_cast<double>(particles.size())) + kProgramBytes;
   line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
   line("grid", grid_text(scene.grid, Dim));
   line("particles", fmt::format("{}", particles.size()));
@@ -111,9 +115,10 @@ std::string describe(const Scene& scene) {
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
   line("memory",
-       fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting",
+       fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting; {} at most",
                    in_mebibytes(planned), particles.size() > 0 ? planned / particles.size() : 0,
-                   in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes())));
+                   in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes()),
+                   in_mebibytes(static_cast<std::size_t>(most))));
   line("checkpoint",
        checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
   line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));

@@ -181,6 +181,9 @@ def check_without_webgl(browser, folder):
     message = browser.find_elements(By.ID, "no-webgl")
     check(message and "WebGL" in message[0].text, "space: nothing is said where there is no WebGL")
     check(pixels(browser, "#histories .chart canvas")[0] > 10, "space: no charts where there is no WebGL")
+    notes = browser.find_element(By.CSS_SELECTOR, "#particles .notes").text
+    check("Rounded for this page" in notes, "space: notices are lost where there is no WebGL")
+    check("Drag" not in notes, "space: dragging is explained where there is nothing to drag")
     browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
 
 

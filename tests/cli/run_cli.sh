@@ -161,6 +161,12 @@ check_force() {
   run 4 run here/scene.yaml --steps 2 --out here --force --progress none
   grep -q 'my own words' here/scene.yaml || fail '--force replaced the scene that was to run'
   run 0 run scene.yaml --steps 2 --out here --force --progress none
+  echo edited | tee here/plot_energy.gp >here/plot_thesis.gp
+  touch here/plot_energy.png here/plot_columns.pdf here/plot_mine.png
+  run 0 run scene.yaml --steps 2 --out here --force --progress none
+  [[ $(cat here/plot_energy.gp here/plot_thesis.gp) == $'edited\nedited' && -e here/plot_mine.png ]] ||
+    fail '--force removed what is not of the program, or a script that was edited'
+  [[ ! -e here/plot_energy.png && ! -e here/plot_columns.pdf ]] || fail '--force left a chart of the earlier run'
   mkdir nothing
   run 0 run scene.yaml --steps 2 --out nothing --force --progress none
   rm -rf own here nothing own_scene.copy
@@ -176,6 +182,72 @@ check_failed_run() {
   grep -q '"failed"' fallen/run.json || fail 'run.json does not say failed'
   run 4 run scene.yaml --out /dev/null/folder
   rm -rf fallen
+}
+
+# Streams that are closed, full or that nobody reads end the program with an exit code, never by abort(), and a study
+# not at all.
+check_streams() {
+  local code kept
+  checks=$((checks + 5))
+  "$program" bogus 2>&- >out
+  code=$?
+  [[ $code == 2 ]] || fail "a wrong word with stderr closed: exit $code"
+  "$program" bogus 2>/dev/full >out
+  code=$?
+  [[ $code == 2 ]] || fail "a wrong word with stderr full: exit $code"
+  "$program" man >/dev/full 2>err
+  code=$?
+  [[ $code == 4 ]] || fail "the man page on a full device: exit $code"
+  says err 'the output could not be written'
+  "$program" run scene.yaml --steps 2 --out closed --progress none --set contact.friction=30 >&- 2>&-
+  kept=$(cat closed/history.csv closed/run.log)
+  [[ $kept != *'checksum  '* && $(head -n 1 closed/history.csv) == step,* ]] ||
+    fail 'with stdout and stderr closed the messages went into a file of the run'
+  write_good_study
+  {
+    "$program" study scene_study.yaml --out study >out
+    echo $? >code
+  } 2>&1 | true
+  [[ $(cat code) == 0 && $(wc -l <study/study.csv) == 5 ]] ||
+    fail "a study whose messages nobody reads: exit $(cat code)"
+  rm -rf closed study code
+}
+
+# A page or a scene goes where a link or a pipe leads, which stay what they are.
+check_special_files() {
+  run 0 run scene.yaml --steps 2 --out reported --progress none
+  ln -s there.html link.html
+  run 0 report reported --out link.html
+  [[ -L link.html && -s there.html ]] || fail 'report --out replaced a link'
+  mkfifo pipe
+  cat pipe >read.html &
+  run 0 report reported --out pipe
+  wait $!
+  [[ -p pipe ]] && grep -q '^</html>$' read.html || fail 'report --out replaced a pipe'
+  rm -rf reported link.html there.html pipe read.html
+}
+
+# What check says a run takes at most is what it takes, within a fifth.
+check_told_memory() {
+  local told taken frames
+  for frames in 0 1; do
+    run 0 check scene.yaml --set grid.cell=0.01mm --set "output={frames: $frames, history: 1}"
+    told=$(sed -n 's/.*; \([0-9.]*\) MiB at most$/\1/p' out)
+    run 0 run scene.yaml --set grid.cell=0.01mm --set "output={frames: $frames, history: 1}" --steps 1 \
+      --out large --force --progress none
+    taken=$(sed -n 's/^memory  *\([0-9.]*\) MiB at most$/\1/p' out)
+    checks=$((checks + 1))
+    awk -v told="$told" -v taken="$taken" 'BEGIN { exit !(told > 0.8 * taken && told < 1.25 * taken) }' ||
+      fail "check tells $told MiB, the run took $taken"
+  done
+  rm -rf large
+}
+
+# What is printed to be typed can be typed where a name has a blank.
+check_quoting() {
+  run 0 run scene.yaml --steps 2 --out "two words/it's" --progress none
+  says out "report           mpmfast report 'two words/it'\\''s'"
+  rm -rf 'two words'
 }
 
 # Two variants x two values; one variant throws its block out of the grid.
@@ -196,6 +268,7 @@ check_study() {
   run 0 study scene_study.yaml --out study
   says err '[4/4] fallen, pic'
   says err "failed: step"
+  says out 'failed           2 of 4 variants (study.csv says why)'
   [[ $(head -n 1 study/study.csv) == variant,error,particle_steps,wall_s,particle_steps_per_s,pareto,* ]] ||
     fail 'study.csv does not begin with the columns of the contract'
   [[ $(grep -c ',finished,' study/study.csv) == 2 && $(grep -c '^"fallen, .*,failed,' study/study.csv) == 2 ]] ||
@@ -263,6 +336,33 @@ STUDY
   done
   says err '    kept: finished'
   says err '(again: it was stopped before)'
+  rm -rf study
+}
+
+# Another build of the program that a signal stopped leaves a stopped study, as our own does.
+check_stopped_program() {
+  printf '#!/bin/sh\nexit 129\n' >stopped_program
+  chmod +x stopped_program
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+variants: [{name: other, program: stopped_program}, {name: ours}]
+error: {quantity: block.vy, compare: final, expected: -1}
+STUDY
+  run 143 study scene_study.yaml --out study
+  says err '    stopped'
+  rm -rf study stopped_program
+}
+
+# Where nothing can be compared there is no chart, and gnuplot is not asked for one.
+check_study_without_error() {
+  cat >scene_study.yaml <<'STUDY'
+scene: scene.yaml
+variants: [{name: slow}]
+error: {quantity: block.vy, compare: crossing, above: 5, expected: 1}
+STUDY
+  run 0 study scene_study.yaml --out study
+  says err 'mpmfast: no chart of the error against wall_s: no variant has an error'
+  grep -q gnuplot err && fail 'gnuplot was asked for a chart of nothing'
   rm -rf study
 }
 
@@ -371,6 +471,17 @@ check_plot_of_several() {
   run 2 plot plotted --field speed --out figure.svg
   says err "--out: particles are drawn as png, got 'figure.svg'"
   [[ ! -e figure.svg ]] || fail 'a refused plot drew something'
+  run 2 plot plotted --columns blok.vy --out newdir
+  run 2 plot plotted --field speed --frame 99 --out newdir
+  run 2 plot plotted --field speed --range 5:1 --out newdir
+  run 2 plot plotted --field speed --field body --range 0:1 --out newdir
+  [[ ! -e newdir ]] || fail 'a refused plot made its folder'
+  run 0 plot plotted --field stress_yy --frame last --range '1:3 MPa' --out bare.png
+  run 0 plot plotted --field stress_yy --frame last --range '1 MPa:3 MPa' --out units.png
+  run 0 plot plotted --field stress_yy --frame last --range '1 Pa:3 MPa' --out pascal.png
+  cmp -s bare.png units.png || fail 'the bare end of a range does not have the unit of the other'
+  cmp -s bare.png pascal.png && fail 'the bare end of a range is Pa'
+  rm bare.png units.png pascal.png
   run 0 plot plotted --field speed --frame last --out pictures/speed.png
   [[ $(head -c 4 pictures/speed.png) == $'\x89PNG' ]] || fail '--out FILE is no picture of the particles'
   if command -v gnuplot >/dev/null; then
@@ -456,9 +567,15 @@ check_overrides
 check_output_folder
 check_force
 check_failed_run
+check_streams
+check_special_files
+check_quoting
+check_told_memory
 check_study
 check_plain_study
 check_stopped_study
+check_stopped_program
+check_study_without_error
 check_study_without_gnuplot
 check_wrong_study
 check_new

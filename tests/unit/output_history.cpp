@@ -6,6 +6,7 @@
 
 #include "engine/errors.hpp"
 #include "tests/unit/output_fixture.hpp"
+#include "tests/unit/scene_helpers.hpp"
 
 using namespace output_test;
 
@@ -34,6 +35,24 @@ bool same_bits(const HistoryRow& a, const HistoryRow& b) {
 }
 
 }  // namespace
+
+TEST_CASE(
+    "no two columns of a history have one name, whatever bodies, walls, pairs and materials are called") {
+  const std::string head =
+      "space: plane_strain\ngrid: {size: [30 mm, 20 mm], cell: 1 mm, leaving: wall}\ntime: {end: 1 ms}\n"
+      "materials:\n  a: {model: linear_elastic, density: 1 g/cm^3, young: 1 GPa, poisson: 0.3}\n"
+      "  b: {model: linear_elastic, density: 1 g/cm^3, young: 1 GPa, poisson: 0.3}\n  all: {model: rigid}\n"
+      "bodies:\n  - {name: a, box: {from: [1 mm, 1 mm], to: [4 mm, 4 mm]}, material: a}\n"
+      "  - {name: b, box: {from: [6 mm, 1 mm], to: [9 mm, 4 mm]}, material: b}\n"
+      "  - {name: c, box: {from: [11 mm, 1 mm], to: [14 mm, 4 mm]}, material: all}\n"
+      "contact:\n  pairs:\n    - {between: [a, b], friction: 0.1}\n";
+  const Scene scene = test::parse(head + "    - {materials: [b, a], friction: 0.2}\n");
+  std::vector<std::string> names = history_columns(scene);
+  std::sort(names.begin(), names.end());
+  CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+  CHECK(test::fault(head + "    - {materials: [a, b], friction: 0.2}\n").find("both called 'a+b'") !=
+        std::string::npos);
+}
 
 TEST_CASE("history columns come in the order that the output contract states") {
   const TemporaryFolder folder;

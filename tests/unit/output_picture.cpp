@@ -181,12 +181,44 @@ TEST_CASE("where a field has one value, the picture says it and has no bar") {
   CHECK(Png(path).width < with_bar);
 }
 
+TEST_CASE("what the colours do not reach has a line of its own in a narrow picture") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.png";
+  const auto ink = [&](const Png& png, int y, int from, int to) {  // in the line of text at y
+    int found = 0;
+    for (int row = y - 8; row < y + 8; ++row)
+      for (int x = from; x < std::min(to, png.width); ++x)
+        found += png.at(x, row) == std::array<int, 3>{30, 30, 30} ? 1 : 0;
+    return found;
+  };
+  const Scene scene = small_scene(Space::plane_strain);
+  Particles<2> particles = lattice(20);
+  const auto draw = [&](double height) {
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      particles.column(Quantity::position, 1)[p] *= height;
+      particles.column(Quantity::deformation_gradient, 3)[p] = height;
+      particles.column(Quantity::kirchhoff_stress, 0)[p] = p == 0   ? -1.285e9
+                                                           : p == 1 ? 2.801e8
+                                                                    : 1e6 * double(p);
+    }
+    draw_particles(path, particles, scene, "stress_xx", 20.8e-3);
+    return Png(path);
+  };
+  const Png wide = draw(1);
+  CHECK(ink(wide, 44, 400, 700) > 50);
+  CHECK(ink(wide, 68, 200, 700) == 0);
+  const Png narrow = draw(8);
+  CHECK(narrow.width < 600);
+  CHECK(ink(narrow, 44, narrow.width - 14, narrow.width) == 0);
+  CHECK(ink(narrow, 68, 200, 400) > 50);
+}
+
 TEST_CASE("a title tells the values that the colours do not reach") {
   const FieldValues field{{-3e6, 0, 5e6, std::numeric_limits<double>::quiet_NaN()}, "pressure", "Pa"};
   CHECK(beyond_text(field, {-3e6, 5e6}).empty());
-  CHECK(beyond_text(field, {-3e6, 4e6}) == ", values up to 5 MPa");
-  CHECK(beyond_text(field, {-1e6, 9e6}) == ", values down to -3 MPa");
-  CHECK(beyond_text(field, {0, 1}) == ", values from -3 MPa to 5 MPa");
+  CHECK(beyond_text(field, {-3e6, 4e6}) == "values up to 5 MPa");
+  CHECK(beyond_text(field, {-1e6, 9e6}) == "values down to -3 MPa");
+  CHECK(beyond_text(field, {0, 1}) == "values from -3 MPa to 5 MPa");
   CHECK(beyond_text(FieldValues{}, {0, 1}).empty());
 }
 

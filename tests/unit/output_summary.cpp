@@ -136,16 +136,31 @@ TEST_CASE(
   CHECK_THROWS_AS(prepare_folder(folder, scene, false), FileError);
 
   std::filesystem::create_directory(folder / "particles");
-  for (const char* name :
-       {"history.csv", "run.json", "particles.pvd", "picture_body.png", "notes.txt", "mine.png",
-        "particles/000012.vtu", "particles/000013.vtu.tmp", "particles/mine.vtu"})
-    std::ofstream(folder / name) << "x";
+  const std::vector<const char*> ours{"history.csv",
+                                      "run.json",
+                                      "particles.pvd",
+                                      "particles/000012.vtu",
+                                      "particles/000013.vtu.tmp",
+                                      "picture_first_body.png",
+                                      "picture_last_stress_yz.png",
+                                      "plot_body.png",
+                                      "plot_stress_xx_000012.png",
+                                      "plot_energy.svg",
+                                      "plot_stress_strain.png",
+                                      "plot_columns.pdf",
+                                      "report.html"};
+  const std::vector<const char*> theirs{"notes.txt",          "mine.png",
+                                        "particles/mine.vtu", "plot_thesis.gp",
+                                        "plot_energy.gp",     "plot_mine.png",
+                                        "plot_energy_2.svg",  "plot_body_12.png",
+                                        "picture_body.png",   "picture_last_mine.png",
+                                        "picture_mine.png"};
+  for (const char* name : ours) std::ofstream(folder / name) << "x";
+  for (const char* name : theirs) std::ofstream(folder / name) << "x";
   prepare_folder(folder, scene, true);
-  for (const char* name : {"history.csv", "run.json", "particles.pvd", "picture_body.png",
-                           "particles/000012.vtu", "particles/000013.vtu.tmp"})
-    CHECK_MESSAGE(!std::filesystem::exists(folder / name), name);
-  for (const char* name : {"notes.txt", "mine.png", "particles/mine.vtu", "scene.yaml"})
-    CHECK_MESSAGE(std::filesystem::exists(folder / name), name);
+  CHECK(std::filesystem::exists(folder / "scene.yaml"));
+  for (const char* name : ours) CHECK_MESSAGE(!std::filesystem::exists(folder / name), name);
+  for (const char* name : theirs) CHECK_MESSAGE(std::filesystem::exists(folder / name), name);
 
   const auto file = temporary.path() / "file";
   std::ofstream(file) << "x";

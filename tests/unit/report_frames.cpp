@@ -121,6 +121,9 @@ TEST_CASE("a frame that was cut is left out by its name; without any there is no
   const PackedRun run = pack(folder.path(), scene, {10'000'000});
   CHECK(run.json["times"].size() == 7);
   CHECK(run.says("000003.vtu"));
+  const PackedRun thinned = pack(folder.path(), scene, {10'000'000, 1600});  // the frames 0, 3, 6 and 7
+  CHECK(thinned.json["times"].size() == 3);
+  CHECK(thinned.says("3 of 8 frames are shown"));
   const TemporaryFolder empty;
   const PackedRun none = pack(empty.path(), scene, {10'000'000});
   CHECK(none.json.is_null());

@@ -119,10 +119,21 @@ TEST_CASE("a table is read with quoted cells and without a torn last line") {
   const StudyFolder folder;
   const auto file = folder.path() / "table.csv";
   write_text(file, "time_s,\"a, \"\"b\"\"\"\r\n0, 1.5 \r\n1,-2e3\n2,3");
-  const Table table = read_table(file);
+  const Table table = read_table(file, Unended::torn);
   CHECK(table.names == std::vector<std::string>{"time_s", "a, \"b\""});
   CHECK(table.columns == std::vector<std::vector<double>>{{0, 1}, {1.5, -2000}});
   CHECK(table.find("absent") == nullptr);
+}
+
+TEST_CASE("a table that a person wrote has its last line, also from a spreadsheet") {
+  const StudyFolder folder;
+  const auto file = folder.path() / "table.csv";
+  write_text(file, "\xEF\xBB\xBFtime_s,force\r\n0,+1.5\r\n1,-2e3");
+  const Table table = read_table(file, Unended::whole);
+  CHECK(table.names == std::vector<std::string>{"time_s", "force"});
+  CHECK(table.columns == std::vector<std::vector<double>>{{0, 1}, {1.5, -2000}});
+  write_text(file, "a\n+-1\n");
+  CHECK_THROWS_AS(read_table(file, Unended::whole), FileError);
 }
 
 TEST_CASE("a table with a ragged row, a word or no header is refused with its line") {
@@ -131,7 +142,7 @@ TEST_CASE("a table with a ragged row, a word or no header is refused with its li
   const auto says = [&](const std::string& text) -> std::string {
     write_text(file, text);
     try {
-      read_table(file);
+      read_table(file, Unended::whole);
     } catch (const FileError& error) {
       return std::string(error.what()).substr(file.string().size());
     }
@@ -141,5 +152,6 @@ TEST_CASE("a table with a ragged row, a word or no header is refused with its li
   CHECK(says("a,b\n1,x\n") == ":2: not a number, got 'x'");
   CHECK(says("a,b\n1,\n") == ":2: not a number, got ''");
   CHECK(says("") == ": no header");
-  CHECK_THROWS_WITH_AS(read_table("/dev/zero"), "/dev/zero: cannot read the table", FileError);
+  CHECK_THROWS_WITH_AS(read_table("/dev/zero", Unended::whole), "/dev/zero: cannot read the table",
+                       FileError);
 }

@@ -115,10 +115,13 @@ TEST_CASE("pictures without a name are told, however many there are; a name is t
   CHECK(begins(nameless[1], "6: curves.1"));
   const Lines twice = folder.faults(head +
                                     "  - {name: v, y: block.vx}\n  - {name: v, y: block.vy}\n"
-                                    "  - {name: study, y: block.vy}\n");
-  REQUIRE(twice.size() == 2);
+                                    "  - {name: study, y: block.vy}\n"
+                                    "  - {name: study_particle_steps, y: block.vy}\n"
+                                    "  - {name: error, y: block.vy}\n");
+  REQUIRE(twice.size() == 3);
   CHECK(begins(twice[0], "6: curves.1.name: is taken by another file of the study"));
   CHECK(begins(twice[1], "7: curves.2.name: is taken by another file of the study"));
+  CHECK(begins(twice[2], "8: curves.3.name: is taken by another file of the study"));
 }
 
 TEST_CASE("an error needs something to compare with") {

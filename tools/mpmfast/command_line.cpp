@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "command_mistakes.hpp"
+#include "complain.hpp"
 #include "describe_command_line.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/quantity.hpp"
@@ -16,6 +17,7 @@
 #include "exit_codes.hpp"
 #include "mpmfast_version.hpp"
 #include "option_checks.hpp"
+#include "shell_text.hpp"
 #include "starters.hpp"
 
 namespace mpmfast {
@@ -107,7 +109,8 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
   command.add_option("--frame", raw.frame, "Draw this frame alone: first, last or its number")
       ->type_name("N");
   command
-      .add_option("--range", raw.range, "Ends of the colours, such as \"0:300 MPa\"; all values if not given")
+      .add_option("--range", raw.range,
+                  "Ends of the colours, such as \"50:300 MPa\" (both are MPa); all values if not given")
       ->type_name("LOW:HIGH");
 }
 
@@ -184,7 +187,7 @@ struct Commands {
 };
 
 int refuse(const std::string& message, const std::string& command = "") {
-  fmt::print(stderr, "mpmfast: {}\nTry 'mpmfast {}--help'.\n", message, command.empty() ? "" : command + " ");
+  complain("mpmfast: {}\nTry 'mpmfast {}--help'.\n", message, command.empty() ? "" : command + " ");
   return kExitWrongInput;
 }
 
@@ -196,16 +199,9 @@ bool file_like(const std::string& word) {
 }
 
 /// The command as a shell would take it again.
-std::string shell_text(int count, const char* const* arguments) {
+std::string command_text(int count, const char* const* arguments) {
   std::string out;
-  for (int k = 0; k < count; ++k) {
-    const std::string word = arguments[k];
-    const bool plain =
-        !word.empty() && word.find_first_of(" \t\n'\"\\$`[]{}()*?&|;<>#!~") == std::string::npos;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    out += (k ? " " : "") + (plain ? word : quoted + "'");
-  }
+  for (int k = 0; k < count; ++k) out += (k ? " " : "") + shell_text(arguments[k]);
   return out;
 }
 
@@ -258,7 +254,7 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
   RawOptions raw;
   Commands commands(raw);
   if (count < 2) {
-    fmt::print(stderr, "{}", commands.app.help());
+    complain("{}", commands.app.help());
     return {std::nullopt, kExitWrongInput};
   }
   const std::string first = arguments[1];
@@ -282,7 +278,7 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
     return {std::nullopt, 0};
   }
   CommandLine line = make_line(commands, raw);
-  line.text = shell_text(count, arguments);
+  line.text = command_text(count, arguments);
   return {line, 0};
 }
 

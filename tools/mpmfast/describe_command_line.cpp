@@ -70,7 +70,7 @@ the run failed; the message says step, time, particle, body, place and cause, an
 a file could not be read or written
 .TP
 129, 130, 143
-stopped by SIGINT, SIGTERM or SIGHUP after a step; \fBmpmfast resume\fR goes on
+stopped by SIGHUP, SIGINT or SIGTERM after a step; \fBmpmfast resume\fR goes on
 .SH FILES
 An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.json\fR (figures and warnings),
 \fIhistory.csv\fR, \fIparticles.pvd\fR (opens in ParaView), \fIcheckpoint.h5\fR and pictures.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "commands.hpp"
+#include "complain.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/schema/write_schema.hpp"
 #include "engine/scene/suggest.hpp"
@@ -57,8 +58,8 @@ int list_command(const CommandLine& line) {
     for (const auto& [name, text] : sections)
       if (std::find(topics.begin(), topics.end(), name) == topics.end()) known.push_back(name);
     const std::string hint = did_you_mean(line.topic, known);
-    fmt::print(stderr, "mpmfast: nothing to list under '{}' (one of {}){}\n", line.topic,
-               fmt::join(known, ", "), hint.empty() ? "" : ". " + hint);
+    complain("mpmfast: nothing to list under '{}' (one of {}){}\n", line.topic, fmt::join(known, ", "),
+             hint.empty() ? "" : ". " + hint);
     return kExitWrongInput;
   }
   for (const std::string& topic : topics) {

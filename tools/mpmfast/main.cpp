@@ -1,5 +1,6 @@
 /// @file The command line. Every way to end, and its exit code, is here (design §3).
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -42,9 +43,17 @@ int perform(const CommandLine& line) {
   return kExitWrongInput;
 }
 
-int perform_and_report(const CommandLine& line) {
+/// A stream that is closed would lend its number to the next file that is opened, the history of a run say,
+/// and messages would go there. What holds the number instead takes none.
+void hold_closed_streams() {
+  for (int stream = 0; stream < 3; ++stream)
+    if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
+}
+
+int perform_and_report(int count, char** arguments) {
   try {
-    return perform(line);
+    const ParsedCommandLine parsed = parse_command_line(count, arguments);
+    return parsed.line ? perform(*parsed.line) : parsed.exit_code;
   } catch (const SceneError& error) {
     const std::size_t count = error.diagnostics().size();
     complain("{}\n{} error{}\n", error.what(), count, count == 1 ? "" : "s");
@@ -70,10 +79,10 @@ int perform_and_report(const CommandLine& line) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  hold_closed_streams();
   wait_quietly(arguments);
-  const ParsedCommandLine parsed = parse_command_line(count, arguments);
-  const int code = parsed.line ? perform_and_report(*parsed.line) : parsed.exit_code;
-  if (code == 0 && std::fflush(stdout) != 0) {
+  const int code = perform_and_report(count, arguments);
+  if (code == 0 && (std::fflush(stdout) != 0 || std::ferror(stdout))) {
     complain("mpmfast: the output could not be written\n");
     return kExitFile;
   }

@@ -8,9 +8,11 @@
 #include <system_error>
 
 #include "commands.hpp"
+#include "complain.hpp"
 #include "engine/output/files.hpp"
 #include "engine/scene/suggest.hpp"
 #include "exit_codes.hpp"
+#include "shell_text.hpp"
 #include "starters.hpp"
 
 namespace mpmfast {
@@ -20,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int refuse(const std::string& what) {
-  fmt::print(stderr, "mpmfast: {}\n", what);
+  complain("mpmfast: {}\n", what);
   return kExitWrongInput;
 }
 
@@ -64,8 +66,8 @@ int new_command(const CommandLine& line) {
     return refuse(fmt::format("{} exists (--force replaces it)", file->string()));
   write_aside(*file, starter->text);
   fmt::print("{}\n", file->string());
-  fmt::print("to see its plan  mpmfast check {}\nto run it        mpmfast run {}\n", file->string(),
-             file->string());
+  fmt::print("to see its plan  mpmfast check {}\nto run it        mpmfast run {}\n",
+             shell_text(file->string()), shell_text(file->string()));
   return 0;
 }
 

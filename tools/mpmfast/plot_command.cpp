@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "commands.hpp"
-#include "engine/output/files.hpp"
+#include "complain.hpp"
 #include "exit_codes.hpp"
 #include "plot_files.hpp"
 #include "plot_history.hpp"
@@ -13,12 +13,11 @@ namespace mpmfast {
 
 int plot_command(const CommandLine& line) {
   if (const std::string wrong = contradiction(line); !wrong.empty()) {
-    fmt::print(stderr, "mpmfast: {}\n", wrong);
+    complain("mpmfast: {}\n", wrong);
     return kExitWrongInput;
   }
   for (const std::string& folder : line.folders) check_run_folder(folder);
   const PlotFiles files = plot_files(line);
-  make_folder(files.folder);
   const bool particles = asks_for_particles(line);
   if (particles && line.columns.empty()) return plot_particles(line, files);
   const int code = plot_history(line, files);

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <iterator>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include "complain.hpp"
+#include "engine/output/files.hpp"
+#include "engine/output/output.hpp"
 #include "exit_codes.hpp"
 #include "tools/study/column_names.hpp"
 #include "tools/study/handy_units.hpp"
@@ -33,6 +37,14 @@ constexpr UsualChart kUsual[] = {
     {"plot_force", "Force", "N", ".force_"},
 };
 constexpr UsualChart kStressStrain{"plot_stress_strain", "Mean stress against strain", "Pa", ".mean_stress_"};
+/// A run that replaces this one removes its charts by their names.
+constexpr bool is_known(const char* stem) {
+  return std::find(kChartStems.begin(), kChartStems.end(), std::string_view(stem)) != kChartStems.end();
+}
+constexpr const char* kOwnStem = "plot_columns";
+static_assert(std::all_of(std::begin(kUsual), std::end(kUsual),
+                          [](const UsualChart& chart) { return is_known(chart.stem); }) &&
+              is_known(kStressStrain.stem) && is_known(kOwnStem));
 constexpr std::size_t kMostCurves = 16;  // more cannot be told apart: then those of all bodies together
 
 bool matches(const std::string& name, const std::string& part) {
@@ -73,7 +85,7 @@ std::vector<RunHistory> read_histories(const std::vector<std::string>& folders) 
   std::vector<RunHistory> out;
   for (const std::string& folder : folders)
     out.push_back({folder, fs::absolute(fs::path(folder) / "").lexically_normal().parent_path().filename(),
-                   read_table(fs::path(folder) / "history.csv")});
+                   read_table(fs::path(folder) / "history.csv", Unended::torn)});
   const auto is_taken = [&](const std::string& name) {
     return std::count_if(out.begin(), out.end(), [&](const RunHistory& run) { return run.name == name; }) > 1;
   };
@@ -86,7 +98,7 @@ std::vector<RunHistory> read_histories(const std::vector<std::string>& folders) 
 std::optional<Expression> read_expression(const std::string& option, const std::string& text,
                                           const std::vector<RunHistory>& runs) {
   const auto refuse = [&](const std::string& why, const std::string& hint) {
-    fmt::print(stderr, "mpmfast: {}: {}, got '{}'{}\n", option, why, text, hint.empty() ? "" : ". " + hint);
+    complain("mpmfast: {}: {}, got '{}'{}\n", option, why, text, hint.empty() ? "" : ". " + hint);
   };
   // A column that is no name of an expression, such as left-block.vx, is meant as it stands.
   const auto parsed = Expression::parse(runs[0].table.find(text) ? "`" + text + "`" : text);
@@ -169,7 +181,7 @@ class Plot {
                         : ChartFiles{files_.folder, picture.stem(), picture.extension().string().substr(1)};
     const std::string why_not = draw_line_chart(where, chart);
     if (!why_not.empty()) {
-      fmt::print(stderr, "mpmfast: {}\n", why_not);
+      complain("mpmfast: {}\n", why_not);
       return false;
     }
     fmt::print("chart            {}\n", files_.at(stem + ".png").string());
@@ -198,10 +210,11 @@ int plot_history(const CommandLine& line, const PlotFiles& files) {
   for (const std::string& text : line.columns)
     if (const auto column = read_expression("--columns", text, runs)) columns.push_back(*column);
   if (!x || columns.size() < line.columns.size()) return kExitWrongInput;
+  make_folder(files.folder);
   const Plot plot(runs, files, *x);
   if (!columns.empty()) {
     const std::string title = line.title.empty() ? "History" : line.title;
-    return plot.draw("plot_columns", title, common_unit(columns), columns) ? 0 : kExitFile;
+    return plot.draw(kOwnStem, title, common_unit(columns), columns) ? 0 : kExitFile;
   }
   bool all = true;
   for (const UsualChart& chart : kUsual) all = plot.draw(chart) && all;

@@ -11,8 +11,10 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "complain.hpp"
 #include "engine/errors.hpp"
 #include "engine/output/animated_png.hpp"
+#include "engine/output/files.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/read_frame.hpp"
@@ -28,7 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 int refuse(const std::string& option, const std::string& why, const std::string& hint = "") {
-  fmt::print(stderr, "mpmfast: {}: {}{}\n", option, why, hint.empty() ? "" : ". " + hint);
+  complain("mpmfast: {}: {}{}\n", option, why, hint.empty() ? "" : ". " + hint);
   return kExitWrongInput;
 }
 
@@ -42,7 +44,15 @@ std::optional<std::size_t> frame_index(const std::string& text, std::size_t coun
   return index;
 }
 
-/// "LOW:HIGH", each with a unit of the field or in SI.
+/// What follows the number: "MPa" of "3 MPa".
+std::string unit_in(const std::string& text) {
+  for (std::size_t end = text.size(); end > 0; --end)
+    if (std::holds_alternative<double>(parse_quantity(text.substr(0, end), Measure::number)))
+      return text.substr(end);
+  return "";
+}
+
+/// "LOW:HIGH", each with a unit of the field or in SI; a bare LOW has the unit of HIGH.
 std::optional<Range> read_range(const std::string& text, const std::string& unit) {
   const Measure measure = unit == "Pa"    ? Measure::pressure
                           : unit == "m/s" ? Measure::velocity
@@ -50,8 +60,10 @@ std::optional<Range> read_range(const std::string& text, const std::string& unit
                                           : Measure::number;
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) return std::nullopt;
-  const auto lower = parse_quantity(text.substr(0, colon), measure),
-             upper = parse_quantity(text.substr(colon + 1), measure);
+  const std::string low = text.substr(0, colon), high = text.substr(colon + 1);
+  const bool bare = std::holds_alternative<double>(parse_quantity(low, Measure::number));
+  const auto lower = parse_quantity(bare ? low + unit_in(high) : low, measure),
+             upper = parse_quantity(high, measure);
   if (!std::holds_alternative<double>(lower) || !std::holds_alternative<double>(upper)) return std::nullopt;
   const Range range{std::get<double>(lower), std::get<double>(upper)};
   return range.lower < range.upper ? std::optional(range) : std::nullopt;
@@ -85,37 +97,47 @@ class ParticlePlot {
                std::vector<SeriesFrame> frames)
       : line_(line), files_(files), scene_(scene), series_(scene, std::move(frames)) {}
 
-  /// One picture of one frame, or the animation of all.
-  int draw(const std::string& field) {
-    std::optional<Range> colours;
-    if (!line_.range.empty()) {
+  /// Is what was asked for there? Says what is not.
+  int check(const std::vector<std::string>& fields) const {
+    if (!line_.frame.empty() && !frame_index(line_.frame, series_.size()))
+      return refuse("--frame", fmt::format("not a frame of this run (first, last or 0 to {}), got '{}'",
+                                           series_.size() - 1, line_.frame));
+    for (const std::string& field : fields) {
       const FieldValues values = field_values(Particles<Dim>(), scene_, field);
-      colours = values.names ? std::nullopt : read_range(line_.range, values.unit);
-      if (!colours)
+      if (!line_.range.empty() && !colours_of(values))
         return refuse(
             "--range",
             fmt::format("not LOW:HIGH for {} ({}), such as 0:5, got '{}'", values.label,
                         values.unit.empty() ? "which has names, not numbers" : values.unit, line_.range));
     }
-    return line_.frame.empty() ? animate(field, colours) : draw_frame(field, colours);
-  }
-
- private:
-  int draw_frame(const std::string& field, std::optional<Range> colours) {
-    const auto k = frame_index(line_.frame, series_.size());
-    if (!k)
-      return refuse("--frame", fmt::format("not a frame of this run (first, last or 0 to {}), got '{}'",
-                                           series_.size() - 1, line_.frame));
-    const Particles<Dim> particles = series_.read(*k);
-    Framing framing = framing_of(particles, scene_, field);
-    if (colours) framing.values = colours;
-    const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, *k));
-    paint_particles(particles, scene_, field, series_.time(*k), framing).write_png(path);
-    fmt::print("picture          {}\n", path.string());
     return 0;
   }
 
-  int animate(const std::string& field, std::optional<Range> colours) {
+  /// One picture of one frame, or the animation of all.
+  void draw(const std::string& field) {
+    const auto colours = colours_of(field_values(Particles<Dim>(), scene_, field));
+    if (const auto k = frame_index(line_.frame, series_.size()))
+      draw_frame(field, *k, colours);
+    else
+      animate(field, colours);
+  }
+
+ private:
+  std::optional<Range> colours_of(const FieldValues& values) const {
+    if (line_.range.empty() || values.names) return std::nullopt;
+    return read_range(line_.range, values.unit);
+  }
+
+  void draw_frame(const std::string& field, std::size_t k, std::optional<Range> colours) {
+    const Particles<Dim> particles = series_.read(k);
+    Framing framing = framing_of(particles, scene_, field);
+    if (colours) framing.values = colours;
+    const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, k));
+    paint_particles(particles, scene_, field, series_.time(k), framing).write_png(path);
+    fmt::print("picture          {}\n", path.string());
+  }
+
+  void animate(const std::string& field, std::optional<Range> colours) {
     Framing framing;
     for (std::size_t k = 0; k < series_.size(); ++k)
       framing.include(framing_of(series_.read(k), scene_, field));
@@ -129,7 +151,6 @@ class ParticlePlot {
     const fs::path path = files_.at(fmt::format("plot_{}.png", field));
     animation->write(path);
     fmt::print("animation        {} ({} frames; opens in a browser)\n", path.string(), series_.size());
-    return 0;
   }
 
   static constexpr int kRate = 8;  ///< frames a second
@@ -154,8 +175,9 @@ int plot_fields(const CommandLine& line, const PlotFiles& files, const Scene& sc
     if (first.size() > 0 && lacks(field_values(first, scene, field)))
       return refuse("--field", fmt::format("the particles of this run have no {}", field));
   ParticlePlot<Dim> plot(line, files, scene, std::move(frames));
-  for (const std::string& field : fields)
-    if (const int code = plot.draw(field); code != 0) return code;
+  if (const int code = plot.check(fields); code != 0) return code;
+  make_folder(files.folder);
+  for (const std::string& field : fields) plot.draw(field);
   return 0;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/step/run.hpp"
 #include "exit_codes.hpp"
 #include "progress_display.hpp"
+#include "shell_text.hpp"
 #include "signals.hpp"
 
 namespace mpmfast {
@@ -54,7 +55,7 @@ void print_files(const fs::path& folder) {
   const fs::path series = folder / "particles.pvd";
   if (fs::exists(series, error)) fmt::print("particles        {}\n", series.string());
   fmt::print("output           {}\n", folder.string());
-  fmt::print("report           mpmfast report {}\n", folder.string());
+  fmt::print("report           mpmfast report {}\n", shell_text(folder.string()));
 }
 
 void print_summary(const RunSummary& summary, const fs::path& folder) {
@@ -74,7 +75,7 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
   print_files(folder);
   std::error_code error;
   if (summary.status == "stopped" && fs::exists(folder / "checkpoint.h5", error))
-    fmt::print("to go on         mpmfast resume {}\n", folder.string());
+    fmt::print("to go on         mpmfast resume {}\n", shell_text(folder.string()));
 }
 
 /// What a run that failed has left.
@@ -86,9 +87,9 @@ void print_remains(const fs::path& folder) {
   complain("kept             {}: the history, pictures and particles so far\n", folder.string());
   if (remains("failed.vtu"))
     complain("the place        {}: the particles around it\n", (folder / "failed.vtu").string());
-  complain("report           mpmfast report {}\n", folder.string());
+  complain("report           mpmfast report {}\n", shell_text(folder.string()));
   if (remains("checkpoint.h5"))
-    complain("to go on         mpmfast resume {} (from the last checkpoint)\n", folder.string());
+    complain("to go on         mpmfast resume {} (from the last checkpoint)\n", shell_text(folder.string()));
 }
 
 /// Reads the scene and says what in it is likely a mistake.

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <csignal>
 
 #include "commands.hpp"
+#include "complain.hpp"
 #include "exit_codes.hpp"
 #include "progress_display.hpp"
 #include "signals.hpp"
@@ -28,13 +30,18 @@ StudyOptions options_of(const CommandLine& line, ProgressDisplay& display) {
   const bool quiet = line.progress == ProgressStyle::none;
   options.progress = [&display](const Progress& progress) { display.show(progress); };
   options.starting = [quiet](const StudyRun& run, std::size_t index, std::size_t count) {
-    if (!quiet) fmt::print(stderr, "[{}/{}] {}\n", index, count, run.name);
+    if (!quiet) complain("[{}/{}] {}\n", index, count, run.name);
   };
   options.ended = [&display, quiet](const StudyRun&, const std::string& note) {
     display.finish();
-    if (!quiet) fmt::print(stderr, "    {}\n", note);
+    if (!quiet) complain("    {}\n", note);
   };
   return options;
+}
+
+auto failures(const StudyResults& results) {
+  return std::count_if(results.variants.begin(), results.variants.end(),
+                       [](const StudyResult& result) { return result.status == "failed"; });
 }
 
 }  // namespace
@@ -45,9 +52,8 @@ int study_command(const CommandLine& line) {
   ProgressDisplay display(line.progress);
   const StudyOptions options = options_of(line, display);
   if (!may_hold_study(options.folder)) {
-    fmt::print(stderr,
-               "mpmfast: the output folder {} holds something else than a study (--out DIR names another)\n",
-               options.folder.string());
+    complain("mpmfast: the output folder {} holds something else than a study (--out DIR names another)\n",
+             options.folder.string());
     return kExitWrongInput;
   }
   check_programs(study);
@@ -60,8 +66,13 @@ int study_command(const CommandLine& line) {
   fmt::print("{}\nruns             {} now, {} kept{}\noutput           {}\n",
              study.map ? map_overview(study, runs, results) : study_table(study, runs, results), progress.ran,
              progress.kept, progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
-  for (const std::string& why : missing) fmt::print(stderr, "mpmfast: {}\n", why);
-  return progress.stopped ? kExitSignal + *stop_signal() : 0;
+  if (const auto failed = failures(results); failed > 0)
+    fmt::print("failed           {} of {} variants (study.csv says why)\n", failed, results.variants.size());
+  for (const std::string& why : missing) complain("mpmfast: {}\n", why);
+  if (!progress.stopped) return 0;
+  const int signal = *stop_signal();
+  return kExitSignal +
+         (signal != 0 ? signal : SIGTERM);  // none came to us: a program of the study was stopped
 }
 
 }  // namespace mpmfast

@@ -243,12 +243,13 @@ Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int 
       notices.push_back("No particle file could be read, so there is no view of the particles.");
       return nullptr;
     }
+    const std::size_t shown = survey.frames.size();
     FramePacker packer(std::move(survey), scene, dimension);
     if (packer.least_bytes() > limits.bytes && chosen.size() > few) continue;
     notices.insert(notices.end(), own.begin(), own.end());
     if (chosen.size() < all.size())
       notices.push_back(
-          fmt::format("{} of {} frames are shown, to keep this page small.", chosen.size(), all.size()));
+          fmt::format("{} of {} frames are shown, to keep this page small.", shown, all.size()));
     if (particle_stride > 1)
       notices.push_back(
           fmt::format("One of {} particles is shown, to keep this page small.", particle_stride));

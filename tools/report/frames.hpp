@@ -31,8 +31,8 @@ struct FrameLimits {
   std::size_t values = 7'000'000;  ///< particles x frames: beyond, frames and then particles are left out
 };
 
-/// Reads the frames and describes them as the page expects it (view_data.js); null where there are none, with
-/// the reason in `notices`. A frame that cannot be read is left out, with a notice.
+/// Reads the frames and describes them as the page expects it (page/frames.js); null where there are none,
+/// with the reason in `notices`. A frame that cannot be read is left out, with a notice.
 /// @param scene  for names and the shapes of particles; nothing where it could not be read
 nlohmann::ordered_json pack_frames(const std::filesystem::path& folder, const std::optional<Scene>& scene,
                                    int dimension, const FrameLimits& limits, Chunks& chunks,

@@ -184,7 +184,7 @@ ReportResult write_report(const fs::path& folder, const fs::path& html) {
   check_folder(folder);
   ReportResult result;
   Chunks chunks;
-  const Table history = read_table(folder / "history.csv");
+  const Table history = read_table(folder / "history.csv", Unended::torn);
   const std::optional<Scene> scene = read_names(folder, result.notices);
   const std::string scene_text = read_text(folder / "scene.yaml");
   Json json;

@@ -185,6 +185,8 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
   const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
   const auto resolution = resolution_axis(runs);
   const ChartPoints points = collect(runs, results, cost, percent, resolution);
+  if (points.groups.empty())
+    return fmt::format("no chart of the error against {}: no variant has an error", name_of(kCosts, cost));
   Points line;
   for (const auto& [x, y] : points.front) line.add(x, y);
   std::string data = gnuplot_data("front", line.x, line.y);

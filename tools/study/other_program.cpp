@@ -25,8 +25,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Exit statuses of the command line.
-constexpr std::array<std::pair<int, const char*>, 4> kEndings{
-    {{0, "finished"}, {3, "failed"}, {130, "stopped"}, {143, "stopped"}}};
+constexpr std::array<std::pair<int, const char*>, 5> kEndings{
+    {{0, "finished"}, {3, "failed"}, {129, "stopped"}, {130, "stopped"}, {143, "stopped"}}};
 
 /// @return the exit status, 128 + N after signal N
 int wait_for(pid_t child) {

@@ -35,7 +35,7 @@ Reference read_reference(const Value& value, const Study& study) {
     out.kind = Reference::Kind::table;
     if (const auto file = table->text()) {
       try {
-        out.table = read_table(study.file.parent_path() / *file);
+        out.table = read_table(study.file.parent_path() / *file, Unended::whole);
       } catch (const FileError& error) {
         table->report(error.what());
       }
@@ -114,6 +114,13 @@ std::vector<QuantitySpec> read_quantities(const Value& value) {
   return out;
 }
 
+/// Error against the first cost is study.svg, against another one study_COST.svg.
+bool is_cost_chart(const std::string& name) {
+  return name == "study" || std::any_of(kCosts.begin(), kCosts.end(), [&](const auto& cost) {
+           return name == fmt::format("study_{}", name_of(kCosts, cost.value));
+         });
+}
+
 std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& axes) {
   std::vector<CurveSpec> out;
   if (!list.is(Node::Kind::list)) {
@@ -126,7 +133,7 @@ std::vector<CurveSpec> read_curves(const Value& list, const std::vector<Axis>& a
     CurveSpec curve;
     const auto name = map.need("name", "the name of the picture");
     if (name) curve.name = name->name().value_or("");
-    if (name && (!names.insert(curve.name).second || curve.name == "study" || curve.name == "error"))
+    if (name && (!names.insert(curve.name).second || is_cost_chart(curve.name)))
       name->complain("is taken by another file of the study");
     map.need("y", "a column of history.csv or an expression of columns");
     read_formula(map, "x", curve.x);

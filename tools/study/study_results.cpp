@@ -107,7 +107,7 @@ void measure(const Study& study, const StudyRuns& runs, const StudyRun& run, con
 
 void judge(const Study& study, const StudyRun& run, const fs::path& folder, StudyResult& result) {
   if (study.conditions.empty()) return;
-  const Table history = read_table(folder / run.folder / "history.csv");
+  const Table history = read_table(folder / run.folder / "history.csv", Unended::torn);
   double share = 0;
   for (const Condition& condition : study.conditions) {
     result.judged.emplace_back();
@@ -136,7 +136,7 @@ double over_rows(Over over, const std::vector<double>& values) {
 /// The quantities, and how far the run got where no error says so.
 void tabulate(const Study& study, const StudyRun& run, const fs::path& folder, StudyResult& result) {
   if (study.error && study.quantities.empty()) return;
-  const Table history = read_table(folder / run.folder / "history.csv");
+  const Table history = read_table(folder / run.folder / "history.csv", Unended::torn);
   for (const QuantitySpec& one : study.quantities)
     result.quantities.push_back(over_rows(one.over, evaluate(one.quantity->expression, history, run.let)));
   if (study.error) return;
@@ -193,7 +193,7 @@ bool holds(const StudyResult& result) {
 }
 
 Curve history_curve(const StudyRun& run, const fs::path& folder, const Expression& x, const Expression& y) {
-  const Table table = read_table(folder / run.folder / "history.csv");
+  const Table table = read_table(folder / run.folder / "history.csv", Unended::torn);
   return {evaluate(x, table, run.let), evaluate(y, table, run.let)};
 }
 

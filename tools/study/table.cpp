@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <string_view>
 
 #include "engine/errors.hpp"
 
@@ -37,8 +38,9 @@ std::vector<std::string> split_cells(const std::string& line) {
 double number_of(std::string cell, const std::string& where) {
   cell.erase(0, cell.find_first_not_of(' '));
   while (!cell.empty() && cell.back() == ' ') cell.pop_back();
+  const bool plus = cell.size() > 1 && cell[0] == '+' && cell[1] != '-';  // from_chars takes no plus
   double value = 0;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  const auto [end, error] = std::from_chars(cell.data() + (plus ? 1 : 0), cell.data() + cell.size(), value);
   if (error != std::errc() || end != cell.data() + cell.size() || cell.empty())
     throw FileError(fmt::format("{}: not a number, got '{}'", where, cell));
   return value;
@@ -51,12 +53,15 @@ const std::vector<double>* Table::find(const std::string& name) const {
   return at == names.end() ? nullptr : &columns[static_cast<std::size_t>(at - names.begin())];
 }
 
-Table read_table(const std::filesystem::path& file) {
+Table read_table(const std::filesystem::path& file, Unended last) {
   std::error_code error;
   std::ifstream stream(file, std::ios::binary);
   if (!std::filesystem::is_regular_file(file, error) || !stream)  // a device may never end
     throw FileError(fmt::format("{}: cannot read the table", file.string()));
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
+    text.erase(0, kByteOrderMark.size());
+  if (last == Unended::whole && !text.empty() && text.back() != '\n') text += '\n';
   Table table;
   std::size_t line = 0, first = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', first)) {

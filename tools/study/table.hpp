@@ -20,9 +20,12 @@ struct Table {
   const std::vector<double>* find(const std::string& name) const;
 };
 
-/// Reads a CSV file with a header (cells may be quoted). A last line without its end, which a kill leaves, is
-/// left out. Throws FileError.
-Table read_table(const std::filesystem::path& file);
+/// A last line that does not end: one like the others in a table that a person wrote, torn in the history of
+/// a run that goes on or was killed.
+enum class Unended { whole, torn };
+
+/// Reads a CSV file with a header (cells may be quoted). A torn line is left out. Throws FileError.
+Table read_table(const std::filesystem::path& file, Unended last);
 
 /// Names that an expression may use beside the columns.
 using Constants = std::map<std::string, double>;

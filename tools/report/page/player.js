@@ -95,6 +95,7 @@ class Player {
     const last = this.frames.times[this.frames.times.length - 1], unit = displayUnit(last, 's'), digits = Math.max(0, 3 - Math.ceil(Math.log10(last / unit.size || 1)));
     this.time.textContent = `${(this.frames.times[frame] / unit.size).toFixed(digits)} ${unit.name} \u00b7 ${frame + 1}/${this.frames.times.length}`;
     if (recolour && this.range === 'frame' && this.column) return this.colour();
+    this.note();
     if (!this.view) return;
     const n = this.frames.count;
     if (this.column) {
@@ -107,7 +108,6 @@ class Player {
     for (let i = 0; i < n; ++i) if (!this.bodies.shows(this.frames.bodies[i])) this.pixels[i] = 0;
     this.view.show(frame, this.pixels);
     this.hover();
-    this.note();
   }
 
   toggle() {
@@ -178,9 +178,9 @@ class Player {
     const notes = [...report.notices], places = this.frames.axes[0].rounding();
     const field = this.column ? `, ${fieldLabel(this.fieldName)} within ${this.column.table ? 'at most ' : ''}${valueText(this.column.rounding(), this.column.unit, 2)}` : '';
     notes.push(`Rounded for this page: places within ${valueText(places, 'm', 2)}${field}. The particle files hold all digits.`);
-    notes.push(this.frames.dimension === 3 ? 'Balls have the volume that a particle began with. Drag to turn, shift-drag to move, wheel to zoom.' :
+    if (this.view) notes.push(this.frames.dimension === 3 ? 'Balls have the volume that a particle began with. Drag to turn, shift-drag to move, wheel to zoom.' :
       'Drag to move, wheel to zoom, space to play, arrow keys for single frames.');
-    if (!this.bodies.root.hidden) notes.push('A click on the name of a body hides it or shows it again, a double click shows it alone.');
+    if (this.view && !this.bodies.root.hidden) notes.push('A click on the name of a body hides it or shows it again, a double click shows it alone.');
     this.notes.replaceChildren(...notes.map(text => element('li', {}, text)));
   }
 }
