@@ -16,9 +16,8 @@ const char* cure_of_drift(const RunSummary& summary) {
   if (summary.energy_error > 0)
     return "noise grows; a smaller time.cfl, or method.position: grid_end, may help";
   if (summary.averaged_strain)
-    return "method.strain: first keeps what bodies of few cells lose as they vibrate, bounce or spin; if "
-           "that is not it, "
-           "smaller cells";
+    return "the averaged strain takes energy from bodies of few cells that vibrate, bounce or spin: set "
+           "method.strain: first; if it still drifts, smaller cells";
   return "the method took it; smaller cells, or another method.update, may help";
 }
 

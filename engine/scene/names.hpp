@@ -170,6 +170,12 @@ inline constexpr std::array<Word<bool>, 2> kWallKinds{{
     {true, "held", "it also holds sideways"},
 }};
 
+/// Does a wall hold its plane where that cuts a cell?
+inline constexpr std::array<Word<bool>, 2> kWallPlaces{{
+    {false, "nodes", "the nodes at and beyond its plane"},
+    {true, "plane", "its plane, where that cuts a cell"},
+}};
+
 /// Do particles lie on rings?
 inline constexpr std::array<Word<bool>, 2> kSeedings{{
     {false, "lattice", "on the grid's lattice, of a box on one of its own (default)"},

@@ -72,7 +72,7 @@ class BoundaryReader {
     add(face.name, value, wall);
   }
 
-  /// {piston: speed, direction, held, position} or {wall: held | sliding, position}.
+  /// {piston: speed, direction, held, position, at} or {wall: held | sliding, position, at}.
   void read_wall_map(const FaceName& face, const Value& value, WallSpec wall) {
     MapReader map(value);
     const auto piston = map.find("piston");
@@ -94,6 +94,7 @@ class BoundaryReader {
       wall.position = position->quantity(Measure::length).value_or(wall.position);
       check_position(face, *position, wall.position);
     }
+    if (const auto at = map.find("at")) wall.at_plane = at->word(kWallPlaces).value_or(false);
     map.finish();
     add(face.name, value, wall);
   }

@@ -1,3 +1,6 @@
+#include <fmt/format.h>
+
+#include <cctype>
 #include <charconv>
 
 #include "engine/scene/sections.hpp"
@@ -8,6 +11,20 @@ namespace mpmfast {
 namespace {
 
 constexpr int kLeastOrder = 2, kMostOrder = 20;
+
+/// "XPIC 5" → "Did you mean 'xpic(5)'?": letters and digits tell, whatever stands between.
+std::string meant_update(const std::string& text) {
+  const std::vector<std::string> known{"flip", "pic", "apic", "xpic", "fmpm"};
+  std::string letters, digits;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (std::isalpha(byte)) letters += static_cast<char>(std::tolower(byte));
+    if (std::isdigit(byte)) digits += c;
+  }
+  if ((letters == "xpic" || letters == "fmpm") && !digits.empty())
+    return fmt::format("Did you mean '{}({})'?", letters, digits);
+  return did_you_mean(letters, known);
+}
 
 /// flip, pic, apic, xpic(m) or fmpm(m).
 void read_update(const Value& value, MethodSpec& method) {
@@ -33,10 +50,7 @@ void read_update(const Value& value, MethodSpec& method) {
     return;
   }
   const std::string name = text.substr(0, text.find('('));
-  if (name != "xpic" && name != "fmpm") {
-    const std::vector<std::string> known{"flip", "pic", "apic", "xpic", "fmpm"};
-    return value.complain(kExpected, did_you_mean(name, known));
-  }
+  if (name != "xpic" && name != "fmpm") return value.complain(kExpected, meant_update(text));
   int order = 0;
   const char* const first = text.data() + name.size() + 1;
   const bool closed = text.size() > name.size() + 2 && text.back() == ')';

@@ -216,6 +216,7 @@ struct WallSpec {
   double position = 0;  ///< m, at time 0
   TimeTable speed;      ///< m/s along +axis; the plane moves with it
   bool held = false;    ///< also fixes the tangential velocity
+  bool at_plane = false;  ///< holds its plane where that cuts a cell; else the nodes at and beyond it
 };
 /// Prescribed velocity along one direction at every node inside a box.
 struct VelocityBoxSpec {

@@ -52,6 +52,7 @@ class Suspicions {
         friction(scene_.contact.pairs[k].law.friction, fmt::format("contact.pairs.{}.friction", k));
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
+    falls();
   }
 
  private:
@@ -226,6 +227,32 @@ class Suspicions {
     if (steps > kMostSteps)
       say("time.end", fmt::format("about {:.2g} steps of {:.2g} s", steps, end / steps),
           "Is the time in the right unit?");
+  }
+
+  /// Gravity towards a face without a wall, and nothing else that could hold what falls.
+  void falls() {
+    const Vec3& gravity = scene_.gravity.acceleration;
+    int axis = 0;
+    for (int d = 1; d < scene_.dimension(); ++d)
+      if (std::abs(gravity[static_cast<std::size_t>(d)]) > std::abs(gravity[static_cast<std::size_t>(axis)]))
+        axis = d;
+    const double pull = gravity[static_cast<std::size_t>(axis)];
+    if (pull == 0) return;
+    const bool held =
+        std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(), [&](const auto& boundary) {
+          const auto* wall = std::get_if<WallSpec>(&boundary.condition);
+          return !wall || wall->held || (wall->axis == axis && wall->upper == (pull > 0));
+        });
+    const bool rigid = std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& body) {
+      return speed_[static_cast<std::size_t>(body.material)] == 0;
+    });
+    if (held || rigid) return;
+    constexpr const char* kFaces[3][2] = {{"left", "right"}, {"bottom", "top"}, {"back", "front"}};
+    const char* const face = kFaces[axis][pull > 0];
+    say("gravity",
+        fmt::format("it pulls towards the {} face ({} {}), which is free, and no body is rigid", face,
+                    pull > 0 ? "upper" : "lower", "xyz"[axis]),
+        fmt::format("boundaries: {{{}: wall}}", face));
   }
 
   void friction(double coefficient, const std::string& path) {

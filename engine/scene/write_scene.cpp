@@ -230,9 +230,11 @@ struct BoundaryText {
   std::string operator()(const WallSpec& wall) const {
     const std::string position = quantity_text(wall.position, Measure::length);
     const bool still = wall.speed.time.size() == 1 && wall.speed.time[0] == 0 && wall.speed.value[0] == 0;
-    if (still) return fmt::format("{{wall: {}, position: {}}}", wall.held ? "held" : "sliding", position);
-    return fmt::format("{{piston: {}, direction: {}, held: {}, position: {}}}", table_text(wall.speed),
-                       "xyz"[wall.axis], wall.held, position);
+    const std::string at = std::string(name_of(kWallPlaces, wall.at_plane));
+    if (still)
+      return fmt::format("{{wall: {}, position: {}, at: {}}}", wall.held ? "held" : "sliding", position, at);
+    return fmt::format("{{piston: {}, direction: {}, held: {}, position: {}, at: {}}}",
+                       table_text(wall.speed), "xyz"[wall.axis], wall.held, position, at);
   }
   std::string operator()(const VelocityBoxSpec& box) const {
     return fmt::format("{{box: {{from: {}, to: {}}}, direction: {}, speed: {}}}",

@@ -69,7 +69,9 @@ void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
     const int row =
         static_cast<int>(wall->upper ? std::ceil(cells - kRowTolerance) : std::floor(cells + kRowTolerance));
     const double beyond = std::abs(row - cells);
-    const double cut = beyond < 2 * kRowTolerance ? 1 : std::max(thinnest(scene_->method.basis), 1 - beyond);
+    const double cut = !wall->at_plane || beyond < 2 * kRowTolerance
+                           ? 1
+                           : std::max(thinnest(scene_->method.basis), 1 - beyond);
     stale_ |= row != row_[b] || (cut < 1) != (cut_[b] < 1);
     row_[b] = row;
     cut_[b] = cut;

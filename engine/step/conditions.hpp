@@ -20,10 +20,10 @@ namespace mpmfast {
 ///
 /// A wall takes the nodes at and beyond its plane alone. Nodes beyond it carry little mass and would
 /// otherwise be thrown by the full force of the particles at the wall; held at the wall's velocity, they
-/// cannot. Where the plane cuts a cell, what moves with the wall is the plane: on the rows around it, from
-/// the last one inside, the velocity follows the straight line through u at the plane that takes the least
-/// impulses. To hold the rows beyond it would strain the cut cell as if all of it were filled, and a body
-/// would be pressed by up to a cell less than its wall moved.
+/// cannot. `at: plane` instead: where the plane cuts a cell, on the rows around it, from the last one inside,
+/// the velocity follows the straight line through u at the plane that takes the least impulses. To hold the
+/// rows beyond it strains the cut cell as if all of it were filled, and a body is pressed by up to a cell
+/// less than its wall moved.
 template <int Dim>
 class Conditions {
  public:

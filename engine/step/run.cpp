@@ -376,9 +376,16 @@ std::optional<RunSummary> resume_run(const RunOptions& options) {
   forget_peak_memory();
   const std::filesystem::path path = options.folder / kCheckpointName;
   std::error_code error;
-  if (!std::filesystem::exists(path, error))
+  if (!std::filesystem::is_directory(options.folder, error))
     throw FileError(options.folder.string() +
-                    " holds no checkpoint (output.checkpoint says when one is written)");
+                    (std::filesystem::exists(options.folder, error)
+                         ? " is no folder: what resumes is the output folder of a run"
+                         : ": there is no such folder"));
+  if (!std::filesystem::exists(path, error))
+    throw FileError(
+        options.folder.string() +
+        " holds no checkpoint (the first comes after a minute, or as output.checkpoint says): run the "
+        "scene anew");
   std::optional<CheckpointReader> checkpoint(path);
   const Scene scene = read_scene(options.folder / "scene.yaml");
   const std::optional<RunOrigin> origin = next_origin(scene, options, *checkpoint);

@@ -136,7 +136,7 @@ check_output_folder() {
   local before
   before=$(md5sum runs/scene/run.json)
   run 2 run scene.yaml --steps 2
-  says err 'the output folder runs/scene exists (--force replaces it'
+  says err 'the output folder runs/scene exists (--force replaces a run'
   [[ $(md5sum runs/scene/run.json) == "$before" ]] || fail 'a refused run wrote into the folder'
   run 0 run scene.yaml --steps 2 --force --progress none
   run 0 run runs/scene/scene.yaml --out again --steps 2 --progress none

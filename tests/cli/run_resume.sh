@@ -95,7 +95,7 @@ check_resume() {
   diff -r whole_grid/grid stepped_grid/grid >out && cmp whole_grid/grid.pvd stepped_grid/grid.pvd >>out ||
     fail 'a resumed run has other files of the nodes'
   run 4 resume nowhere
-  says err 'nowhere holds no checkpoint'
+  says err 'nowhere: there is no such folder'
   run 0 run scene.yaml --out spoilt --steps 2 --progress none
   cp spoilt/scene.yaml scene_before.yaml
   sed -i 's/cfl: 0.5/cfl: 0.4/' spoilt/scene.yaml

@@ -111,8 +111,8 @@ TEST_CASE("where the plane of a wall cuts a cell, it is the plane that moves wit
 time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 boundaries:
-  bottom: {piston: 3 m/s, position: 4.4 mm, held: true}
-  right: {wall: sliding, position: 12.3 mm}
+  bottom: {piston: 3 m/s, position: 4.4 mm, held: true, at: plane}
+  right: {wall: sliding, position: 12.3 mm, at: plane}
 )";
   for (const char* update : {"flip", "xpic(3)"}) {
     const std::string method = std::string("method: {update: ") + update + "}\n";

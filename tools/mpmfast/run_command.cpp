@@ -58,9 +58,16 @@ void print_files(const fs::path& folder) {
   fmt::print("report           mpmfast report {}\n", shell_text(folder.string()));
 }
 
+std::string ending(const std::string& reason) {
+  if (reason.empty()) return "";
+  if (reason == "signal") return " by a signal";
+  if (reason == "steps") return " the steps asked for";
+  return ": " + reason;
+}
+
 void print_summary(const RunSummary& summary, const fs::path& folder) {
-  fmt::print("{}{}{} at {}, step {}\n", summary.status, summary.reason.empty() ? "" : ": ", summary.reason,
-             time_text(summary.time), summary.steps);
+  fmt::print("{}{} at {}, step {}\n", summary.status, ending(summary.reason), time_text(summary.time),
+             summary.steps);
   fmt::print("wall time        {:.2f} s on {} thread{}\n", summary.wall, summary.threads,
              summary.threads == 1 ? "" : "s");
   fmt::print("speed            {}particle-steps/s ({} particles, {} fields)\n",
@@ -69,7 +76,7 @@ void print_summary(const RunSummary& summary, const fs::path& folder) {
              static_cast<double>(summary.peak_memory_bytes) / (1024.0 * 1024.0));
   print_passes(summary);
   print_contact(summary.contact);
-  fmt::print("energy error     {:.3g}\n", summary.energy_error);
+  fmt::print("energy error     {:.3g} %\n", 100 * summary.energy_error);
   for (const RunWarning& warning : run_warnings(summary)) fmt::print("warning          {}\n", warning.text);
   fmt::print("checksum         {}\n", summary.checksum);
   print_files(folder);
@@ -147,9 +154,11 @@ int run_command(const CommandLine& line) {
   const Scene scene = read_and_warn(line, options.scene_warnings);
   const fs::path folder = output_folder(line);
   std::error_code error;
-  if (!line.force && fs::exists(fs::symlink_status(folder, error))) {
-    complain("mpmfast: the output folder {} exists (--force replaces it, --out DIR names another)\n",
-             folder.string());
+  const bool empty = fs::is_directory(folder, error) && fs::is_empty(folder, error);
+  if (!line.force && !empty && fs::exists(fs::symlink_status(folder, error))) {
+    complain(
+        "mpmfast: the output folder {} exists (--force replaces a run, --out DIR names another folder)\n",
+        folder.string());
     return kExitWrongInput;
   }
   options.folder = folder;

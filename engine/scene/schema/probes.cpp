@@ -71,8 +71,8 @@ bodies:
   - {bitmap: {file: a.png}, extent: [1, 1]}
 boundaries:
   left: wall
-  right: {wall: held, position: 1 m}
-  top: {piston: 1 m/s, direction: x, held: true, position: 1 m}
+  right: {wall: held, position: 1 m, at: nodes}
+  top: {piston: 1 m/s, direction: x, held: true, position: 1 m, at: plane}
   box: {box: {from: [0, 0], to: [1, 1]}, direction: [1, 0], speed: 0}
   node: {node: [0, 0], direction: x, speed: 0}
 gravity: [0, 0]

@@ -71,9 +71,13 @@ const std::vector<ReferencePart>& parts() {
        List::shapes},
       {"Boundaries",
        "boundaries",
-       "Faces are `left`, `right`, `bottom`, `top` and, in 3-D, `back` and `front`; one that is not named is "
-       "free. "
-       "Other names give nodes their velocity.",
+       "Faces are `left` and `right` (lower and upper x), `bottom` and `top` (y) and, in 3-D, `back` and "
+       "`front` "
+       "(z: the floor is `back` where gravity is along z); one that is not named is free. A wall holds "
+       "velocities "
+       "on the grid and lets nothing go: what comes to it stops up to a cell before it, and stays. For an "
+       "impact "
+       "take a rigid body. Other names give nodes their velocity, in a place that does not move.",
        "boundaries:\n"
        "  bottom: wall\n"
        "  left: {wall: held, position: 2 mm}\n"
