@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string_view>
+#include <variant>
 
 namespace mpmfast {
 
@@ -118,12 +119,35 @@ FieldValues values_of_all(const Particles<Dim>& particles, const Scene& scene, c
       fmt::format("unknown field '{}' (one of {})", field, fmt::join(field_names(Dim), ", ")));
 }
 
+/// A modulus of the material, Pa; 0 where nothing deforms.
+struct Stiffness {
+  double operator()(const LinearElasticSpec& m) const { return m.young; }
+  double operator()(const RigidSpec&) const { return 0; }
+  template <class Model>
+  double operator()(const Model& m) const {
+    return m.shear;
+  }
+};
+
+/// Stresses that are but round-off of the material's modulus, each body's own, become zero.
+template <int Dim>
+void clear_round_off(const Particles<Dim>& particles, const Scene& scene, std::vector<double>& stress) {
+  constexpr double kRoundOff = 1e-12;
+  std::vector<double> least;
+  for (const BodySpec& body : scene.bodies)
+    least.push_back(kRoundOff *
+                    std::visit(Stiffness{}, scene.materials[static_cast<std::size_t>(body.material)].model));
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    if (std::abs(stress[p]) < least[particles.body()[p]]) stress[p] = 0;
+}
+
 }  // namespace
 
 template <int Dim>
 FieldValues field_values(const Particles<Dim>& particles, const Scene& scene, const std::string& field) {
   FieldValues values = values_of_all(particles, scene, field);
   if (values.names || values.unit == "m/s") return values;
+  if (values.unit == "Pa") clear_round_off(particles, scene, values.value);
   for (std::size_t p = 0; p < particles.size(); ++p)
     if (is_rigid(scene, scene.bodies[particles.body()[p]]))
       values.value[p] = std::numeric_limits<double>::quiet_NaN();

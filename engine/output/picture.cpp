@@ -15,6 +15,7 @@ constexpr double kShortestBox = 260;
 constexpr double kLeft = 84, kTop = 84, kBottom = 64, kRight = 30, kRightWithBar = 150;
 constexpr double kMargin = 12, kFirstLine = 20, kLine = 24;
 constexpr double kTick = 6, kLineWidth = 1.5;
+constexpr double kAboveBox = 18;  // to the middle of a unit: clear of a number at the box's upper end
 constexpr Colour kInk{30, 30, 30};
 
 void widen(Range& range, double width) {
@@ -94,7 +95,9 @@ void Picture::draw_axes(const DisplayUnit& unit, std::string_view names) {
   }
   const auto label = [&](std::size_t axis) { return fmt::format("{} ({})", names[axis], unit.name); };
   canvas_.text({left + 0.5 * width, bottom + 46}, Align::centre, label(0), kInk);
-  canvas_.text({left - kTick - 6, box_upper_left_.y - 14}, Align::right, label(1), kInk);
+  // Ends with the numbers below it, where there is room for all of it.
+  const double end = std::max(left - kTick - 6, kMargin + Canvas::text_width(label(1)));
+  canvas_.text({end, box_upper_left_.y - kAboveBox}, Align::right, label(1), kInk);
   draw_frame();
 }
 
@@ -117,7 +120,7 @@ void Picture::draw_colour_bar(const ColourScale& scale, const std::string& si_un
     canvas_.line({right, y}, {right + kTick, y}, kLineWidth, kInk);
     canvas_.text({right + kTick + 5, y}, Align::left, tick_label(tick, spacing_of(ticks)), kInk);
   }
-  canvas_.text({left, top - 14}, Align::left, unit.name, kInk);
+  canvas_.text({left, top - kAboveBox}, Align::left, unit.name, kInk);
 }
 
 }  // namespace mpmfast

@@ -103,7 +103,7 @@ std::vector<double> round_ticks(Range range, int wanted) {
   constexpr double kSlack = 1e-9;  // a tick on the very end counts
   for (double n = std::ceil(range.lower / spacing - kSlack); n <= range.upper / spacing + kSlack; ++n)
     ticks.push_back(n * spacing);
-  return ticks;
+  return ticks.size() < 2 && wanted < 16 ? round_ticks(range, wanted + 1) : ticks;  // one has no scale
 }
 
 std::string tick_label(double tick, double spacing) {

@@ -157,6 +157,21 @@ def check_plane(browser, program, folder, shots):
     quiet(browser, "plane")
 
 
+# Is all of the box and its labels in view, and fills it, on a canvas of this size (0: as it is)?
+WHOLE = """
+const {view} = player, {canvas} = view, [width, height] = arguments;
+for (const one of [canvas, view.over]) Object.assign(one.style, width ? {width: width + 'px', height: height + 'px'} : {});
+view.fit();
+const [left, right, top, bottom] = view.outline(), wide = canvas.clientWidth, high = canvas.clientHeight;
+const whole = left >= 0 && top >= 0 && right <= wide && bottom <= high;
+const full = right - left > 0.85 * wide || bottom - top > 0.85 * high;
+const right_size = !width || wide === width && high === height;
+for (const one of [canvas, view.over]) Object.assign(one.style, {width: '', height: ''});
+view.fit();
+return whole && full && right_size;
+"""
+
+
 def check_space(browser, program, folder, shots):
     out = run(program, folder, "space", SPACE)
     open_page(browser, out)
@@ -164,6 +179,8 @@ def check_space(browser, program, folder, shots):
         print("this browser has no WebGL: the message is there, the view was not tried")
         return
     picture_of(browser, shots, "space")
+    for width, height in [(0, 0), (900, 260), (320, 560)]:
+        check(browser.execute_script(WHOLE, width, height), f"space: the box and its labels are cut at {width} x {height}")
     check_view(browser, "space", "#picture canvas", "speed")
     check_bodies(browser, "space", "#picture canvas")
     check_key(browser, "space")

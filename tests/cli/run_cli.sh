@@ -462,6 +462,10 @@ check_plot_of_several() {
   says err "no column 'kinetic_j' in plotted, got 'kinetic_j'. Did you mean 'kinetic_J'?"
   run 2 plot plotted --title energy
   says err '--title is that of the chart of --columns, which is missing'
+  run 2 plot plotted --y-label energy
+  says err '--y-label is that of the chart of --columns, which is missing'
+  run 2 plot plotted other/plotted --columns block.vy --label one
+  says err '--label: one for each of the 2 runs, got 1'
   run 2 plot plotted --field speed --x block.vy
   says err '--x is for charts of the history'
   run 2 plot plotted --out figure.svg
@@ -487,8 +491,13 @@ check_plot_of_several() {
   if command -v gnuplot >/dev/null; then
     echo precious >figure.gp
     run 0 plot plotted other/plotted --columns kinetic_J --title 'Energy left' --out figure.svg
-    for words in 'Energy left' 'plotted: kinetic_J' 'other/plotted: kinetic_J' 'time (ns)' 'energy ('; do
+    for words in 'Energy left' '>plotted<' '>other/plotted<' 'time (ns)' 'kinetic ('; do
       grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
+    done
+    run 0 plot plotted other/plotted --columns block.vy --columns kinetic_J --label coarse --label fine \
+      --x-label 'since the start' --y-label 'what is left' --out figure.svg
+    for words in 'coarse: block.vy' 'fine: kinetic_J' 'since the start (ns)' 'what is left'; do
+      grep -qF "$words" figure.svg || fail "the chart of two runs with names lacks '$words'"
     done
     [[ $(cat figure.gp) == precious && ! -e figure.png ]] || fail '--out FILE writes more than it should'
     run 0 plot plotted --columns kinetic_J --out pictures/figure.pdf

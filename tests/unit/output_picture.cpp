@@ -222,6 +222,33 @@ TEST_CASE("a title tells the values that the colours do not reach") {
   CHECK(beyond_text(FieldValues{}, {0, 1}).empty());
 }
 
+TEST_CASE("an axis has two ticks at least, or it has no scale") {
+  for (const Range range : {Range{0.15, 1.9}, Range{0.4, 1.3}, Range{-0.9, 0.9}, Range{1.01e-3, 1.99e-3}})
+    for (const int wanted : {1, 2, 3}) CHECK(round_ticks(range, wanted).size() >= 2);
+}
+
+TEST_CASE("what is written beside a picture is whole") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.png";
+  Scene scene = small_scene(Space::plane_strain);
+  scene.grid.size = {2e-3, 2e-3, 0};  // "y (mm)" is wider than the numbers
+  draw_particles(path, lattice(10), scene, "stress_xx", 0);
+  const Png png(path);
+  for (int y = 0; y < png.height; ++y)
+    for (const int x : {0, 1, 2, png.width - 1}) CHECK(png.at(x, y) != std::array<int, 3>{30, 30, 30});
+}
+
+TEST_CASE("stresses that are round-off of the modulus are zero") {
+  const Scene scene = small_scene(Space::plane_strain);
+  Particles<2> particles = lattice(4);
+  double* stress = particles.column(Quantity::kirchhoff_stress, 0);
+  for (std::size_t p = 0; p < particles.size(); ++p) stress[p] = p == 0 ? 1e3 : 1e-9 * double(p);
+  const std::vector<double> values = field_values(particles, scene, "stress_xx").value;
+  CHECK(values[0] == 1e3);
+  CHECK(values[1] == 0);
+  CHECK(values[13] == 0);
+}
+
 TEST_CASE("ticks are round and units of a sensible size") {
   const auto ticks = round_ticks({-0.03, 1.02}, 5);
   REQUIRE(ticks.size() == 6);

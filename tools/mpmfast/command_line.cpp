@@ -27,8 +27,8 @@ namespace {
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
   std::string scene, out, topic, like, threads, jobs, steps, until, title, x = "time_s", progress = "auto";
-  std::string frame, range;
-  std::vector<std::string> set, folders, columns, fields;
+  std::string frame, range, x_label, y_label;
+  std::vector<std::string> set, folders, columns, fields, labels;
   bool force = false, markdown = false;
 };
 
@@ -96,6 +96,14 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
   command.add_option("--title", raw.title, "The title of that chart")->type_name("TEXT");
+  add_several(
+      "--label", raw.labels,
+      "In the legend: the name of a run, or of a column of the one run; once for each, in their order")
+      ->type_name("TEXT");
+  command.add_option("--x-label", raw.x_label, "What stands on the axis below, before its unit")
+      ->type_name("TEXT");
+  command.add_option("--y-label", raw.y_label, "What stands on the axis on the left, before its unit")
+      ->type_name("TEXT");
   command
       .add_option(
           "--out", raw.out,
@@ -224,6 +232,9 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.set = raw.set;
   line.columns = raw.columns;
   line.title = raw.title;
+  line.labels = raw.labels;
+  line.x_label = raw.x_label;
+  line.y_label = raw.y_label;
   line.fields = raw.fields;
   line.frame = raw.frame;
   line.range = raw.range;

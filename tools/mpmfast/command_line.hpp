@@ -25,6 +25,8 @@ struct CommandLine {
   std::vector<std::string> columns;  ///< of a plot, expressions
   std::vector<std::string> fields;   ///< of a plot, of the particles
   std::string frame, range;          ///< of a plot, as written
+  std::vector<std::string> labels;   ///< of a plot: of its runs, or of the columns of the one run
+  std::string x_label, y_label;      ///< of a plot, without units; empty if not given
   int threads = 0;
   int jobs = 1;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();

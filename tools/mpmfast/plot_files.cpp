@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "engine/errors.hpp"
@@ -71,8 +72,17 @@ std::string contradiction(const CommandLine& line) {
   if (several && particles) return "--field, --frame and --range draw the particles of one run";
   if (several && line.columns.empty())
     return "several runs in one chart: --columns says what of each is drawn";
-  if (!line.title.empty() && line.columns.empty())
-    return "--title is that of the chart of --columns, which is missing";
+  const std::pair<const char*, bool> of_chart[] = {{"--title", !line.title.empty()},
+                                                   {"--label", !line.labels.empty()},
+                                                   {"--x-label", !line.x_label.empty()},
+                                                   {"--y-label", !line.y_label.empty()}};
+  for (const auto& [option, given] : of_chart)
+    if (given && line.columns.empty())
+      return fmt::format("{} is that of the chart of --columns, which is missing", option);
+  const std::size_t named = several ? line.folders.size() : line.columns.size();
+  if (!line.labels.empty() && line.labels.size() != named)
+    return fmt::format("--label: one for each of the {} {}, got {}", named, several ? "runs" : "columns",
+                       line.labels.size());
   if (line.x != "time_s" && particles && line.columns.empty())
     return "--x is for charts of the history: --columns is missing";
   return !line.out.empty() && names_file(line) ? wrong_file(line) : "";

@@ -16,6 +16,7 @@
 #include "tools/study/column_names.hpp"
 #include "tools/study/handy_units.hpp"
 #include "tools/study/line_chart.hpp"
+#include "tools/study/usual_charts.hpp"
 
 namespace mpmfast {
 
@@ -45,25 +46,6 @@ constexpr const char* kOwnStem = "plot_columns";
 static_assert(std::all_of(std::begin(kUsual), std::end(kUsual),
                           [](const UsualChart& chart) { return is_known(chart.stem); }) &&
               is_known(kStressStrain.stem) && is_known(kOwnStem));
-constexpr std::size_t kMostCurves = 16;  // more cannot be told apart: then those of all bodies together
-
-bool matches(const std::string& name, const std::string& part) {
-  if (part == "_J") return unit_of_column(name) == "J";
-  return name.find(part) != std::string::npos;
-}
-
-std::vector<std::string> chosen_columns(const Table& history, const std::string& part) {
-  std::vector<std::string> out;
-  for (const std::string& name : history.names)
-    if (matches(name, part)) out.push_back(name);
-  if (out.size() <= kMostCurves) return out;
-  std::vector<std::string> together;
-  for (const std::string& name : out)
-    if (name.rfind("all.", 0) == 0) together.push_back(name);
-  if (together.empty()) together.assign(out.begin(), out.begin() + kMostCurves);
-  return together;
-}
-
 Expression column(const std::string& name) {
   return std::get<Expression>(Expression::parse("`" + name + "`"));
 }
@@ -131,14 +113,28 @@ std::string axis_label(const std::string& quantity, const std::string& unit) {
   return fmt::format("{} ({})", quantity, unit);
 }
 
+std::string shown(const Expression& expression) {
+  std::string out = expression.text();
+  out.erase(std::remove(out.begin(), out.end(), '`'), out.end());
+  return out;
+}
+
+/// A column on an axis, which has its unit beside it: kinetic_J is kinetic.
+std::string without_unit(const std::string& column, const std::string& unit) {
+  const std::string end = "_" + unit;
+  const bool is_one = column.find(' ') == std::string::npos && !unit.empty() && column.ends_with(end);
+  return is_one ? column.substr(0, column.size() - end.size()) : column;
+}
+
 class Plot {
  public:
-  Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x)
-      : runs_(runs), files_(files), x_(x) {}
+  Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x,
+       const CommandLine& line)
+      : runs_(runs), files_(files), x_(x), line_(line) {}
 
   bool draw(const UsualChart& usual) const {
     std::vector<Expression> columns;
-    for (const std::string& name : chosen_columns(runs_[0].table, usual.part))
+    for (const std::string& name : telling_columns(runs_[0].table, usual.part))
       columns.push_back(column(name));
     return columns.empty() || draw(usual.stem, usual.title, usual.unit, columns);
   }
@@ -151,26 +147,37 @@ class Plot {
       x.push_back(&curve.curve.x);
       y.push_back(&curve.curve.y);
     }
-    chart.x_label = axis_label(shown(x_) == "time_s" ? "time" : shown(x_), make_handy(unit_of(x_), x));
-    chart.y_label = axis_label(quantity_in(unit), make_handy(unit, y));
+    const auto chosen = [](const std::string& asked, const std::string& usual) {
+      return asked.empty() ? usual : asked;
+    };
+    const std::string of_x = shown(x_) == "time_s" ? "time" : shown(x_);
+    chart.x_label = axis_label(chosen(line_.x_label, of_x), make_handy(unit_of(x_), x));
+    const std::string of_y =
+        stands_on_axis(columns) ? without_unit(shown(columns[0]), unit) : quantity_in(unit);
+    chart.y_label = axis_label(chosen(line_.y_label, of_y), make_handy(unit, y));
     return draw(stem, chart);
   }
 
  private:
-  static std::string shown(const Expression& expression) {
-    std::string out = expression.text();
-    out.erase(std::remove(out.begin(), out.end(), '`'), out.end());
-    return out;
+  /// Then the legend names the runs alone.
+  bool stands_on_axis(const std::vector<Expression>& columns) const {
+    return runs_.size() > 1 && columns.size() == 1;
+  }
+
+  std::string curve_title(const RunHistory& run, const std::vector<Expression>& columns,
+                          std::size_t k) const {
+    if (runs_.size() == 1) return line_.labels.empty() ? shown(columns[k]) : line_.labels[k];
+    return stands_on_axis(columns) ? run.name : run.name + ": " + shown(columns[k]);
   }
 
   std::vector<ChartCurve> curves(const std::vector<Expression>& columns) const {
     std::vector<ChartCurve> out;
     for (const RunHistory& run : runs_)
-      for (const Expression& column : columns) {
-        const std::string title = runs_.size() > 1 ? run.name + ": " + shown(column) : shown(column);
-        out.push_back(
-            {title, {evaluate(x_, run.table, {}), evaluate(column, run.table, {})}, out.size(), false});
-      }
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        out.push_back({curve_title(run, columns, k),
+                       {evaluate(x_, run.table, {}), evaluate(columns[k], run.table, {})},
+                       out.size(),
+                       false});
     return out;
   }
 
@@ -191,6 +198,7 @@ class Plot {
   const std::vector<RunHistory>& runs_;
   const PlotFiles& files_;
   const Expression& x_;
+  const CommandLine& line_;
 };
 
 /// That of all of them, or none.
@@ -204,14 +212,18 @@ std::string common_unit(const std::vector<Expression>& columns) {
 }  // namespace
 
 int plot_history(const CommandLine& line, const PlotFiles& files) {
-  const std::vector<RunHistory> runs = read_histories(line.folders);
+  std::vector<RunHistory> runs = read_histories(line.folders);
+  if (runs.size() > 1 && !line.labels.empty())
+    for (std::size_t k = 0; k < runs.size(); ++k) runs[k].name = line.labels[k];
+  for (RunHistory& run : runs)
+    if (line.columns.empty()) clear_round_off(run.table);
   const auto x = read_expression("--x", line.x, runs);
   std::vector<Expression> columns;
   for (const std::string& text : line.columns)
     if (const auto column = read_expression("--columns", text, runs)) columns.push_back(*column);
   if (!x || columns.size() < line.columns.size()) return kExitWrongInput;
   make_folder(files.folder);
-  const Plot plot(runs, files, *x);
+  const Plot plot(runs, files, *x, line);
   if (!columns.empty()) {
     const std::string title = line.title.empty() ? "History" : line.title;
     return plot.draw(kOwnStem, title, common_unit(columns), columns) ? 0 : kExitFile;
@@ -219,7 +231,7 @@ int plot_history(const CommandLine& line, const PlotFiles& files) {
   bool all = true;
   for (const UsualChart& chart : kUsual) all = plot.draw(chart) && all;
   if (const auto strain = strain_of(runs[0].table); strain && line.x == "time_s")
-    all = Plot(runs, files, *strain).draw(kStressStrain) && all;
+    all = Plot(runs, files, *strain, line).draw(kStressStrain) && all;
   return all ? 0 : kExitFile;
 }
 

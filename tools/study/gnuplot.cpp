@@ -20,6 +20,10 @@ namespace mpmfast {
 namespace {
 
 constexpr double kDotsPerInch = 96;
+// Distinguishable, the first ten also by most people who do not see red and green apart.
+constexpr std::array<const char*, 14> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
+                                               "#56b4e9", "#7a1fa2", "#8c564b", "#444444", "#b8b000",
+                                               "#00c4b3", "#ff9aa2", "#8fd14f", "#b59ce6"};
 
 /// Runs a program in a folder, its messages into a file; its exit code, or −errno when it cannot start.
 int run_program(const std::vector<std::string>& words, const std::filesystem::path& folder,
@@ -96,12 +100,11 @@ std::string draw_with_gnuplot(const ChartFiles& files, const std::string& data, 
   return fmt::format("no picture of {}: gnuplot says:\n{}", path, said);
 }
 
-std::string chart_colour(std::size_t index) {
-  // Distinguishable, the first ten also by most people who do not see red and green apart.
-  constexpr std::array<const char*, 14> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00",
-                                                 "#56b4e9", "#7a1fa2", "#8c564b", "#444444", "#b8b000",
-                                                 "#00c4b3", "#ff9aa2", "#8fd14f", "#b59ce6"};
-  return kColours[index % kColours.size()];
+std::string chart_colour(std::size_t index) { return kColours[index % kColours.size()]; }
+
+std::string chart_line(std::size_t index) {
+  constexpr std::array<const char*, 5> kDashes{"", " dt 4", " dt 3", " dt 5", " dt 2"};
+  return fmt::format("lc rgb '{}'{}", chart_colour(index), kDashes[index / kColours.size() % kDashes.size()]);
 }
 
 }  // namespace mpmfast

@@ -33,4 +33,7 @@ std::string draw_with_gnuplot(const ChartFiles& files, const std::string& data, 
 /// A colour for each of a few things that are easy to tell apart, then again from the first.
 std::string chart_colour(std::size_t index);
 
+/// The colour of a line; from the second time round dashed too, so that no two of some sixty look the same.
+std::string chart_line(std::size_t index);
+
 }  // namespace mpmfast

@@ -27,7 +27,7 @@ Curve thinned(const Curve& curve) {
 
 std::string style_of(const ChartCurve& curve) {
   return curve.dashed ? "with lines lw 2 dt 2 lc rgb 'black'"
-                      : fmt::format("with lines lw 1.5 lc rgb '{}'", chart_colour(curve.colour));
+                      : "with lines lw 1.5 " + chart_line(curve.colour);
 }
 
 /// A panel that holds nothing but what the colours of the others mean.

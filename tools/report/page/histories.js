@@ -21,9 +21,36 @@ function columnLabel(name) {
   return name.replace(/_(m2|Pa|J|Nm|N|kg|m|s)$/, '').replaceAll('_', ' ');
 }
 
+// Total momenta that are but round-off of what the bodies carry become zero.
+function clearRoundOff(columns, rows) {
+  const carried = new Float64Array(rows);
+  for (const [name, mass] of columns) {
+    if (!name.endsWith('.mass_kg') || name.startsWith('all.')) continue;
+    for (const axis of 'xyz') columns.get(name.replace(/mass_kg$/, 'v' + axis))?.forEach((v, k) => { carried[k] += Math.abs(mass[k] * v); });
+  }
+  const least = 1e-9 * carried.reduce((most, p) => isFinite(p) ? Math.max(most, p) : most, 0);
+  for (const axis of 'xyz') {
+    const name = 'momentum_' + axis;
+    if (columns.has(name)) columns.set(name, columns.get(name).map(p => Math.abs(p) < least ? 0 : p));
+  }
+}
+
+// Are those of all bodies together those of the only one that has any?
+function repeatsTheOnlyBody(columns, names) {
+  const all = names.filter(name => name.startsWith('all.')), own = names.filter(name => !name.startsWith('all.'));
+  return own.length > 0 && own.length === all.length && all.every(name => {
+    const body = own.find(other => other.endsWith(name.slice(3)));
+    if (!body) return false;
+    const a = columns.get(body), b = columns.get(name);
+    const largest = a.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
+    return a.every((v, k) => !(Math.abs(v - b[k]) > 1e-9 * largest));
+  });
+}
+
 class Histories {
   constructor(history) {
     this.history = history;
+    clearRoundOff(history.columns, history.rows);
     this.x = 'time_s';
     this.chart = new LineChart();
     this.names = [...history.columns.keys()];
@@ -51,10 +78,12 @@ class Histories {
   // Of many bodies, what there is of all together.
   showUsual(usual) {
     this.press(this.tabs.find(([other]) => other === usual)[1]);
-    let names = this.names.filter(usual.matches);
+    const flat = !this.names.some(name => name.endsWith('.vz'));
+    let names = this.names.filter(name => usual.matches(name) && !(flat && name === 'momentum_z'));
     const telling = names.filter(name => this.history.columns.get(name).some(value => value !== 0));
     if (telling.length > 0) names = telling;
     const together = names.filter(name => name.startsWith('all.'));
+    if (repeatsTheOnlyBody(this.history.columns, names)) names = names.filter(name => !name.startsWith('all.'));
     if (names.length > MOST_CURVES && together.length > 0) names = together;
     this.chosen = names.slice(0, MOST_CURVES);
     this.label = usual.label;

@@ -2,6 +2,15 @@
 // legend beside it switches curves off and on.
 
 const CURVES = ['#2f6db3', '#d9622b', '#2f9e68', '#a44fc0', '#c79a00', '#c2456e', '#00a0a8', '#7a6a55', '#6b7cf0', '#93a83a'];
+const DASHES = [[], [7, 3], [2, 3], [9, 3, 2, 3]];  // from the second time round, so that no two look the same
+const curveColour = k => CURVES[k % CURVES.length];
+const curveDash = k => DASHES[Math.floor(k / CURVES.length) % DASHES.length];
+// A short piece of the curve, as a background.
+function swatchOf(k) {
+  let at = 0;
+  const stops = curveDash(k).map((length, i) => `${i % 2 ? 'transparent' : curveColour(k)} ${at}px ${at += length}px`);
+  return stops.length > 0 ? `repeating-linear-gradient(90deg, ${stops.join(', ')})` : curveColour(k);
+}
 
 class LineChart {
   // curves: [{name, y}], x: numbers; labels: {x, y} with units {xUnit, yUnit}
@@ -25,14 +34,14 @@ class LineChart {
         entry.classList.toggle('off', this.off.has(curve.name));
         if (!this.zoomed) this.view = null;
         this.draw();
-      }}, element('span', {class: 'swatch', style: `background:${CURVES[k % CURVES.length]}`}), curve.name);
+      }}, element('span', {class: 'swatch', style: `background:${swatchOf(k)}`}), curve.name);
       return entry;
     }));
     this.zoomed = false;
     this.draw();
   }
 
-  shown() { return this.curves.map((curve, k) => ({...curve, colour: CURVES[k % CURVES.length]})).filter(c => !this.off.has(c.name)); }
+  shown() { return this.curves.map((curve, k) => ({...curve, colour: curveColour(k), dash: curveDash(k)})).filter(c => !this.off.has(c.name)); }
 
   // All that the shown curves have, with a margin.
   whole() {
@@ -90,7 +99,9 @@ class LineChart {
       if (open) c.lineTo(px, py); else c.moveTo(px, py);
       open = true;
     }
+    c.setLineDash(curve.dash);
     c.stroke();
+    c.setLineDash([]);
     if (this.x.length > 1) return;
     for (let i = 0; i < this.x.length; ++i) c.fillRect(this.toX(this.x[i]) - 3, this.toY(curve.y[i]) - 3, 6, 6);
   }

@@ -76,10 +76,55 @@ class SpaceView {
   // As the pictures: from the front right and above, z up.
   // To all frames, or to the one that is shown.
   fit(box = this.frames.box) {
-    Object.assign(this, {azimuth: -0.55, elevation: 0.42, shift: [0, 0]});
+    Object.assign(this, {azimuth: -0.55, elevation: 0.42, shift: [0, 0], fitted: box, fittedTo: null});
     this.look = box[0].map((x, d) => ((x + box[1][d]) / 2 - this.middle[d]) / this.unit);
-    this.distance = 2.9 * Math.hypot(...box[0].map((x, d) => box[1][d] - x)) / 2 / this.unit || 3;
+    this.distance = 3;
     this.draw();
+  }
+
+  // As near as the canvas, which may have changed, still shows all that was fitted; until someone moves it.
+  comeNear() {
+    const size = `${this.canvas.clientWidth} ${this.canvas.clientHeight}`, box = this.fitted;
+    if (!box || this.fittedTo === size) return;
+    this.fittedTo = size;
+    const radius = Math.hypot(...box[0].map((x, d) => box[1][d] - x)) / 2 / this.unit || 1;
+    let near = 1.02 * radius, far = 12 * Math.min(1, radius);  // further in, a corner may be behind the eye
+    for (let k = 0; k < 24; ++k) {
+      this.distance = (near + far) / 2;
+      if (this.centre()) far = this.distance; else near = this.distance;
+    }
+    this.distance = far;
+    this.centre();
+  }
+
+  // Moves what was fitted to the middle of the canvas. Does all of it show?
+  centre() {
+    const width = this.canvas.clientWidth, height = this.canvas.clientHeight, margin = 8;
+    this.shift = [0, 0];
+    for (let k = 0; ; ++k) {  // what is nearer moves faster: again
+      this.matrices();
+      const [left, right, top, bottom] = this.outline();
+      if (k === 3) return left >= margin && right <= width - margin && top >= margin && bottom <= height - margin;
+      this.shift[0] += (width - left - right) * this.distance / this.projection[0] / width;
+      this.shift[1] -= (height - top - bottom) * this.distance / this.projection[5] / height;
+    }
+  }
+
+  // Of what was fitted, and of its labels where it is all: left, right, top, bottom, in CSS pixels.
+  outline() {
+    const x = [], y = [], c = this.labelContext();
+    for (let corner = 0; corner < 8; ++corner) {
+      const [px, py] = this.project(...this.middle.map((middle, d) => (this.fitted[corner >> d & 1][d] - middle) / this.unit));
+      x.push(px);
+      y.push(py);
+    }
+    if (this.fitted === this.frames.box)
+      for (const label of this.labels()) {
+        const half = c.measureText(label.text).width / 2;
+        x.push(label.x - half, label.x + half);
+        y.push(label.y - 7, label.y + 7);
+      }
+    return [Math.min(...x), Math.max(...x), Math.min(...y), Math.max(...y)];
   }
 
   show(frame, colours) {
@@ -122,6 +167,7 @@ class SpaceView {
     const gl = this.gl, ratio = window.devicePixelRatio || 1;
     this.canvas.width = Math.round(this.canvas.clientWidth * ratio);
     this.canvas.height = Math.round(this.canvas.clientHeight * ratio);
+    this.comeNear();
     this.matrices();
     gl.viewport(0, 0, this.canvas.width, this.canvas.height);
     gl.clearColor(...this.theme('canvas'));
@@ -171,14 +217,24 @@ class SpaceView {
     gl.drawArrays(gl.LINES, 0, ends.length / 3);
   }
 
-  // Ticks along the three lower edges that bound the box on the screen.
+  labelContext() {
+    const {context} = fitCanvas(this.over);
+    context.font = '12px ' + getComputedStyle(document.body).fontFamily;
+    return context;
+  }
+
   drawLabels() {
-    const {context: c, width, height} = fitCanvas(this.over);
-    c.clearRect(0, 0, width, height);
-    c.font = '12px ' + getComputedStyle(document.body).fontFamily;
+    const c = this.labelContext();
+    c.clearRect(0, 0, this.canvas.clientWidth, this.canvas.clientHeight);
     c.fillStyle = themeColour('soft');
     c.textAlign = 'center';
     c.textBaseline = 'middle';
+    for (const {text, x, y} of this.labels()) c.fillText(text, x, y);
+  }
+
+  // Ticks along the three lower edges that bound the box on the screen.
+  labels() {
+    const all = [];
     const unit = displayUnit(Math.max(...this.frames.box.flat().map(Math.abs)), 'm');
     const middle = this.project(0, 0, 0);
     for (let d = 0; d < 3; ++d) {
@@ -188,11 +244,12 @@ class SpaceView {
         const point = edge.slice();
         point[d] = (place - this.middle[d]) / this.unit;
         const [x, y] = this.project(...point), dx = x - middle[0], dy = y - middle[1], far = Math.hypot(dx, dy) || 1;
-        c.fillText(text, x + away * dx / far, y + away * dy / far);
+        all.push({text, x: x + away * dx / far, y: y + away * dy / far});
       };
       for (const tick of ticks.at) label(tick * unit.size, tickLabel(tick, ticks.spacing), 16);
       label((lower + upper) / 2, `${'xyz'[d]} (${unit.name})`, 50);
     }
+    return all;
   }
 
   // Of the four edges along an axis: for x and y the lower one that is nearer, for z the one furthest to the left.
@@ -236,6 +293,7 @@ class SpaceView {
       if (!from) return;
       const dx = event.clientX - from[0], dy = event.clientY - from[1];
       from = [event.clientX, event.clientY];
+      this.fitted = null;
       if (event.shiftKey || event.buttons === 2) {
         const step = this.distance / this.projection[5] / this.canvas.clientHeight * 2;
         this.shift = [this.shift[0] + dx * step, this.shift[1] - dy * step];
@@ -250,6 +308,7 @@ class SpaceView {
     this.canvas.addEventListener('dblclick', () => this.fit());
     this.canvas.addEventListener('wheel', event => {
       event.preventDefault();
+      this.fitted = null;
       this.distance = Math.min(12, Math.max(0.15, this.distance * Math.exp(0.0012 * event.deltaY)));
       this.later();
     }, {passive: false});
