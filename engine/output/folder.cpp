@@ -148,7 +148,7 @@ void prepare_folder(const std::filesystem::path& folder, const Scene& scene, boo
   if (std::filesystem::exists(folder, error)) {
     if (!std::filesystem::is_directory(folder, error))
       throw FileError("output folder " + folder.string() + " is a file");
-    if (!force)
+    if (!force && !std::filesystem::is_empty(folder, error))
       throw FileError("output folder " + folder.string() +
                       " exists already; with force the run in it is replaced");
     check_replaceable(folder, scene);

@@ -262,7 +262,8 @@ TEST_CASE("checkpoints come every so many steps, every so often, or never") {
 
   run_scene(scene_from(kDisks, {{"output.checkpoint", "none"}}), into(folder / "never"));
   CHECK_FALSE(fs::exists(folder / "never" / "checkpoint.h5"));
-  CHECK(holds(complaint([&] { resume_run(into(folder / "never")); }), "there is no such folder"));
+  CHECK(holds(complaint([&] { resume_run(into(folder / "never")); }), "holds no checkpoint"));
+  CHECK(holds(complaint([&] { resume_run(into(folder / "nowhere")); }), "there is no such folder"));
 }
 
 TEST_CASE("a run that another build of the program began goes on, with a warning") {

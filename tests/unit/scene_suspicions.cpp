@@ -88,7 +88,7 @@ TEST_CASE("a bare density among values with units, and degrees without their uni
   CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3", "7.85 kg/m^3")).find("bare") == std::string::npos);
   CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3, young: 210 GPa", "7.85, young: 100e6")).empty());
   const auto falls = [](const std::string& how) {
-    return warnings(plain_scene() + "gravity: [" + how + "]\n");
+    return warnings(plain_scene() + "gravity: [" + how + "]\nboundaries: {left: {wall: held}}\n");
   };
   CHECK(falls("${9.81*sin(30)}, 0") ==
         "scene.yaml:8:11: warning: gravity.0: a bare number is in radians in sin(30). Did you mean sin(30 "
@@ -106,7 +106,7 @@ TEST_CASE("a grid that bodies cannot reach is told with the size that would do")
   CHECK(warnings(fine) ==
         "scene.yaml:2:14: warning: grid.size: bodies can reach 3.2 % of its 5e+05 cells. origin: [0.00096 m, "
         "0.00096 m], size: [0.00308 m, 0.00208 m] would do, with less memory and time\n");
-  CHECK(warnings(fine + "gravity: [0, -1e9]\n").empty());
+  CHECK(warnings(fine + "gravity: [0, -1e9]\nboundaries: {bottom: wall}\n").empty());
   CHECK(warnings(replaced(fine, "material: steel", "material: steel, velocity: [0, 4 km/s]")).empty());
   CHECK(warnings(fine + "boundaries: {left: {piston: 3 km/s}}\n").empty());
   CHECK(warnings(replaced(plain_scene(), "cell: 1 mm", "cell: 0.1 mm")).empty());
