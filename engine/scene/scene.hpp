@@ -211,11 +211,11 @@ struct BodySpec {
 
 /// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
 struct WallSpec {
-  int axis = 0;         ///< 0..2
-  bool upper = false;   ///< nodes at and beyond `position` in +axis (true) or −axis direction
-  double position = 0;  ///< m, at time 0
-  TimeTable speed;      ///< m/s along +axis; the plane moves with it
-  bool held = false;    ///< also fixes the tangential velocity
+  int axis = 0;           ///< 0..2
+  bool upper = false;     ///< nodes at and beyond `position` in +axis (true) or −axis direction
+  double position = 0;    ///< m, at time 0
+  TimeTable speed;        ///< m/s along +axis; the plane moves with it
+  bool held = false;      ///< also fixes the tangential velocity
   bool at_plane = false;  ///< holds its plane where that cuts a cell; else the nodes at and beyond it
 };
 /// Prescribed velocity along one direction at every node inside a box.

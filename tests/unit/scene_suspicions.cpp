@@ -54,9 +54,10 @@ TEST_CASE("waves that run too fast or too slowly tell of a modulus in the wrong 
 
 TEST_CASE("gravity towards a free face, where nothing is rigid, is told") {
   const std::string falls = plain_scene() + "gravity: [0, -9.81 m/s^2]\n";
-  CHECK(warnings(falls) ==
-        "scene.yaml:8:10: warning: gravity: it pulls towards the bottom face (lower y), which is free, and no "
-        "body is rigid. boundaries: {bottom: wall}\n");
+  CHECK(
+      warnings(falls) ==
+      "scene.yaml:8:10: warning: gravity: it pulls towards the bottom face (lower y), which is free, and no "
+      "body is rigid. boundaries: {bottom: wall}\n");
   CHECK(holds(warnings(falls + "boundaries: {top: wall}\n"), "bottom face (lower y)"));
   CHECK(warnings(falls + "boundaries: {bottom: wall}\n").empty());
   CHECK(warnings(falls + "boundaries: {left: {wall: held}}\n").empty());

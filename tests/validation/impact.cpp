@@ -77,14 +77,15 @@ TEST_CASE("oblique impact: turned by 30 degrees with its particles it gives near
 }
 
 TEST_CASE("slow: oblique impact: at half the cell size the turned scene and the energy stay near") {
-  // Strain first, which keeps the energy of a body that vibrates; the lattice's rough outline adds 1.1 to 1.8
-  // %, rings do not (the next case). Turning: measured 0.94 % (smoothed LR), 1.00 % (default).
+  // Strain first, which keeps the energy of a body that vibrates; the lattice's rough outline adds 0.8 to 2.2
+  // % (1.0 to 1.7 where particles take nothing of the first correction), rings do not (the next case).
+  // Turning: measured 0.70 % (smoothed LR), 0.76 % (default).
   for (const auto& normal : {kSmoothed, kDefault}) {
     const Overrides fine{{"grid.cell", "0.25 mm"}, {"method.strain", "first"}};
     const Impact along = impact(normal, 0, fine), turned = impact(normal, 30, fine);
     CHECK(turning_error(along, turned) < 0.013);
-    CHECK(std::abs(along.energy_change) < 0.02);
-    CHECK(std::abs(turned.energy_change) < 0.02);
+    CHECK(std::abs(along.energy_change) < 0.025);
+    CHECK(std::abs(turned.energy_change) < 0.025);
   }
 }
 

@@ -150,9 +150,10 @@ constexpr std::array kNotes{
     KeyNote{"boundaries.FACE.direction", "Where the piston moves, along its axis; inwards if not given."},
     KeyNote{"boundaries.FACE.held", "The piston also holds sideways."},
     KeyNote{"boundaries.FACE.position", "Where the wall is at time 0; the face of the grid if not given."},
-    KeyNote{"boundaries.FACE.at",
-            "What is held where the wall cuts a cell: the nodes beyond it, or its plane, which is exact for a "
-            "body that stands against it."},
+    KeyNote{
+        "boundaries.FACE.at",
+        "What is held where the wall cuts a cell: the nodes beyond it, or its plane, which is exact for a "
+        "body that stands against it."},
     KeyNote{"boundaries.NAME",
             "A velocity given at some nodes, along one direction; the name heads its columns."},
     KeyNote{"boundaries.NAME.box", "All nodes in this box."},
