@@ -16,11 +16,17 @@ void plan_method(const MethodSpec& method, Plan& plan) {
                                                     : ParticleUpdate::xpic;
   plan.full_mass = method.update == UpdateKind::fmpm;  // gathered as XPIC is
   plan.order = plan.update == ParticleUpdate::xpic ? method.xpic_order : 1;
+  if (plan.order > 1) plan.filter_every = static_cast<std::uint64_t>(method.filter_every);
   plan.position = method.position == PositionKind::grid_end    ? PositionUpdate::grid_end
                   : method.position == PositionKind::grid      ? PositionUpdate::grid
                   : method.position == PositionKind::trapezoid ? PositionUpdate::trapezoid
                                                                : PositionUpdate::particle;
-  plan.strain_first = method.strain == StrainKind::first ? 1 : method.strain == StrainKind::last ? 0 : 0.5;
+  plan.re_extrapolate = method.strain == StrainKind::last_re_extrapolated ||
+                        method.strain == StrainKind::average_re_extrapolated;
+  plan.strain_first = method.strain == StrainKind::first ? 1
+                      : method.strain == StrainKind::last || method.strain == StrainKind::last_re_extrapolated
+                          ? 0
+                          : 0.5;
   plan.force_with_mass =
       plan.strain_first == 0 && plan.update != ParticleUpdate::apic && plan.depth != Depth::hoop;
   static_assert(kAllTerms == MethodSpec::kAllTerms && kInverse == MethodSpec::kInverse);
@@ -92,6 +98,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
+  if (plan.re_extrapolate) plan.nodal_columns.push_back(Nodal::re_extrapolated);
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
   plan_areas(scene, plan);
 }
@@ -114,6 +121,10 @@ void list_passes(Plan& plan) {
   if (plan.order > 1)
     p.push_back((plan.full_mass ? "FMPM: " : "XPIC: ") + std::to_string(plan.order - 1) +
                 (plan.paired ? " passes over v* and dv*" : " passes over v*"));
+  if (plan.re_extrapolate) {
+    p.push_back("re-extrapolate new momenta");
+    if (plan.contact) p.push_back("contact of the re-extrapolated momenta");
+  }
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
 }
 
@@ -134,12 +145,16 @@ Plan make_plan(const Scene& scene) {
   plan.contact_geometry = any_law(scene.contact, uses_geometry);
   plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
   plan.first_correction = scene.contact.corrections == 2;
+  plan.one_set = plan.first_correction && scene.contact.persistent && scene.contact.advance_separation &&
+                 scene.contact.detection == DetectionKind::both &&
+                 scene.contact.separation != SeparationKind::none;
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&
                 !scene.method.own_filter && plan.first_correction;
   plan.own_filter = scene.method.own_filter && plan.order > 1 && !plan.full_mass;
   if (plan.contact)
     plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
-  if (plan.update == ParticleUpdate::flip) plan.first_share = scene.contact.first_correction_share;
+  if (plan.update == ParticleUpdate::flip || plan.filter_every > 1)
+    plan.first_share = scene.contact.first_correction_share;
   plan.first_correction_stays =
       plan.update == ParticleUpdate::pic || plan.update == ParticleUpdate::apic ||
       (plan.update == ParticleUpdate::xpic &&

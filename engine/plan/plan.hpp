@@ -19,9 +19,11 @@ struct Plan {
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};
-  int order = 1;            ///< m of XPIC(m) and FMPM(m)
-  bool full_mass = false;   ///< FMPM: the series filters v⁺ instead of v and what it changes by
+  int order = 1;                   ///< m of XPIC(m) and FMPM(m)
+  std::uint64_t filter_every = 1;  ///< steps from one filter of XPIC and FMPM to the next
+  bool full_mass = false;          ///< FMPM: the series filters v⁺ instead of v and what it changes by
   double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
+  bool re_extrapolate = false;  ///< the strain that comes last is taken from the particles' new momenta
   int deformation_terms = 2;
   bool contact = false;  ///< more than one velocity field, and a law that acts
   bool own_filter = false;
@@ -29,6 +31,7 @@ struct Plan {
   bool first_correction_stays = false;  ///< particles keep its impulse: PIC, and XPIC without the Δv terms
   double first_share = 0;               ///< of its impulse: FLIP's particles take it too, as a force
   bool first_correction = true;   ///< contact is corrected before the strain too, not only after the momenta
+  bool one_set = false;           ///< which pairs touch is decided once a step, for both corrections and v′
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected

@@ -73,6 +73,10 @@ void read_method(MapReader& top, MethodSpec& method) {
   map.word("basis", kBases, method.basis);
   map.otherwise("update", name_of(kUpdates, method.update));
   if (const auto update = map.find("update")) read_update(*update, method);
+  constexpr int kMostBetween = 1000;
+  map.integer("every", 1, kMostBetween, method.filter_every);
+  if (method.filter_every > 1 && method.update != UpdateKind::xpic && method.update != UpdateKind::fmpm)
+    map.find("every")->complain("every belongs to xpic(m) and fmpm(m), the others filter nothing");
   map.word("strain", kStrains, method.strain);
   const auto position = map.find("position");
   map.otherwise("position", name_of(kPositions, method.position));

@@ -20,8 +20,9 @@ using Vec3 = std::array<double, 3>;
 enum class Space { plane_strain, plane_stress, axisymmetric, three_dimensional };
 enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
-/// When the particles' strain is updated within a step (theory: USF, USL, USAVG).
-enum class StrainKind { first, last, average };
+/// When the particles' strain is updated within a step (USF, USL, USAVG), and whether that which comes last
+/// is taken from the particles' new momenta (NN §2.8: USL+, USAVG+).
+enum class StrainKind { first, last, average, last_re_extrapolated, average_re_extrapolated };
 /// How particles move: with the grid's velocity at the end of the step, with its midpoint velocity, with
 /// ½(V_old + V_new), with V_new.
 enum class PositionKind { grid_end, grid, trapezoid, particle };
@@ -84,11 +85,12 @@ struct TimeSpec {
 struct MethodSpec {
   BasisKind basis = BasisKind::ugimp;
   UpdateKind update = UpdateKind::flip;
-  int xpic_order = 1;              ///< m of XPIC(m) and FMPM(m), 2..20 when update is one of these
+  int xpic_order = 1;    ///< m of XPIC(m) and FMPM(m), 2..20 when update is one of these
+  int filter_every = 1;  ///< steps: XPIC(m) and FMPM(m) filter every n-th one, FLIP updates the others
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
-  StrainKind strain = StrainKind::average;
+  StrainKind strain = StrainKind::average_re_extrapolated;
   PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, kAllTerms or kInverse.
   int deformation_terms = 2;
@@ -274,11 +276,12 @@ struct ContactSpec : LawSpec {
   double rigid_bias = 0;
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = true;  ///< corrections judge by δ + Δv·n Δt, Δv the free velocities (NN Eq. 3.56)
-  /// The first correction also holds a pair that touched at the end of the last step and now would part.
+  /// Which pairs touch is decided once a step: the first correction holds them, parting or not, the second
+  /// and the momenta that are re-extrapolated hold the same; a pair ends when a force pulls it apart.
   bool persistent = true;
   /// Share of the first correction's impulse that FLIP's particles take too (N20: none). Without it they keep
   /// for good the approach that the grid is relieved of every step: noise that grows.
-  double first_correction_share = 0.03;
+  double first_correction_share = 0;
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

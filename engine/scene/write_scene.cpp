@@ -85,12 +85,13 @@ std::string method_text(const MethodSpec& method) {
       ordered ? fmt::format("{}({})", method.update == UpdateKind::xpic ? "xpic" : "fmpm", method.xpic_order)
               : std::string(name_of(kUpdates, method.update));
   return fmt::format(
-      "method:\n  basis: {}\n  update: {}\n  strain: {}\n  position: {}\n  contact_correction: {}\n  "
+      "method:\n  basis: {}\n  update: {}\n{}  strain: {}\n  position: {}\n  contact_correction: {}\n  "
       "own_filter: {}\n"
       "  deformation_terms: {}\n",
-      name_of(kBases, method.basis), update, name_of(kStrains, method.strain),
-      name_of(kPositions, method.position), method.contact_correction, method.own_filter,
-      name_of(kDeformationTerms, method.deformation_terms));
+      name_of(kBases, method.basis), update,
+      method.filter_every > 1 ? fmt::format("  every: {}\n", method.filter_every) : "",
+      name_of(kStrains, method.strain), name_of(kPositions, method.position), method.contact_correction,
+      method.own_filter, name_of(kDeformationTerms, method.deformation_terms));
 }
 
 struct ModelText {

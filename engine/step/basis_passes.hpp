@@ -13,6 +13,7 @@
 #include "engine/step/passes.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/project.hpp"
+#include "kernels/transfer/re_extrapolate.hpp"
 #include "kernels/transfer/update.hpp"
 #include "kernels/transfer/xpic.hpp"
 
@@ -106,6 +107,17 @@ class BasisPasses final : public Passes<Dim> {
       xpic_columns<Dim>(state);
   }
 
+  void re_extrapolate(State<Dim>& state, ParticleUpdate update) override {
+    auto& nodes = state.nodes;
+    const NodeColumns<Dim> in = nodes.columns(update == ParticleUpdate::flip   ? Nodal::force
+                                              : update == ParticleUpdate::xpic ? Nodal::star
+                                                                               : Nodal::velocity),
+                           out = nodes.columns(Nodal::momentum);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+      if (!rigid) re_extrapolate_tile<Dim, Basis>(c, room.re_extrapolate, update, in, out);
+    });
+  }
+
   TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
                     const Vec<Dim>& upper) override {
     return rule.velocity == ParticleUpdate::xpic ? update_columns<3>(state, rule, lower, upper)
@@ -120,6 +132,7 @@ class BasisPasses final : public Passes<Dim> {
   struct Room {
     ProjectRoom<Dim, Basis> project;
     XpicRoom<Dim, Basis, 2 * Dim> xpic;
+    ReExtrapolateRoom<Dim, Basis> re_extrapolate;
     UpdateRoom<Dim, Basis> update;
   };
 
@@ -192,6 +205,8 @@ class BasisPasses final : public Passes<Dim> {
       in.column[Dim + d] = state.nodes.column(Nodal::force, d);
       if constexpr (NV == 3) in.column[2 * Dim + d] = state.nodes.column(Nodal::series, d);
     }
+    const NodeColumns<Dim> strain = state.nodes.columns(
+        state.nodes.has(Nodal::re_extrapolated) ? Nodal::re_extrapolated : Nodal::velocity);
     double low[Dim], high[Dim];
     for (int d = 0; d < Dim; ++d) low[d] = lower[d], high[d] = upper[d];
     reports_.assign(rooms_.size(), {});
@@ -204,7 +219,7 @@ class BasisPasses final : public Passes<Dim> {
         continue;
       const TileReport r =
           update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), rooms_[thread]->update, in,
-                                      rule, low, high, visitor(state));
+                                      strain, rule, low, high, visitor(state));
       merge(r, reports_[thread].report);
     }
     TileReport all;

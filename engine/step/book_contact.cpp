@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/step/conditions.hpp"
 #include "engine/step/contact.hpp"
 
 namespace mpmfast {
@@ -24,9 +25,108 @@ void Contact<Dim>::book(const State<Dim>& state) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       // In a lump, each touching pair is seen from both sides.
       const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-      books_.friction_work += share * entry.friction_work;
       if (node.rigid >= 0) book_rigid(state, node, entry);
       if (!pairs_.empty()) book_pair(state, node, entry, share);
+    }
+}
+
+/// v_a − v_b, b the others of a lump or the rigid body, m/s.
+template <int Dim>
+Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                               const ContactEntry<Dim>& entry) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const auto momentum = [&](int k) { return state.nodes.vector(Nodal::momentum, slot_of(k)); };
+  const int other = entry.b >= 0 ? entry.b : node.rigid;
+  double mass_b = 0;
+  Vec<Dim> momentum_b = Vec<Dim>::Zero();
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (other >= 0 ? k != other : k == entry.a) continue;
+    mass_b += mass[slot_of(k)];
+    momentum_b += momentum(k);
+  }
+  const Vec<Dim> slip = momentum(entry.a) / mass[slot_of(entry.a)] - momentum_b / mass_b;
+  return node.constrained ? conditions_->free_part(slot_of(entry.a), slip) : slip;
+}
+
+/// What the slips are before a correction.
+template <int Dim>
+void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (correction == Correction::strain) {
+      if (!first_correction_stays_) entry.slip_end = slip_of(state, node, entry);
+      continue;
+    }
+    const Vec<Dim> slip = slip_of(state, node, entry);
+    if (correction == Correction::initial)
+      entry.slip_start = slip;
+    else
+      entry.slip_free = slip;
+    if (!first_correction_) entry.slip_start = entry.slip_held = slip;
+  }
+}
+
+/// What a correction leaves to know. A pull that takes back all that the first correction pressed ends the
+/// contact.
+template <int Dim>
+void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const bool acts = !entry.impulse.isZero(0);
+    if (correction == Correction::initial) {
+      entry.first = entry.impulse;
+      entry.held = acts;
+      entry.slip_held = slip_of(state, node, entry);
+    } else if (correction == Correction::final) {
+      const double pull = entry.impulse.dot(entry.normal);
+      entry.second = entry.impulse + entry.passed;
+      entry.touching = acts && !(one_set_ && pull > 0 && pull >= -entry.first.dot(entry.normal));
+      if (!re_extrapolated_ || first_correction_stays_) entry.slip_end = slip_of(state, node, entry);
+    }
+  }
+}
+
+/// What the particles lose by sliding, J. Of a contact with the impulses J₁, J₂, J₃ of the corrections, the
+/// slips s₀ and s′ that the particles give the grid before and after the step, and s₁ → s₂ that the forces
+/// change, FLIP's particles and strains gain J₂·½ (s₀ + s′) − ½ (s₂ − s₁)·(J₁ + J₃); its tangential part is
+/// friction's. Particles that keep the first correction gain J₁·½ (s₀ + s₁) + J₂·½ (s₁ + s⁺).
+template <int Dim>
+double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry) const {
+  const auto along = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - x.dot(entry.normal) * entry.normal; };
+  const Vec<Dim> first = along(entry.first), second = along(entry.second);
+  double gain = 0;
+  if (first_correction_stays_) {
+    gain =
+        0.5 * (first.dot(entry.slip_start + entry.slip_held) + second.dot(entry.slip_held + entry.slip_end));
+  } else {
+    const Vec<Dim> kept = re_extrapolated_ ? Vec<Dim>(first + along(entry.impulse)) : first;
+    gain =
+        0.5 * (second.dot(entry.slip_start + entry.slip_end) - (entry.slip_free - entry.slip_held).dot(kept));
+  }
+  return std::max(0.0, -gain);
+}
+
+/// Adds up the friction work, in a fixed order.
+template <int Dim>
+void Contact<Dim>::book_friction(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      if (entry.first.isZero(0) && entry.second.isZero(0)) continue;
+      const int law = pair_of(state, node, entry);
+      entry.friction_work = 0;
+      const bool rubs = std::visit(
+          [](const auto& l) { return l.scope == LawScope::contact || l.scope == LawScope::bonded; },
+          laws_[static_cast<std::size_t>(law + 1)]);
+      if (!rubs) continue;
+      // In a lump, each touching pair is seen from both sides.
+      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+      entry.friction_work = share * friction_work_of(entry);
+      books_.friction_work += entry.friction_work;
+      if (law >= 0) books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
     }
 }
 
@@ -47,17 +147,31 @@ void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& n
   books_.rigid_moment[f] -= arm.cross(impulse);
 }
 
+/// Where the table of pairs has the two fields of an entry.
 template <int Dim>
-void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
-                             const ContactEntry<Dim>& entry, double share) {
+std::size_t Contact<Dim>::place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                                        const ContactEntry<Dim>& entry) const {
   const auto field_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
-  const std::size_t at = pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
-  if (pairs_.pair[at] < 0) return;
-  const auto k = static_cast<std::size_t>(pairs_.pair[at]);
-  books_.pair_impulse[k] += (pairs_.forward[at] ? share : -share) * (entry.impulse + entry.passed);
-  books_.pair_friction_work[k] += share * entry.friction_work;
+  return pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
+}
+
+/// Which of ContactSpec::pairs an entry is; −1: of none.
+template <int Dim>
+int Contact<Dim>::pair_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  return pairs_.empty() ? -1 : pairs_.pair[place_of_pair(state, node, entry)];
+}
+
+template <int Dim>
+void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                             const ContactEntry<Dim>& entry, double share) {
+  const int pair = pair_of(state, node, entry);
+  if (pair < 0) return;
+  const auto k = static_cast<std::size_t>(pair);
+  const bool forward = pairs_.forward[place_of_pair(state, node, entry)];
+  books_.pair_impulse[k] += (forward ? share : -share) * (entry.impulse + entry.passed);
 }
 
 // Here: the members that this file defines.

@@ -18,11 +18,12 @@ enum class Pass {
   nodes,
   conditions,
   xpic,
+  re_extrapolate,
   update
 };
-inline constexpr std::array<std::string_view, 10> kPassNames{
-    "sort",       "project", "contact_nodes", "contact_geometry", "contact_resolve", "strain_force", "nodes",
-    "conditions", "xpic",    "update"};
+inline constexpr std::array<std::string_view, 11> kPassNames{
+    "sort",  "project",    "contact_nodes", "contact_geometry", "contact_resolve", "strain_force",
+    "nodes", "conditions", "xpic",          "re_extrapolate",   "update"};
 
 class PassClock {
  public:

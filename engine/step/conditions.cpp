@@ -146,6 +146,7 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
   combinations_.clear();
   if (components_.empty()) return;
   const auto& tiling = state.tiling;
+  combination_at_.assign(static_cast<std::size_t>(tiling.slots()), -1);
   std::vector<int> members, others, held;
   std::vector<std::pair<int, std::array<NodeIndex<Dim>, kRows>>> cut;
   for (const auto& stack : tiling.stacks)
@@ -169,7 +170,10 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
       for (int t = stack.begin; t < stack.end; ++t) {
         const int field = tiling.node_tiles[static_cast<std::size_t>(t)].field;
         if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
-        if (combination >= 0) nodes_.push_back({t * kTileNodes<Dim> + local, combination});
+        if (combination >= 0) {
+          nodes_.push_back({t * kTileNodes<Dim> + local, combination});
+          combination_at_[static_cast<std::size_t>(nodes_.back().slot)] = combination;
+        }
         for (const auto& [component, rows] : cut) {
           Cut& added = cuts_.emplace_back();
           added.component = component;
@@ -225,20 +229,19 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
 }
 
 template <int Dim>
-void Conditions<Dim>::impose_velocity(State<Dim>& state) const {
+void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) const {
   for (const auto& [slot, combination] : nodes_) {
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     if (!(state.nodes.column(Nodal::mass)[slot] > 0)) continue;
-    Vec<Dim> v = state.nodes.vector(Nodal::velocity, slot);
+    Vec<Dim> v = state.nodes.vector(velocities, slot);
     for (int k = 0; k < c.count; ++k) v += (c.speed[k] - v.dot(c.direction[k])) * c.direction[k];
-    state.nodes.set(Nodal::velocity, slot, v);
+    state.nodes.set(velocities, slot, v);
   }
   apply_cuts(
-      state, [&](int slot) { return state.nodes.vector(Nodal::velocity, slot); },
+      state, [&](int slot) { return state.nodes.vector(velocities, slot); },
       [&](int, int slot, const Vec<Dim>& e, double impulse) {
         const double mass = state.nodes.column(Nodal::mass)[slot];
-        state.nodes.set(Nodal::velocity, slot,
-                        state.nodes.vector(Nodal::velocity, slot) + (impulse / mass) * e);
+        state.nodes.set(velocities, slot, state.nodes.vector(velocities, slot) + (impulse / mass) * e);
       });
 }
 

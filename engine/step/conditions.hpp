@@ -34,12 +34,25 @@ class Conditions {
   /// After a sort: slots have new numbers.
   void forget_nodes() { stale_ = true; }
 
-  /// Puts the prescribed components into the nodal velocities that the strain is taken from.
-  void impose_velocity(State<Dim>& state) const;
+  /// Puts the prescribed components into the nodal velocities that the strain is taken from: `velocity`, or
+  /// `re_extrapolated`.
+  void impose_velocity(State<Dim>& state, Nodal velocities = Nodal::velocity) const;
   /// f ← f − (f·e)e + ((m u − p·e)/Δt) e before the momentum update (NN Eq. 2.7 to 2.11).
   void react(State<Dim>& state, double dt);
   /// After the second contact correction: momentum and force together.
   void enforce(State<Dim>& state, double dt);
+
+  /// Do conditions prescribe a component of the slot's velocity?
+  bool holds(int slot) const {
+    return !combination_at_.empty() && combination_at_[static_cast<std::size_t>(slot)] >= 0;
+  }
+  /// The part of x along what they leave free there.
+  Vec<Dim> free_part(int slot, Vec<Dim> x) const {
+    const Combination& c =
+        combinations_[static_cast<std::size_t>(combination_at_[static_cast<std::size_t>(slot)])];
+    for (int k = 0; k < c.count; ++k) x -= x.dot(c.direction[k]) * c.direction[k];
+    return x;
+  }
 
   /// Force of each boundary on the material in this step, N.
   const std::vector<Vec<Dim>>& force() const { return force_; }
@@ -95,6 +108,7 @@ class Conditions {
   std::vector<Component> components_;
   std::vector<Combination> combinations_;
   std::vector<Constrained> nodes_;
+  std::vector<int> combination_at_;  ///< by slot; −1: free
   std::vector<Cut> cuts_;
   std::vector<double> speed_;  ///< by boundary, this step
   std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it

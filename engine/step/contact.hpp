@@ -15,8 +15,12 @@
 
 namespace mpmfast {
 
-/// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force).
-enum class Correction { initial, final };
+template <int Dim>
+class Conditions;
+
+/// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force); and of
+/// re-extrapolated momenta (for the strain alone).
+enum class Correction { initial, final, strain };
 
 /// Of a node with explicit pairs: none touches or they are solved, or the lump must do (N20 §3.4).
 enum class PairOutcome { none, solved, lump };
@@ -42,6 +46,9 @@ class Contact {
 
   /// Normals and separations of all entries: they hold for both corrections.
   void find_geometry(State<Dim>& state, Passes<Dim>& passes);
+
+  /// On nodes where conditions prescribe components of the velocities contact acts along the others only.
+  void leave_to(const Conditions<Dim>& conditions);
 
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
@@ -127,8 +134,18 @@ class Contact {
   Vec<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                       Correction correction, const Law& law, double area_time) const;
   template <class Law>
-  static double friction_work_of(const ContactEntry<Dim>& entry, const Vec<Dim>& stick,
-                                 const Vec<Dim>& impulse, double reduced, const Law& law);
+  Vec<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                          Correction correction, const Law& law, double area_time) const;
+  bool lasts(const ContactEntry<Dim>& entry) const;
+  Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                   const ContactEntry<Dim>& entry) const;
+  void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  double friction_work_of(const ContactEntry<Dim>& entry) const;
+  void book_friction(const State<Dim>& state);
+  std::size_t place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                            const ContactEntry<Dim>& entry) const;
+  int pair_of(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
   Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
   Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
   void pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const;
@@ -138,7 +155,12 @@ class Contact {
   ContactSpec spec_;
   PairTable pairs_;
   std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
+  const Conditions<Dim>* conditions_ = nullptr;
   double cell_, cell_volume_;
+  double dt_ = 0;  ///< of the step, s
+  bool first_correction_;
+  bool one_set_;                 ///< the touching pairs are decided once a step
+  bool re_extrapolated_;         ///< contact of re-extrapolated momenta follows the second correction
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
   bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
   double first_share_;           ///< of the first correction's impulse: a force of the second too

@@ -25,10 +25,17 @@ struct ContactEntry {
   double advanced = 0;       ///< the separation that a correction judges by, m
   double plane[Dim + 1]{};   ///< of the regression, cells; zero: none
   bool settled = false;      ///< the normal is found: no regression
-  bool touched = false;      ///< in contact at the end of the last step (for the hysteresis)
-  bool touching = false;     ///< in contact at the last correction
-  double friction_work = 0;  ///< J, of the last correction
+  bool touched = false;      ///< in contact at the end of the last step
+  bool held = false;         ///< by the first correction
+  bool touching = false;     ///< in contact at the second correction
+  double friction_work = 0;  ///< J, of this step
   Vec<Dim> impulse;          ///< Δp_a of the last correction
+  Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
+  Vec<Dim> second = Vec<Dim>::Zero();  ///< Δp_a of the second, with what that passes on of the first
+  /// v_a − v_b as the particles give it to the grid, after the first correction, before the second, and as
+  /// the particles give it back (or after the second), m/s
+  Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_free = Vec<Dim>::Zero(),
+           slip_end = Vec<Dim>::Zero();
   Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a of the first correction that the second passes on as a force
 };
 
@@ -40,6 +47,8 @@ struct ContactNode {
   int entry_begin, entry_end;  ///< into ContactList::entries
   int pair_begin;  ///< entries from here on are the explicit pairs of a node of three or more fields
   int rigid;       ///< which of its fields is the rigid one; −1: none
+  bool constrained =
+      false;  ///< conditions prescribe a component of its velocities: contact acts along the others
 };
 
 struct ContactCounters {

@@ -90,9 +90,6 @@ PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction corr
   for (int k = 0; k < touching.count; ++k) {
     auto& entry = *touching.entry[k];
     entry.impulse = pair[k].impulse;
-    entry.touching = !entry.impulse.isZero(0);
-    const Vec<Dim> slip = pair[k].slip - pair[k].slip.dot(entry.normal) * entry.normal;
-    entry.friction_work = entry.touching ? entry.impulse.dot(slip) : 0;
     pass_on(entry, correction, std::visit([](const auto& law) { return law.scope; }, *touching.law[k]));
   }
   return PairOutcome::solved;

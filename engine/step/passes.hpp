@@ -32,6 +32,9 @@ class Passes {
   virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;
   /// One order of XPIC: next += Σ_p S_pi M_p S_p star. @param paired carries Δv* beside v*
   virtual void xpic(State<Dim>& state, bool paired) = 0;
+  /// momentum += Σ_p S_pi M_p V_new with the velocities that `update` will give the particles, from aΔt
+  /// (force), for XPIC m(v − v*) + aΔt (star), else v⁺ (velocity). Rigid bodies keep what they have.
+  virtual void re_extrapolate(State<Dim>& state, ParticleUpdate update) = 0;
   /// New particle velocities, positions, (strain last) strains, domains.
   virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
                             const Vec<Dim>& upper) = 0;

@@ -1,8 +1,10 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/plan/contact_law.hpp"
+#include "engine/step/conditions.hpp"
 #include "engine/step/contact.hpp"
 
 namespace mpmfast {
@@ -39,6 +41,9 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       pairs_(plan.pairs),
       cell_(scene.grid.cell),
       cell_volume_(cell_volume(scene)),
+      first_correction_(plan.first_correction),
+      one_set_(plan.one_set),
+      re_extrapolated_(plan.re_extrapolate),
       keep_velocity_change_(plan.paired),
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
@@ -51,6 +56,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
 
 template <int Dim>
 void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
+  dt_ = dt;
   if (pairs_.empty())
     std::visit(
         [&](const auto& law) {
@@ -69,6 +75,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    see_slips(state, correction, node);
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
       outcome = resolve_pairs(state, correction, dt, node);
@@ -83,12 +90,38 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
       resolve_each(state, laws, correction, dt, node);
     }
     apply(state, correction, dt, node);
+    settle(state, correction, node);
   }
   if (correction == Correction::final) {
     list_.counters.pair_nodes += solved;
     list_.counters.pair_fallbacks += lumped;
   }
-  if (correction == Correction::final || first_correction_stays_) book(state);
+  if (correction == Correction::final || (correction == Correction::initial && first_correction_stays_))
+    book(state);
+  if (correction == (re_extrapolated_ ? Correction::strain : Correction::final)) book_friction(state);
+}
+
+/// A wall and a contact that correct each other in turn are no projection, and hold different velocities in
+/// the strain, the force and v′: that makes energy without end where grains jam at a wall. So on nodes where
+/// conditions hold a direction, contact acts in the others alone: both are one projection then. A gap d along
+/// n is closed by moving d/|n_free| along n_free.
+template <int Dim>
+void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
+  constexpr double kNone = 1e-3;  // a surface along the held plane: no way is left
+  conditions_ = &conditions;
+  if (conditions.empty() || !one_set_) return;
+  for (auto& node : list_.nodes) {
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin)].slot;
+    node.constrained = conditions.holds(slot);
+    if (!node.constrained) continue;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      const Vec<Dim> free = conditions.free_part(slot, entry.normal);
+      const double length = free.norm();
+      entry.normal = length > kNone ? Vec<Dim>(free / length) : Vec<Dim>::Zero();
+      entry.separation = length > kNone ? entry.separation / length : std::numeric_limits<double>::infinity();
+    }
+  }
 }
 
 /// The other field of an entry; of a lump the one with the largest volume, whose law then holds for the whole
@@ -133,11 +166,13 @@ typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const
   };
   const double m_a = mass[slot_of(a)];
   const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(a));
+  Meeting meeting{(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
   if (node.rigid >= 0) {
     const int r = slot_of(node.rigid);
-    return {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
+    meeting = {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
   }
-  return {(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
+  if (node.constrained) meeting.stick = conditions_->free_part(slot_of(a), meeting.stick);
+  return meeting;
 }
 
 /// The separation that decides on contact. Both corrections judge by where the free velocities take the
@@ -193,14 +228,12 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time);
-      entry.friction_work = friction_work_of(entry, meeting.stick, entry.impulse, meeting.reduced, law);
       pass_on(entry, correction, Law::scope);
     };
     if constexpr (Laws::by_pair)
       laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
     else
       laws.with(0, 0, act);
-    entry.touching = !entry.impulse.isZero(0);
   }
   rest(node.pair_begin, node.entry_end);
 }
@@ -215,6 +248,8 @@ template <int Dim>
 template <class Law>
 Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                                   Correction correction, const Law& law, double area_time) const {
+  if (one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded))
+    return impulse_of_set(entry, meeting, separation, correction, law, area_time);
   const Vec<Dim> free =
       resolve_pair<Dim>(meeting.stick, entry.normal, separation, law, meeting.reduced, area_time);
   const double along = meeting.stick.dot(entry.normal);
@@ -222,6 +257,47 @@ Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting&
   const bool lasts = correction == Correction::initial && spec_.persistent && entry.touched;
   const bool holds = Law::scope == LawScope::contact && (overlaps || lasts) && separation < 0 && along > 0;
   return holds ? Vec<Dim>(along * entry.normal) : free;
+}
+
+/// Does the pair stay in contact until a force pulls it apart? Held by its velocities, a surface drifts from
+/// where the particles' extents say that it is; to close such a gap δ against N would lose N δ, time and
+/// again.
+template <int Dim>
+bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
+  constexpr double kDrift = 0.3;  // cells
+  return one_set_ && entry.touched && entry.separation < kDrift * cell_;
+}
+
+/// The impulse of a pair of the step's one set (tools/manual/theory.md, "The energy of a contact").
+///
+/// In the set are pairs that will touch by the end of the step as the first correction sees it, and those
+/// that last; the second may add what the forces bring. A gap δ that closes leaves the approach δ/Δt. In the
+/// set the normal velocity is held, whichever way it goes; a pull ends the contact, but for what the first
+/// correction pressed in this step. Momenta that are re-extrapolated are held where the second correction
+/// held.
+template <int Dim>
+template <class Law>
+Vec<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                      double separation, Correction correction, const Law& law,
+                                      double area_time) const {
+  const double along = meeting.stick.dot(entry.normal);
+  const Vec<Dim> tangential = meeting.stick - along * entry.normal;
+  const double needed = tangential.norm();
+  if constexpr (Law::scope == LawScope::bonded)
+    if (entry.separation < law.reach && law.holds({-along, needed, meeting.reduced, area_time}))
+      return meeting.stick;
+  const bool last = lasts(entry), closes = separation < 0 || last;
+  if (correction == Correction::initial ? !closes
+      : correction == Correction::final ? !closes && !entry.held
+                                        : !entry.touching)
+    return Vec<Dim>::Zero();
+  const double gap = last ? 0 : std::max(0.0, entry.separation);
+  const double hold = along + meeting.reduced * gap / dt_;
+  if (correction == Correction::initial && hold > 0 && !entry.touched) return Vec<Dim>::Zero();
+  const double normal =
+      correction == Correction::final ? std::min(hold, std::max(0.0, -entry.first.dot(entry.normal))) : hold;
+  const double limit = law({std::max(0.0, -normal), needed, meeting.reduced, area_time});
+  return normal * entry.normal + (needed > limit ? Vec<Dim>((limit / needed) * tangential) : tangential);
 }
 
 /// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
@@ -256,7 +332,9 @@ void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& 
     const auto [field, slot] = list_.fields[static_cast<std::size_t>(k)];
     const double inverse_mass = 1 / state.nodes.column(Nodal::mass)[slot];
     const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
-    fields.push_back({inverse_mass * state.nodes.vector(Nodal::momentum, slot), rigid ? 0.0 : inverse_mass});
+    Vec<Dim> velocity = inverse_mass * state.nodes.vector(Nodal::momentum, slot);
+    if (node.constrained) velocity = conditions_->free_part(slot, velocity);
+    fields.push_back({velocity, rigid ? 0.0 : inverse_mass});
   }
 }
 
@@ -279,7 +357,8 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double
     entry.advanced = separation_of(entry, meeting, dt);
     with_law(laws, node, entry, [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
-      if (Law::scope == LawScope::contact ? !(entry.advanced < 0) : Law::scope == LawScope::nowhere) return;
+      const bool apart = !(entry.advanced < 0) && !lasts(entry) && !entry.held && !entry.touching;
+      if (Law::scope == LawScope::contact ? apart : Law::scope == LawScope::nowhere) return;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       together.acting.push_back({&entry, area_time});
@@ -297,11 +376,7 @@ void Contact<Dim>::finish(const Laws& laws, Correction correction, const Contact
     const FieldContact<Dim>& contact = together.solver.contacts[k];
     auto& entry = *together.acting[k].entry;
     entry.impulse = contact.impulse;
-    entry.touching = !entry.impulse.isZero(0);
-    with_law(laws, node, entry, [&](const auto& law) {
-      entry.friction_work = friction_work_of(entry, contact.stick, entry.impulse, contact.reduced, law);
-      pass_on(entry, correction, law.scope);
-    });
+    with_law(laws, node, entry, [&](const auto& law) { pass_on(entry, correction, law.scope); });
   }
 }
 
@@ -315,18 +390,6 @@ void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, cons
               list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, f);
   else
     laws.with(0, 0, f);
-}
-
-/// Work that an impulse takes from the sliding that remains, J. Its normal part does none where surfaces stay
-/// together or part; where many fields jam and do not settle, both parts together are what the node loses.
-template <int Dim>
-template <class Law>
-double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, const Vec<Dim>& stick,
-                                      const Vec<Dim>& impulse, double reduced, const Law&) {
-  if (Law::scope == LawScope::contact) return impulse.dot(stick - impulse) / reduced;
-  if (Law::scope != LawScope::bonded) return 0;
-  const Vec<Dim> tangential = impulse - impulse.dot(entry.normal) * entry.normal;
-  return tangential.dot(stick - impulse) / reduced;
 }
 
 /// FLIP's particles take a share of what surfaces that touch change in the first correction.
@@ -345,8 +408,6 @@ template <int Dim>
 void Contact<Dim>::rest(int begin, int end) {
   for (int e = begin; e < end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    entry.touching = false;
-    entry.friction_work = 0;
     entry.impulse.setZero();
   }
 }
@@ -367,14 +428,14 @@ void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
     nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
     if (correction == Correction::final)
       add_force(k, impulse);
-    else if (keep_velocity_change_)
+    else if (keep_velocity_change_ && correction == Correction::initial)
       for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
   };
   const bool passes = correction == Correction::final && first_share_ > 0;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     const auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const bool moves_other = entry.b >= 0 && entry.b != node.rigid;
-    if (entry.touching) {
+    if (!entry.impulse.isZero(0)) {
       change(entry.a, entry.impulse);
       if (moves_other) change(entry.b, -entry.impulse);
     }

@@ -114,6 +114,7 @@ void Step<Dim>::advance(double dt) {
   clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
   end_velocities(dt);
   filter_velocities();   // Eq. 42 to 44
+  re_extrapolate(dt);    // NN §2.8
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
   let_leave();
@@ -193,6 +194,7 @@ void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
   clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
   clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
+  contact_.leave_to(conditions_);
 }
 
 template <int Dim>
@@ -296,7 +298,7 @@ void Step<Dim>::end_velocities(double dt) {
 /// update adds a Δt to the series, hence it is taken off here.
 template <int Dim>
 void Step<Dim>::filter_velocities() {
-  if (plan_.order < 2) return;
+  if (plan_.order < 2 || !filters()) return;
   auto& nodes = state_.nodes;
   const double* mass = nodes.column(Nodal::mass);
   const int m = plan_.order;
@@ -342,9 +344,40 @@ void Step<Dim>::filter_velocities() {
   }
 }
 
+/// v′ = S⁺V_new, with contact and conditions: what the strain that comes last is taken from.
+template <int Dim>
+void Step<Dim>::re_extrapolate(double dt) {
+  if (!plan_.re_extrapolate) return;
+  auto& nodes = state_.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  clock_.time(Pass::re_extrapolate, [&] {
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        double* momentum = nodes.column(Nodal::momentum, d);
+        for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
+          if (!is_rigid_slot(tile)) std::fill_n(momentum + tile, kTileNodes<Dim>, 0.0);
+        if (update_rule() != ParticleUpdate::xpic) continue;
+        double* star = nodes.column(Nodal::star, d);
+        const double *series = nodes.column(Nodal::series, d), *jump = nodes.column(Nodal::force, d);
+        for (std::int64_t i = begin; i < end; ++i) star[i] = series[i] + jump[i];
+      }
+    });
+    passes_->re_extrapolate(state_, update_rule());
+  });
+  correct_contact(Correction::strain, dt);
+  clock_.time(Pass::nodes, [&] {
+    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d)
+        divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
+                       nodes.column(Nodal::re_extrapolated, d));
+    });
+  });
+  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
+}
+
 template <int Dim>
 void Step<Dim>::update_particles(double dt) {
-  const UpdateRule rule{plan_.update, plan_.position, dt, (1 - plan_.strain_first) * dt,
+  const UpdateRule rule{update_rule(), plan_.position, dt, (1 - plan_.strain_first) * dt,
                         plan_.deformation_terms};
   const TileReport report =
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });

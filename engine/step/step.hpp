@@ -90,7 +90,11 @@ class Step {
   void add_body_force(double dt);
   void update_momenta(double dt);
   void end_velocities(double dt);
+  /// Do XPIC and FMPM filter in this step? Between, particles are updated as FLIP's.
+  bool filters() const { return (state_.step + 1) % plan_.filter_every == 0; }
+  ParticleUpdate update_rule() const { return filters() ? plan_.update : ParticleUpdate::flip; }
   void filter_velocities();
+  void re_extrapolate(double dt);
   void update_particles(double dt);
   void move_rigid_end(double dt);
   void let_leave();

@@ -99,6 +99,25 @@ bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumn
   return inside;
 }
 
+/// Scatters m (V + C (x_i − x_p)) of particle k, the slopes C gathered from the nodal velocities in `from`.
+/// @param v  V = Σ_i S_pi v_i of the same
+template <int Dim, class Basis, int K>
+inline void scatter_affine(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
+                           const ProductWeights<Dim, K>& w, std::uint32_t begin, int count, int k, Real m,
+                           Record v, const Record* from, Record* to) {
+  const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
+  Real r[Dim];
+  place_in_support(w, g, k, r);
+  Record moment[Dim];
+  gather_moments(w, k, from, moment);
+  Record at_first = m * v;
+  for (int d = 0; d < Dim; ++d) {  // C Δx, a step of one cell
+    moment[d] = (m / static_cast<Real>(Basis::kSpread)) * (moment[d] - r[d] * v);
+    at_first -= r[d] * moment[d];
+  }
+  scatter_linear(w, k, at_first, moment, to);
+}
+
 /// New slopes of a chunk from the window's nodal velocities, of which from.value[0] holds Σ_i S_pi v_i.
 /// @param from a GatherRoom; its slopes and `staging` are written over
 template <int Dim, class Basis, int K, class Room>

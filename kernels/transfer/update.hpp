@@ -9,15 +9,17 @@
 
 namespace mpmfast {
 
-/// Of a node's record: v⁺ and a Δt, in 2-D v⁺ twice more for its gradient, and for XPIC m(v − v*).
+/// Of a node's record: v⁺ and a Δt, in 2-D what the strain is taken from twice for its gradient, and for XPIC
+/// m(v − v*).
 template <int Dim>
 constexpr int update_entries(int vectors) {
   return Dim * (vectors + (Dim == 2 ? 2 : 0));
 }
 
-/// The columns of these entries. @param vectors v⁺, a Δt and the third, if there is one
+/// The columns of these entries.
+/// @param vectors v⁺, a Δt and the third, if there is one; @param strain what the strain is taken from (2-D)
 template <int Dim, int NV>
-inline auto entry_columns(const NodeColumns<NV * Dim>& vectors) {
+inline auto entry_columns(const NodeColumns<NV * Dim>& vectors, const NodeColumns<Dim>& strain) {
   NodeColumns<update_entries<Dim>(NV)> entries;
   int at = 0;
   const auto add = [&](int vector) {
@@ -25,7 +27,8 @@ inline auto entry_columns(const NodeColumns<NV * Dim>& vectors) {
   };
   for (int vector : {0, 1}) add(vector);
   if (Dim == 2)
-    for (int copy = 0; copy < 2; ++copy) add(0);
+    for (int copy = 0; copy < 2; ++copy)
+      for (double* column : strain.column) entries.column[at++] = column;
   if (NV == 3) add(NV - 1);
   return entries;
 }
@@ -137,13 +140,17 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
 /// alike); APIC: as PIC, and the slopes about the particle. Positions: grid_end X ← X + Δt S v⁺; grid X ← X +
 /// Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new.
 /// @param nodes  v⁺, aΔt (and m(v − v*) when NV is 3)
+/// @param strain  what the strain is taken from: v⁺, or v′ (re_extrapolate.hpp)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>
 TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
-                       const NodeColumns<NV * Dim>& nodes, const UpdateRule& rule, const double (&lower)[Dim],
-                       const double (&upper)[Dim], const VisitMaterial& visit_material) {
+                       const NodeColumns<NV * Dim>& nodes, const NodeColumns<Dim>& strain,
+                       const UpdateRule& rule, const double (&lower)[Dim], const double (&upper)[Dim],
+                       const VisitMaterial& visit_material) {
   const ParticleView<Dim>& p = *c.particles;
-  const bool strains = rule.dt_strain > 0;
+  const bool strains = rule.dt_strain > 0, hoop = Dim == 2 && p.depth == Depth::hoop;
+  // In 2-D the gradient comes with the values, from pairs beside them; what else asks for v′ has it here.
+  const bool apart = strains && strain.column[0] != nodes.column[0] && (Dim == 3 || hoop);
   TileReport report;
   LaneReport lanes;
   auto& from = [&]() -> auto& {
@@ -153,13 +160,17 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
       return room.three;
   }
   ();
-  load_window(entry_columns<Dim, NV>(nodes), c.tile->slot, from.window);
+  load_window(entry_columns<Dim, NV>(nodes, strain), c.tile->slot, from.window);
+  if (apart) load_window(for_gradients(strain), c.tile->slot, room.velocity);
   for_each_chunk<Dim, Basis>(
       c, room.weights, strains ? Wanted::both : Wanted::values,
       [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        gather_chunk(w, count, strains, from, room);
+        gather_chunk(w, count, strains && !(Dim == 3 && apart), from, room);
         if (strains) {
-          if (Dim == 2 && p.depth == Depth::hoop)
+          if (Dim == 3 && apart) gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
+          if (hoop && apart)
+            gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
+          else if (hoop)
             for (int k = 0; k < count; k += kLanes)  // S v⁺_r / r
               store_lanes(&room.hoop_rate[k],
                           load_lanes(&room.value[0][k]) / load_lanes(p.position[0] + begin + k));

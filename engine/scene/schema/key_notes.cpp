@@ -34,6 +34,7 @@ constexpr std::array kNotes{
     KeyNote{"method.update", "How particles take their velocity from the grid."},
     KeyNote{"method.strain", "When within a step the strain of the particles is updated."},
     KeyNote{"method.position", "Which velocity moves the particles; `particle` with the update apic."},
+    KeyNote{"method.every", "xpic and fmpm: they filter every n-th step, and flip updates those between."},
     KeyNote{"method.contact_correction",
             "xpic: its filter knows of the changes that contact makes (N20 Eq. 42)."},
     KeyNote{
@@ -192,7 +193,7 @@ constexpr std::array kNotes{
         "place of a regression; 0: off."},
     KeyNote{"contact.advance_separation",
             "The gap is judged where the bodies will be at the end of the step."},
-    KeyNote{"contact.persistent", "The first correction also holds a pair that touched and now would part."},
+    KeyNote{"contact.persistent", "One set of touching pairs a step, for both corrections and the strain: keeps energy."},
     KeyNote{"contact.first_correction_share", "flip: share of the first correction that particles take too."},
     KeyNote{"contact.hysteresis", "Cells: what touches goes on touching up to this gap."},
     KeyNote{"contact.mass_screen",

@@ -1,0 +1,58 @@
+#pragma once
+
+/// @file The particles' new momenta on the nodes, with this step's weights: what a strain that comes last is
+/// taken from with `average+` and `last+` (MUSL; NN §2.8; K24 Alg. 3 lines 6 to 11).
+///
+/// A particle keeps S a Δt of the grid's acceleration, so the next step begins with v + S⁺S a Δt and not with
+/// v⁺ = v + a Δt. Strains from v⁺ hold motion that no particle has: ½ Δt ∇(a − S⁺S a) works as a viscosity on
+/// all that the grid hardly resolves. With v′ = S⁺V_new, stresses do the work that the particles' kinetic
+/// energy loses: Σ_p M_p V_p·S a Δt + ½ M_p |S a Δt|² = Σ_i f_i·½ (v_i + v′_i) Δt.
+
+#include "kernels/transfer/affine.hpp"
+#include "kernels/transfer/sums.hpp"
+#include "kernels/transfer/update_rule.hpp"
+#include "kernels/transfer/window.hpp"
+#include "kernels/views.hpp"
+
+namespace mpmfast {
+
+template <int Dim, class Basis>
+struct ReExtrapolateRoom {
+  WeightRoom<Dim, Basis> weights;
+  Window<Dim, Dim> in, out;
+  Record record[kChunk<Dim>];
+};
+
+/// One tile: p′_i += Σ_p S_pi M_p V_new.
+/// @param velocity  how V_new follows from `in`: FLIP V + Σ S in, with in = aΔt; XPIC Σ S in, with in =
+/// m(v − v*) + aΔt; PIC and APIC Σ S in, with in = v⁺ (N20 Eq. 32, 38, 41)
+/// @param out  p′, accumulated, kg m/s
+template <int Dim, class Basis>
+void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis>& room,
+                         ParticleUpdate velocity, const NodeColumns<Dim>& in, const NodeColumns<Dim>& out) {
+  const ParticleView<Dim>& p = *c.particles;
+  load_window(in, c.tile->slot, room.in);
+  clear(room.out);
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values,
+      [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+        if (velocity == ParticleUpdate::flip)
+          stack<Dim>(count, room.record, 0,
+                     [&](int d, int k) { return detail::load_row(p.velocity[d] + begin + k); });
+        for (int k = 0; k < count; ++k) {
+          const auto m = static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]);
+          Record v = gather_values(w, k, room.in.at[0]);
+          if (velocity == ParticleUpdate::flip) v += room.record[k];
+          if constexpr (Basis::kSpread > 0) {
+            if (velocity == ParticleUpdate::apic) {
+              scatter_affine<Dim, Basis>(c, run, w, begin, count, k, m, v, room.in.at[0], room.out.at[0]);
+              continue;
+            }
+          }
+          scatter_values(w, k, m * v, room.out.at[0]);
+        }
+      });
+  flush_window(room.out, c.tile->slot, out);
+}
+
+}  // namespace mpmfast
