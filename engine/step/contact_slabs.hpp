@@ -19,7 +19,7 @@ template <int Dim>
 class ContactSlabs {
  public:
   /// Nodes of a slab for each thread: so many that threads hardly wait for each other at its end.
-  static constexpr std::size_t kNodesAThread = 512;
+  static constexpr std::size_t kNodesAThread = 256;
 
   /// @param many  else one slab has all nodes
   void cut(const State<Dim>& state, const ContactList<Dim>& contact, bool many) {
@@ -51,9 +51,6 @@ class ContactSlabs {
   std::size_t surrounded_by(std::size_t slab) const { return slabs_[slab].surrounded_by; }
   /// Slabs that wait for those around them at a time, and the one in hand.
   std::size_t at_once() const { return at_once_; }
-  std::size_t bytes() const {
-    return groups_.capacity() * sizeof(std::size_t) + slabs_.capacity() * sizeof(Slab);
-  }
 
   /// f(index, node) of a slab's nodes, stack after stack, in parallel.
   template <class F>

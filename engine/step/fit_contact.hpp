@@ -82,14 +82,6 @@ class ContactFit {
     count(contact.counters);
   }
 
-  std::size_t bytes() const {
-    std::size_t sum = raw_.capacity() * sizeof(RawNormal<Dim>) + kept_.capacity() * sizeof(Kept) +
-                      first_.capacity() * sizeof(int) + slabs_.bytes();
-    for (const Room& room : rooms_)
-      for (const auto& clouds : room.clouds) sum += clouds.bytes();
-    return sum;
-  }
-
  private:
   struct Room;
 

@@ -34,13 +34,6 @@ struct CloudRoom {
     for (int e = 0; e < shapes; ++e) shape[e].resize(room);
   }
 
-  std::size_t bytes() const {
-    std::size_t entries = 0;
-    for (const auto& c : xi) entries += c.size();
-    for (const auto& c : shape) entries += c.size();
-    return entries * sizeof(double);
-  }
-
   /// Fills what is read beyond the last particle with entries that do not count.
   void pad() {
     reserve(count + kLanes);
