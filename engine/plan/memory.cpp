@@ -77,6 +77,14 @@ double particles_in_boxes(const Scene& scene, bool filled) {
 
 std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes / 1073741824.0); }
 
+/// A picture in its samples and its pixels: as wide as high in space, of the grid's shape in the plane.
+double canvas_bytes(const Scene& scene) {
+  constexpr double kSquare = 32 << 20, kAround = 0.3;  // beside the box: numbers, titles, the colour bar
+  const auto& size = scene.grid.size;
+  const double ratio = scene.dimension() == 3 ? 1 : std::min(size[0], size[1]) / std::max(size[0], size[1]);
+  return kSquare * std::max(0.5, kAround + (1 - kAround) * ratio);
+}
+
 }  // namespace
 
 PassingNeed passing_need(const Scene& scene, double particles) {
@@ -87,12 +95,11 @@ PassingNeed passing_need(const Scene& scene, double particles) {
   const bool plane = scene.dimension() == 2;
   const double frame = plane ? 95 : 145;
   constexpr double kSearch = 145, kSearchAtStart = 80, kPicture = 36, kRow = 12;
-  constexpr double kCanvas = 32 << 20;
   PassingNeed most{kRow * particles, "a row of the history"};
   const auto need = [&](double bytes, const char* reason) {
     if (bytes > most.bytes) most = {bytes, reason};
   };
-  if (scene.output.picture != "none") need(kPicture * particles + kCanvas, "a picture");
+  if (scene.output.picture != "none") need(kPicture * particles + canvas_bytes(scene), "a picture");
   if (plane && scene.bodies.size() > 1)
     need(kSearchAtStart * particles, "the search for bodies that overlap");
   if (plane && scene.output.overlap) need(kSearch * particles, "the search for bodies that overlap");

@@ -256,7 +256,7 @@ SPHERES
   for i in -1 0 1; do
     for j in -1 0 1; do
       for k in -1 0 1; do
-        echo "  - {name: 's $i $j $k', sphere: {centre: [$((17 + 10 * i)) mm, $((17 + 10 * j)) mm, $((17 + 10 * k)) mm]," \
+        echo "  - {name: s$((i + 1))$((j + 1))$((k + 1)), sphere: {centre: [$((17 + 10 * i)) mm, $((17 + 10 * j)) mm, $((17 + 10 * k)) mm]," \
           "radius: 5 mm}, material: rubber, velocity: [$((-10 * i)) m/s, $((-10 * j)) m/s, $((-10 * k)) m/s]}"
       done
     done
