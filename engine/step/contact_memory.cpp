@@ -88,7 +88,7 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   if (choice.smooth) {
     of_node += sizeof(RawNormal<Dim>) + 4 * sizeof(double);
     const int shapes = choice.separate ? shape_size<Dim>(choice.extent) : 0;
-    constexpr double kFilled = 0.8;  // of a support: surfaces that meet are round
+    constexpr double kFilled = 0.9;  // of a support: surfaces that meet are round
     need.bytes +=
         std::min(need.nodes, kept + ahead) * kFilled * particles_of_cloud<Dim>(scene) * 8 * (Dim + shapes);
   }
