@@ -160,26 +160,27 @@ void draw_ball(Picture& picture, PixelPoint centre, double radius, Colour colour
 Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring& colour,
               const Framing& framing) {
   struct Ball {
-    Vec<3> view;  ///< right, up, towards the eye
-    double radius;
+    double depth;  ///< towards the eye
     std::uint32_t particle;
   };
+  const auto view_of = [&](std::uint32_t p) { return to_view(particles.vector(Quantity::position, p)); };
   std::vector<Ball> balls;
-  for (const std::uint32_t p : order_by_id(particles)) {
-    const Vec<3> centre = particles.vector(Quantity::position, p);
-    const double radius = radius_of(particles, scene, p);
-    if (centre.allFinite() && std::isfinite(radius)) balls.push_back({to_view(centre), 1.15 * radius, p});
-  }
+  balls.reserve(particles.size());
+  for (const std::uint32_t p : order_by_id(particles))
+    if (particles.vector(Quantity::position, p).allFinite() && std::isfinite(radius_of(particles, scene, p)))
+      balls.push_back({view_of(p)[2], p});
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
               z = box_range(framing, scene, 2);
   const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
   Picture picture(view.across(), view.up(), colour.has_bar(), colour.longest);
   view.draw_edges(picture);
   std::stable_sort(balls.begin(), balls.end(),
-                   [](const Ball& a, const Ball& b) { return a.view[2] < b.view[2]; });
-  for (const Ball& ball : balls)
-    draw_ball(picture, picture.at(ball.view[0], ball.view[1]), ball.radius * picture.pixels_per_metre(),
-              colour(ball.particle));
+                   [](const Ball& a, const Ball& b) { return a.depth < b.depth; });
+  for (const Ball& ball : balls) {
+    const Vec<3> at = view_of(ball.particle);
+    const double radius = 1.15 * radius_of(particles, scene, ball.particle);
+    draw_ball(picture, picture.at(at[0], at[1]), radius * picture.pixels_per_metre(), colour(ball.particle));
+  }
   view.draw_labels(picture, length_unit(scene));
   picture.draw_frame();
   return picture;
@@ -236,7 +237,7 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
   } else if (!colour.by_body && framing.values)
     text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
   picture.write_titles(text);
-  return picture.canvas();
+  return std::move(picture.canvas());  // of the size of many pictures: no copy
 }
 
 template <int Dim>

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
-#include <algorithm>
 #include <bit>
-#include <cstring>
 #include <iterator>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/output/files.hpp"
 
@@ -18,51 +16,57 @@ namespace {
 constexpr std::size_t kBlock = std::size_t{1} << 20;
 constexpr int kFastest = 1;  // level 6 takes three times as long for 2 % less
 
-/// VTK's layout: block count, block size, size of a last partial block (else 0), compressed sizes, the
-/// blocks.
-std::string compressed(std::string_view data) {
-  const std::size_t blocks = (data.size() + kBlock - 1) / kBlock;
-  std::vector<std::uint64_t> header{blocks, kBlock, data.size() % kBlock};
-  header.resize(header.size() + blocks);
-  const std::size_t head = header.size() * sizeof(std::uint64_t);
-  std::vector<Bytef> packed(compressBound(kBlock));
-  std::string out(head, '\0');
-  for (std::size_t k = 0; k < blocks; ++k) {
-    const std::string_view block = data.substr(k * kBlock, kBlock);
-    uLongf size = static_cast<uLongf>(packed.size());
-    if (compress2(packed.data(), &size, reinterpret_cast<const Bytef*>(block.data()),
-                  static_cast<uLong>(block.size()), kFastest) != Z_OK)
-      throw std::runtime_error("zlib could not compress a particle column");
-    out.append(reinterpret_cast<const char*>(packed.data()), size);
-    header[3 + k] = size;
-  }
-  std::memcpy(out.data(), header.data(), head);
-  out.shrink_to_fit();
-  return out;
-}
-
 }  // namespace
 
-VtuFile::VtuFile(const std::vector<double>& points) : points_(points.size() / 3) {
-  point_tag_ = array_tag("Float64", "Points", 3, {}, bytes_of(points));
-  // A vertex cell for each point: ParaView shows cells, and its filters then work on single particles.
+void PackedArray::append(std::string_view data) {
+  bytes_ += data.size();
+  while (block_.size() + data.size() >= kBlock) {
+    const std::size_t taken = kBlock - block_.size();
+    block_ += data.substr(0, taken);
+    data.remove_prefix(taken);
+    pack();
+  }
+  block_ += data;
+}
+
+void PackedArray::pack() {
+  std::vector<Bytef> room(compressBound(kBlock));
+  uLongf size = static_cast<uLongf>(room.size());
+  if (compress2(room.data(), &size, reinterpret_cast<const Bytef*>(block_.data()),
+                static_cast<uLong>(block_.size()), kFastest) != Z_OK)
+    throw std::runtime_error("zlib could not compress a particle column");
+  packed_.emplace_back(reinterpret_cast<const char*>(room.data()), size);
+  block_.clear();
+}
+
+std::vector<std::string> PackedArray::finish() {
+  if (!block_.empty()) pack();
+  std::vector<std::uint64_t> header{packed_.size(), kBlock, bytes_ % kBlock};
+  for (const std::string& block : packed_) header.push_back(block.size());
+  packed_.emplace(packed_.begin(), reinterpret_cast<const char*>(header.data()),
+                  header.size() * sizeof(std::uint64_t));
+  return std::move(packed_);
+}
+
+/// A vertex cell for each point: ParaView shows cells, and its filters then work on single particles.
+void VtuFile::add_cells() {
   constexpr std::uint8_t kVertex = 1;
-  std::vector<std::int64_t> numbers(points_);
-  std::iota(numbers.begin(), numbers.end(), std::int64_t{0});
-  cell_tags_ = array_tag("Int64", "connectivity", 0, {}, bytes_of(numbers));
-  std::iota(numbers.begin(), numbers.end(), std::int64_t{1});
-  cell_tags_ += array_tag("Int64", "offsets", 0, {}, bytes_of(numbers));
-  cell_tags_ += array_tag("UInt8", "types", 0, {}, bytes_of(std::vector<std::uint8_t>(points_, kVertex)));
+  const auto number = [](std::size_t i, std::int64_t* out) { *out = static_cast<std::int64_t>(i); };
+  const auto end = [](std::size_t i, std::int64_t* out) { *out = static_cast<std::int64_t>(i) + 1; };
+  const auto type = [](std::size_t, std::uint8_t* out) { *out = kVertex; };
+  cell_tags_ = array_tag("Int64", "connectivity", 0, {}, packed<std::int64_t>(1, number));
+  cell_tags_ += array_tag("Int64", "offsets", 0, {}, packed<std::int64_t>(1, end));
+  cell_tags_ += array_tag("UInt8", "types", 0, {}, packed<std::uint8_t>(1, type));
 }
 
 std::string VtuFile::array_tag(std::string_view type, std::string_view name, std::size_t components,
-                               std::span<const std::string_view> component_names, std::string_view data) {
+                               std::span<const std::string_view> component_names, PackedArray data) {
   std::string tag = fmt::format("        <DataArray type=\"{}\" Name=\"{}\"", type, name);
   if (components > 1) tag += fmt::format(" NumberOfComponents=\"{}\"", components);
   for (std::size_t k = 0; k < component_names.size(); ++k)
     tag += fmt::format(" ComponentName{}=\"{}\"", k, component_names[k]);
   tag += fmt::format(" format=\"appended\" offset=\"{}\"/>\n", offset_);
-  offset_ += appended_.emplace_back(compressed(data)).size();
+  for (std::string& part : data.finish()) offset_ += appended_.emplace_back(std::move(part)).size();
   return tag;
 }
 

@@ -36,15 +36,29 @@ double particles_per_cell(const BodySpec& body, int dimension) {
   return product;
 }
 
+/// Slots that a body takes: of full tiles inside, and of the tiles around it, as far as its box reaches.
+double slots_of(const BodySpec& body, double cell, int dimension) {
+  const Bounds box = bounds(body.shape);
+  double inner = 1, all = 1, slots_of_tile = 1;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(dimension); ++d) {
+    const double tiles = (box.upper[d] - box.lower[d]) / (kTileSide * cell);
+    inner *= tiles;
+    all *= tiles + 1.75;  // it begins anywhere in a tile, and windows reach a tile further
+    slots_of_tile *= kTileSide;
+  }
+  const double share = filled_share(body.shape, box, dimension);
+  const double thin = 1.5 * share * inner;  // of what has holes, but tiles are not full
+  return slots_of_tile * std::max(thin, share * inner + all - inner);
+}
+
 template <int Dim>
 double bytes_of(const Scene& scene, const Plan& plan, double particles) {
-  double columns = 0, nodal = 0, most = 1;
+  double columns = 0, nodal = 0, slots = 0;
   for (const Quantity q : plan.particle_columns) columns += Particles<Dim>::components(q);
   for (const Nodal q : plan.nodal_columns) nodal += Nodes<Dim>::components(q);
-  for (const BodySpec& body : scene.bodies) most = std::max(most, particles_per_cell(body, Dim));
-  constexpr double kSort = 40;    // bytes a particle: keys, identity, a column at a time
-  constexpr double kNodes = 1.5;  // slots a cell: tiles are not full
-  return particles * (8 * columns + kSort + kNodes * 8 * nodal / most);
+  for (const BodySpec& body : scene.bodies) slots += slots_of(body, scene.grid.cell, Dim);
+  constexpr double kSort = 40;  // bytes a particle: keys, identity, a column at a time
+  return particles * (8 * columns + kSort) + slots * 8 * nodal;
 }
 
 /// Of the boxes around all bodies, or of what the bodies fill of them.
@@ -63,27 +77,40 @@ double particles_in_boxes(const Scene& scene, bool filled) {
 
 std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes / 1073741824.0); }
 
+/// A picture in its samples and its pixels: as wide as high in space, of the grid's shape in the plane.
+double canvas_bytes(const Scene& scene) {
+  constexpr double kSquare = 32 << 20, kAround = 0.3;  // beside the box: numbers, titles, the colour bar
+  const auto& size = scene.grid.size;
+  const double ratio = scene.dimension() == 3 ? 1 : std::min(size[0], size[1]) / std::max(size[0], size[1]);
+  return kSquare * std::max(0.5, kAround + (1 - kAround) * ratio);
+}
+
 }  // namespace
 
-double passing_bytes(const Scene& scene, double particles) {
-  // The search lists where the domain of each particle is; what lies in the box of another body it sorts. At
-  // the start there are no nodes yet, and nothing is sorted. What of a frame is compressed is about half as
-  // large, and one column is there as it was.
-  constexpr double kSearch = 145, kSearchAtStart = 80, kFrame = 185, kPicture = 30;  // a particle
-  constexpr double kCanvas = 40 << 20;
+PassingNeed passing_need(const Scene& scene, double particles) {
+  // Bytes a particle. The search lists where the domain of each is; what lies in the box of another body it
+  // sorts. At the start there are no nodes yet, and nothing is sorted. A frame is what zlib makes of the
+  // columns of deformed particles, where zeros cost nothing. A row asks for the order of the ids, and a
+  // number of each.
   const bool plane = scene.dimension() == 2;
-  double most = 0;
-  if (scene.output.picture != "none") most = kPicture * particles + kCanvas;
-  if (plane && scene.bodies.size() > 1) most = std::max(most, kSearchAtStart * particles);
-  if (plane && scene.output.overlap) most = std::max(most, kSearch * particles);
-  if (scene.output.frames > 0) most = std::max(most, kFrame * particles);
+  const double frame = plane ? 95 : 145;
+  constexpr double kSearch = 145, kSearchAtStart = 80, kPicture = 36, kRow = 12;
+  PassingNeed most{kRow * particles, "a row of the history"};
+  const auto need = [&](double bytes, const char* reason) {
+    if (bytes > most.bytes) most = {bytes, reason};
+  };
+  if (scene.output.picture != "none") need(kPicture * particles + canvas_bytes(scene), "a picture");
+  if (plane && scene.bodies.size() > 1)
+    need(kSearchAtStart * particles, "the search for bodies that overlap");
+  if (plane && scene.output.overlap) need(kSearch * particles, "the search for bodies that overlap");
+  if (scene.output.frames > 0) need(frame * particles, "a frame");
   return most;
 }
 
 double estimated_particles(const Scene& scene) { return particles_in_boxes(scene, true); }
 
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
-  return passing_bytes(scene, particles) +
+  return passing_need(scene, particles).bytes +
          (scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles));
 }
 

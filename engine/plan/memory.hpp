@@ -12,15 +12,22 @@ namespace mpmfast {
 /// shapes (judged on a raster).
 double estimated_particles(const Scene& scene);
 
-/// Bytes that a run takes for a while beside its particles, nodes, tiles and the sort: to look for bodies
-/// that overlap at the start, for a frame, for a picture.
-double passing_bytes(const Scene& scene, double particles);
+/// What a run takes for a while beside what lasts.
+struct PassingNeed {
+  double bytes = 0;
+  const char* reason = "";  ///< what takes it
+};
 
-/// Bytes that a run of that many particles takes at most, without the program itself: particles, nodes, tiles
-/// and the sort within a third, and what passes.
+/// The most that is taken at a time: to look for bodies that overlap, for a frame, for a picture, or for a
+/// row of the history.
+PassingNeed passing_need(const Scene& scene, double particles);
+
+/// Bytes that a run of that many particles takes at most, without the program itself and contact: particles,
+/// nodes, tiles and the sort within a third, and what passes.
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles);
 
-inline constexpr double kProgramBytes = 12 << 20;  ///< of the program and its libraries, resident
+/// Of the program and its libraries, resident; those that write checkpoints come with the first.
+inline constexpr double kProgramBytes = 15.5 * (1 << 20), kCheckpointBytes = 4.5 * (1 << 20);
 
 /// Bytes of memory that the machine has; 0 when it does not tell.
 std::uint64_t machine_memory();

@@ -4,6 +4,7 @@
 
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
@@ -23,20 +24,26 @@ class Column {
   T& operator[](std::size_t i) { return data_.get()[i]; }
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
   std::size_t size() const { return size_; }
+  /// With room that no element was in yet: the system gives that only when it is touched.
   std::size_t bytes() const { return capacity_ * sizeof(T); }
 
   /// Grows if needed (contents are then lost and zeroed); never shrinks the memory.
-  void resize_discard(std::size_t n) {
+  /// @param room  elements that it grows to, if it must
+  void resize_discard(std::size_t n, std::size_t room = 0) {
     if (n + kPadding > capacity_) {
-      const std::size_t needed = (n + kPadding) * sizeof(T);
+      const std::size_t needed = (std::max(n, room) + kPadding) * sizeof(T);
       const std::size_t grain = needed < kHuge ? 64 : kHugePage;
       const std::size_t bytes = (needed + grain - 1) / grain * grain;
       T* raw = static_cast<T*>(std::aligned_alloc(grain, bytes));
       if (!raw) throw std::bad_alloc();
       if (grain == kHugePage) madvise(raw, bytes, MADV_HUGEPAGE);  // a wish: refused, it is only slower
-      std::memset(static_cast<void*>(raw), 0, bytes);
       data_.reset(raw);
       capacity_ = bytes / sizeof(T);
+      zeroed_ = 0;
+    }
+    if (n + kPadding > zeroed_) {
+      std::memset(static_cast<void*>(data() + zeroed_), 0, (n + kPadding - zeroed_) * sizeof(T));
+      zeroed_ = n + kPadding;
     }
     size_ = n;
   }
@@ -50,6 +57,7 @@ class Column {
   };
   std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0, capacity_ = 0;
+  std::size_t zeroed_ = 0;  ///< elements that were zeroed when they first came into use
 };
 
 }  // namespace mpmfast

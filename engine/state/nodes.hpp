@@ -71,10 +71,9 @@ class Nodes {
 
   /// Room for n slots; keeps memory that is already there.
   void resize(std::size_t n) {
-    if (n > room_) room_ = n + n / 4;  // so that a sort seldom allocates
     size_ = n;
     for (Nodal q : quantities_)
-      for (auto& c : columns_[index(q)]) c.resize_discard(room_);
+      for (auto& c : columns_[index(q)]) c.resize_discard(n, n + n / 4);  // a sort seldom allocates
   }
 
   std::size_t size() const { return size_; }
@@ -113,7 +112,7 @@ class Nodes {
   static std::size_t index(Nodal q) { return static_cast<std::size_t>(q); }
   std::vector<Nodal> quantities_;
   std::array<std::vector<Column<double>>, kNodalQuantities> columns_;
-  std::size_t size_ = 0, room_ = 0;
+  std::size_t size_ = 0;
 };
 
 }  // namespace mpmfast

@@ -131,6 +131,14 @@ class Particles {
     return has(Quantity::out_of_plane_stretch) ? column(Quantity::out_of_plane_stretch)[p] * j : j;
   }
 
+  /// Of all columns, with their padding: large pages leave some over.
+  std::size_t bytes() const {
+    std::size_t sum = id_.bytes() + body_.bytes();
+    for (Quantity q : quantities_)
+      for (const auto& c : columns_[static_cast<std::size_t>(q)]) sum += c.bytes();
+    return sum;
+  }
+
   /// Bytes of all columns as planned (without padding).
   std::size_t planned_bytes() const {
     std::size_t doubles = 0;

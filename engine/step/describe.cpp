@@ -8,6 +8,7 @@
 #include "engine/errors.hpp"
 #include "engine/plan/memory.hpp"
 #include "engine/scene/names.hpp"
+#include "engine/step/contact_memory.hpp"
 #include "engine/step/overlap_at_start.hpp"
 #include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
@@ -16,7 +17,8 @@ namespace mpmfast {
 
 namespace {
 
-std::string in_mebibytes(std::size_t bytes) {
+template <class Number>
+std::string in_mebibytes(Number bytes) {
   return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0);
 }
 
@@ -77,6 +79,29 @@ std::string contact_text(const ContactSpec& contact) {
   return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
 }
 
+/// What lasts, then what comes to it, and the sum. @param step  that has advanced
+template <int Dim>
+std::string memory_text(const Step<Dim>& step, const Scene& scene) {
+  const State<Dim>& state = step.state();
+  const auto& particles = state.particles;
+  const std::size_t lasting = particles.bytes() + state.nodes.bytes() + state.tiling.bytes();
+  const ContactNeed contact = contact_need(step, scene);
+  const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()));
+  const double program = kProgramBytes + (scene.output.checkpoint.active ? kCheckpointBytes : 0);
+  std::string text = fmt::format(
+      "{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting, {} of the program,",
+      in_mebibytes(particles.bytes()),
+      particles.size() > 0 ? particles.planned_bytes() / particles.size() : 0,
+      in_mebibytes(state.nodes.bytes()), in_mebibytes(state.tiling.bytes()), in_mebibytes(program));
+  const std::string below = "\n" + std::string(18, ' ');
+  if (step.plan().contact)
+    text += below + fmt::format("{} of contact, should every surface meet another ({:.0f} nodes; {} now),",
+                                in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+  return text + below +
+         fmt::format("{} for a while for {}; {} at most", in_mebibytes(passing.bytes), passing.reason,
+                     in_mebibytes(static_cast<double>(lasting) + contact.bytes + passing.bytes + program));
+}
+
 template <int Dim>
 std::string describe(const Scene& scene) {
   Step<Dim> step(scene);
@@ -103,9 +128,6 @@ std::string describe(const Scene& scene) {
   for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
-  const double most =
-      static_cast<double>(planned + step.state().nodes.bytes() + step.state().tiling.bytes()) +
-      passing_bytes(scene, static_cast<double>(particles.size())) + kProgramBytes;
   line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
   line("grid", grid_text(scene.grid, Dim));
   line("particles", fmt::format("{}", particles.size()));
@@ -114,11 +136,7 @@ std::string describe(const Scene& scene) {
   if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
-  line("memory",
-       fmt::format("{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting; {} at most",
-                   in_mebibytes(planned), particles.size() > 0 ? planned / particles.size() : 0,
-                   in_mebibytes(step.state().nodes.bytes()), in_mebibytes(step.state().tiling.bytes()),
-                   in_mebibytes(static_cast<std::size_t>(most))));
+  line("memory", memory_text(step, scene));
   line("checkpoint",
        checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
   line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));

@@ -11,6 +11,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
+#include "engine/step/contact_slabs.hpp"
 #include "engine/step/smooth_normals.hpp"
 #include "kernels/contact/collect.hpp"
 #include "kernels/contact/margin.hpp"
@@ -65,18 +66,40 @@ class ContactFit {
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     for (auto& room : rooms_) {
       room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
-      room.clouds.shapes = room.candidates.shapes();
-      room.clouds.begin = 0;
       room.tally = {};
     }
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
-    find_groups(contact);
+    slabs_.cut(state, contact, choice.smooth);
+    for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
     const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
-    for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
+    std::size_t surrounded = 0;
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      fit_slab(state, view, spec, choice, mean, s, contact);
+      for (; choice.smooth && surrounded <= s && slabs_.surrounded_by(surrounded) <= s; ++surrounded)
+        smooth(state, choice, mean, surrounded, contact);
+    }
+    count(contact.counters);
+  }
+
+ private:
+  struct Room;
+
+  /// Normals and separations of the nodes of a slab; of those to be smoothed the clouds are kept.
+  void fit_slab(const State<Dim>& state, const ParticleView<Dim>& view, const ContactSpec& spec,
+                const FitChoice& choice, const NormalMean<Dim>& mean, std::size_t slab,
+                ContactList<Dim>& contact) {
+    const std::size_t at = slab % slabs_.at_once();
+    for (auto& room : rooms_) {
+      room.clouds[at].shapes = room.candidates.shapes();
+      room.clouds[at].begin = 0;
+    }
+    slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      Room& room = own_room();
+      CloudRoom<Dim>& clouds = room.clouds[at];
       if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
-      collect(state.grid, contact, node, room);
-      const auto cloud = room.clouds.columns(room.clouds.begin, room.clouds.count);
+      collect(state.grid, contact, node, room.candidates, clouds);
+      const auto cloud = clouds.columns(clouds.begin, clouds.count);
       const FieldRanges fields = ranges(node, cloud.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
@@ -87,14 +110,13 @@ class ContactFit {
         if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
       }
       if (!choice.smooth) return;
-      kept_[k] = {omp_get_thread_num(), cloud.count, room.clouds.begin};
-      room.clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
+      kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
+      clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
     });
-    if (choice.smooth) smooth(state, choice, mean, contact);
-    count(contact.counters);
   }
 
- private:
+  Room& own_room() { return rooms_[static_cast<std::size_t>(omp_get_thread_num())]; }
+
   /// Where the particles of each field of a node begin and end in its cloud.
   struct FieldRanges {
     const int* first;
@@ -107,8 +129,9 @@ class ContactFit {
 
   /// What one thread works in.
   struct Room {
-    Candidates<Dim> candidates;  ///< of the stack in hand
-    CloudRoom<Dim> clouds, pair;
+    Candidates<Dim> candidates;          ///< of the stack in hand
+    std::vector<CloudRoom<Dim>> clouds;  ///< of the slabs that are kept at once
+    CloudRoom<Dim> pair;
     std::vector<double> side;    ///< classes of the particles in hand
     std::vector<Vec<Dim>> sums;  ///< of normals, of the entries of the node in hand
     FitTally tally;
@@ -193,26 +216,6 @@ class ContactFit {
     std::size_t begin;
   };
 
-  /// The contact nodes of one stack are neighbours in the list: [groups_[k], groups_[k + 1]).
-  void find_groups(const ContactList<Dim>& contact) {
-    groups_.clear();
-    for (std::size_t k = 0; k < contact.nodes.size(); ++k)
-      if (k == 0 || contact.nodes[k - 1].stack != contact.nodes[k].stack) groups_.push_back(k);
-    groups_.push_back(contact.nodes.size());
-  }
-
-  /// f(index, node, the thread's room), stack after stack, in parallel.
-  template <class F>
-  void for_each_node(const State<Dim>& state, const ContactList<Dim>& contact, F f) {
-    const auto n = static_cast<std::int64_t>(groups_.size()) - 1;
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic) if (n > 4)
-    for (std::int64_t g = 0; g < n; ++g) {
-      const auto group = static_cast<std::size_t>(g);
-      Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
-      for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k], room);
-    }
-  }
-
   /// Particles near the contact nodes of a stack, whose first one is given.
   static void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
                               const ContactList<Dim>& contact, std::size_t first, Room& room) {
@@ -237,18 +240,18 @@ class ContactFit {
 
   /// The cloud of a node, field after field.
   void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
-               Room& room) {
-    room.clouds.count = 0;
-    auto piece = room.candidates.pieces.begin();
-    const auto end = room.candidates.pieces.end();
+               const Candidates<Dim>& candidates, CloudRoom<Dim>& clouds) {
+    clouds.count = 0;
+    auto piece = candidates.pieces.begin();
+    const auto end = candidates.pieces.end();
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const int field = contact.fields[static_cast<std::size_t>(f)].field;
       while (piece != end && piece->field < field) ++piece;
-      first_[static_cast<std::size_t>(f)] = room.clouds.count;
+      first_[static_cast<std::size_t>(f)] = clouds.count;
       for (; piece != end && piece->field == field; ++piece)
-        append_covering<Dim, Basis>(room.candidates, *piece, grid.inverse_cell, node.node, room.clouds);
+        append_covering<Dim, Basis>(candidates, *piece, grid.inverse_cell, node.node, clouds);
     }
-    room.clouds.pad();
+    clouds.pad();
   }
 
   /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
@@ -291,12 +294,15 @@ class ContactFit {
     return length > 0 ? Vec<Dim>(sum / length) : Vec<Dim>::Zero();
   }
 
-  /// Mean normals of the nodes around, and the separations along them.
-  void smooth(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean,
+  /// Mean normals of the nodes around, and the separations along them, of a slab.
+  void smooth(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean, std::size_t slab,
               ContactList<Dim>& contact) {
-    for_each_node(state, contact, [&](std::size_t k, const ContactNode<Dim>& node, Room& room) {
+    const std::size_t at = slab % slabs_.at_once();
+    slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      Room& room = own_room();
       const Kept& kept = kept_[k];
-      const auto cloud = rooms_[static_cast<std::size_t>(kept.thread)].clouds.columns(kept.begin, kept.count);
+      const auto cloud =
+          rooms_[static_cast<std::size_t>(kept.thread)].clouds[at].columns(kept.begin, kept.count);
       mean(mean.around(node), node, room.sums);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
@@ -323,8 +329,8 @@ class ContactFit {
   std::vector<Room> rooms_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
-  std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
-  std::vector<int> first_;           ///< as ContactList::fields: where its particles begin in their cloud
+  ContactSlabs<Dim> slabs_;
+  std::vector<int> first_;  ///< as ContactList::fields: where its particles begin in their cloud
 };
 
 }  // namespace mpmfast

@@ -17,6 +17,8 @@ namespace mpmfast {
 /// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudRoom {
+  static constexpr std::size_t kFewest = 256;  ///< particles beyond those that room is made for
+
   std::vector<double> xi[Dim];           ///< relative to the node, cells
   std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
   int shapes = 0;                        ///< how many are in use
@@ -27,8 +29,9 @@ struct CloudRoom {
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
     if (xi[0].size() >= needed) return;
-    for (auto& c : xi) c.resize(2 * needed);
-    for (int e = 0; e < shapes; ++e) shape[e].resize(2 * needed);
+    const std::size_t room = needed + needed / 4 + kFewest;
+    for (auto& c : xi) c.resize(room);
+    for (int e = 0; e < shapes; ++e) shape[e].resize(room);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.

@@ -20,7 +20,8 @@ void check_estimate(const char* file) {
   if (count < 5000) return;  // the nodes of half-empty tiles are then the most
   const auto taken =
       static_cast<double>(state.particles.planned_bytes() + state.nodes.bytes() + state.tiling.bytes());
-  const double ratio = (estimated_bytes(scene, step.plan(), count) - passing_bytes(scene, count)) / taken;
+  const double ratio =
+      (estimated_bytes(scene, step.plan(), count) - passing_need(scene, count).bytes) / taken;
   CHECK(ratio > 0.67);
   CHECK(ratio < 1.5);
 }

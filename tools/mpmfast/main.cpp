@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <cstdio>
 #include <exception>
@@ -79,6 +80,8 @@ int perform_and_report(int count, char** arguments) {
 }  // namespace
 
 int main(int count, char** arguments) {
+  // What a frame or a picture took goes back to the system at once, rather than to lie between other things.
+  mallopt(M_MMAP_THRESHOLD, 128 << 10);
   hold_closed_streams();
   wait_quietly(arguments);
   const int code = perform_and_report(count, arguments);

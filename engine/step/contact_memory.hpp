@@ -1,0 +1,18 @@
+#pragma once
+
+/// @file What contact will ask of the memory when more surfaces meet than do now.
+
+#include "engine/step/step.hpp"
+
+namespace mpmfast {
+
+struct ContactNeed {
+  double nodes = 0;  ///< contact nodes, were each surface to meet another everywhere
+  double bytes = 0;  ///< of the nodes, their entries, and the clouds that are kept at once
+};
+
+/// @param step  that has advanced: its nodes know their masses
+template <int Dim>
+ContactNeed contact_need(const Step<Dim>& step, const Scene& scene);
+
+}  // namespace mpmfast
