@@ -27,9 +27,9 @@ constexpr double kSlack = 0.02;
 /// to be brought back slowly: pushed hard, a column makes energy out of the noise of its particles' extents.
 constexpr double kDeep = 0.05, kBack = 0.02;
 
-/// Share of −P v_s that FLIP's particles take. A bar that rebounds (strain first; uGIMP, lCPDI, quadratic
-/// splines) gains 0.2 to 0.3 % of its energy with 0.03, −0.2 to 0.2 % with 0.1 and loses the same with 1,
-/// where the force at its end is lower by a seventh in the first steps; with 0 it gains 0.8 to 1.1 %.
+/// Share of −P v_s that FLIP's particles take. The energy of a bar that rebounds (strain first; uGIMP, lCPDI,
+/// quadratic splines) changes by 0.8, 1.1 and 0.2 % with 0, by 0.2, 0.3 and 0.2 % with 0.03, by 0.0, 0.2 and
+/// −0.2 % with 0.1 and by 0.5, 0.1 and −0.3 % with 1, where the first force is a seventh too low.
 constexpr double kShare = 0.1;
 
 /// Cells from the last row inside to the plane: with less, the next row inside shares the line. A thin sliver
