@@ -154,8 +154,7 @@ constexpr std::array kNotes{
         "boundaries.FACE.at",
         "Where the wall acts: on the nodes at and beyond its plane, on its plane, which is exact for a body "
         "that stands against it, or on the surface of what reaches it."},
-    KeyNote{"boundaries.FACE.friction",
-            "Coulomb's coefficient of the wall, with `at: surface`; 0 if not given."},
+    KeyNote{"boundaries.FACE<at=surface>.friction", "Coulomb's coefficient of the wall on what touches it."},
     KeyNote{"boundaries.NAME",
             "A velocity given at some nodes, along one direction; the name heads its columns."},
     KeyNote{"boundaries.NAME.box", "All nodes in this box."},
