@@ -173,10 +173,11 @@ inline constexpr std::array<Word<bool>, 2> kWallKinds{{
     {true, "held", "it also holds sideways"},
 }};
 
-/// Does a wall hold its plane where that cuts a cell?
-inline constexpr std::array<Word<bool>, 2> kWallPlaces{{
-    {false, "nodes", "the nodes at and beyond its plane"},
-    {true, "plane", "its plane, where that cuts a cell"},
+/// Where a wall acts.
+inline constexpr std::array<Word<WallPlace>, 3> kWallPlaces{{
+    {WallPlace::nodes, "nodes", "it holds the nodes at and beyond its plane"},
+    {WallPlace::plane, "plane", "it holds its plane, where that cuts a cell"},
+    {WallPlace::surface, "surface", "it pushes what reaches its plane, which may part again and rub"},
 }};
 
 /// Do particles lie on rings?

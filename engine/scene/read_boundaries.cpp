@@ -94,7 +94,11 @@ class BoundaryReader {
       wall.position = position->quantity(Measure::length).value_or(wall.position);
       check_position(face, *position, wall.position);
     }
-    if (const auto at = map.find("at")) wall.at_plane = at->word(kWallPlaces).value_or(false);
+    if (const auto at = map.find("at")) wall.place = at->word(kWallPlaces).value_or(wall.place);
+    if (wall.place == WallPlace::surface && !wall.held) {
+      const When at_surface(value, "at=surface");
+      map.quantity("friction", Measure::number, kNotNegative, wall.friction);
+    }
     map.finish();
     add(face.name, value, wall);
   }

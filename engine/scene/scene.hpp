@@ -211,14 +211,19 @@ struct BodySpec {
   std::optional<RotationSpec> rotation;
 };
 
-/// A half-space of grid nodes beyond a plane normal to an axis: wall, piston, symmetry plane.
+/// Where a wall acts: on the nodes at and beyond its plane; at the plane where that cuts a cell; or on what
+/// reaches the plane, which it pushes and never pulls.
+enum class WallPlace { nodes, plane, surface };
+
+/// A half-space beyond a plane normal to an axis: wall, piston, symmetry plane.
 struct WallSpec {
-  int axis = 0;           ///< 0..2
-  bool upper = false;     ///< nodes at and beyond `position` in +axis (true) or −axis direction
-  double position = 0;    ///< m, at time 0
-  TimeTable speed;        ///< m/s along +axis; the plane moves with it
-  bool held = false;      ///< also fixes the tangential velocity
-  bool at_plane = false;  ///< holds its plane where that cuts a cell; else the nodes at and beyond it
+  int axis = 0;         ///< 0..2
+  bool upper = false;   ///< what is at and beyond `position` in +axis (true) or −axis direction
+  double position = 0;  ///< m, at time 0
+  TimeTable speed;      ///< m/s along +axis; the plane moves with it
+  bool held = false;    ///< also fixes the tangential velocity
+  WallPlace place = WallPlace::nodes;
+  double friction = 0;  ///< Coulomb's, of a wall at the surface of bodies
 };
 /// Prescribed velocity along one direction at every node inside a box.
 struct VelocityBoxSpec {

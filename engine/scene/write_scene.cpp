@@ -231,7 +231,8 @@ struct BoundaryText {
   std::string operator()(const WallSpec& wall) const {
     const std::string position = quantity_text(wall.position, Measure::length);
     const bool still = wall.speed.time.size() == 1 && wall.speed.time[0] == 0 && wall.speed.value[0] == 0;
-    const std::string at = std::string(name_of(kWallPlaces, wall.at_plane));
+    std::string at = std::string(name_of(kWallPlaces, wall.place));
+    if (wall.place == WallPlace::surface && !wall.held) at += fmt::format(", friction: {}", wall.friction);
     if (still)
       return fmt::format("{{wall: {}, position: {}, at: {}}}", wall.held ? "held" : "sliding", position, at);
     return fmt::format("{{piston: {}, direction: {}, held: {}, position: {}, at: {}}}",

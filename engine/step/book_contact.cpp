@@ -48,7 +48,7 @@ Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& 
     momentum_b += momentum(k);
   }
   const Vec<Dim> slip = momentum(entry.a) / mass[slot_of(entry.a)] - momentum_b / mass_b;
-  return node.constrained ? conditions_->free_part(slot_of(entry.a), slip) : slip;
+  return node.constrained ? free_part(node, slip) : slip;
 }
 
 /// What the slips are before a correction.
@@ -92,7 +92,9 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
 /// What the particles lose by sliding, J. Of a contact with the impulses J₁, J₂, J₃ of the corrections, the
 /// slips s₀ and s′ that the particles give the grid before and after the step, and s₁ → s₂ that the forces
 /// change, FLIP's particles and strains gain J₂·½ (s₀ + s′) − ½ (s₂ − s₁)·(J₁ + J₃); its tangential part is
-/// friction's. Particles that keep the first correction gain J₁·½ (s₀ + s₁) + J₂·½ (s₁ + s⁺).
+/// friction's, and no bound is put on it: noise that turns back within a step gives back what it took, and to
+/// drop that would count it twice. Particles that keep the first correction gain J₁·½ (s₀ + s₁) + J₂·½ (s₁ +
+/// s⁺).
 template <int Dim>
 double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry) const {
   const auto along = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - x.dot(entry.normal) * entry.normal; };
@@ -106,7 +108,7 @@ double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry) const {
     gain =
         0.5 * (second.dot(entry.slip_start + entry.slip_end) - (entry.slip_free - entry.slip_held).dot(kept));
   }
-  return std::max(0.0, -gain);
+  return -gain;
 }
 
 /// Adds up the friction work, in a fixed order.

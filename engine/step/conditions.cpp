@@ -4,21 +4,11 @@
 #include <cmath>
 
 #include "engine/scene/time_table.hpp"
+#include "engine/step/wall_row.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-constexpr double kRowTolerance = 1e-6;  ///< cells: a wall this close to a row of nodes lies on it
-
-/// The least distance, in cells, of a plane from the last row inside. A thinner sliver of material is
-/// strained as one of this thickness is: it would need a smaller time step, the more so where supports are
-/// wide. Columns pressed at CFL 0.5 and 0.9 swing with less (0.01; splines 0.05) and have too little stress
-/// with more.
-double thinnest(BasisKind basis) {
-  const bool narrow = basis == BasisKind::linear || basis == BasisKind::ugimp || basis == BasisKind::lcpdi;
-  return narrow ? 0.05 : 0.15;
-}
 
 template <int Dim>
 Vec<Dim> axis_vector(int axis) {
@@ -32,12 +22,12 @@ const TimeTable& speed_table(const BoundarySpec& b) {
 }  // namespace
 
 template <int Dim>
-Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene) {
+Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) {
   const auto n = scene.boundaries.size();
   speed_.assign(n, 0);
   row_.assign(n, 0);
   cut_.assign(n, 1);
-  force_.assign(n, Vec<Dim>::Zero());
+  books_.force.assign(n, Vec<Dim>::Zero());
   for (std::size_t b = 0; b < n; ++b) {
     fastest_ = std::max(fastest_, largest(speed_table(scene.boundaries[b])));
     const int index = static_cast<int>(b);
@@ -57,35 +47,44 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene) {
 template <int Dim>
 void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
   const auto& grid = scene_->grid;
-  work_ = 0;
+  books_.work = books_.friction_work = 0;
   for (std::size_t b = 0; b < scene_->boundaries.size(); ++b) {
     const auto& table = speed_table(scene_->boundaries[b]);
     speed_[b] = mean_over(table, t, dt);
-    force_[b] = Vec<Dim>::Zero();
+    books_.force[b] = Vec<Dim>::Zero();
     const auto* wall = std::get_if<WallSpec>(&scene_->boundaries[b].condition);
     if (!wall) continue;
     const double plane = wall->position + integral_to(table, t);
     const double cells = (plane - grid.origin[static_cast<std::size_t>(wall->axis)]) / grid.cell;
-    const int row =
-        static_cast<int>(wall->upper ? std::ceil(cells - kRowTolerance) : std::floor(cells + kRowTolerance));
-    const double beyond = std::abs(row - cells);
-    const double cut = !wall->at_plane || beyond < 2 * kRowTolerance
+    const WallRow at = wall_row(cells, wall->upper);
+    const double cut = wall->place != WallPlace::plane || at.cut == 1
                            ? 1
-                           : std::max(thinnest(scene_->method.basis), 1 - beyond);
-    stale_ |= row != row_[b] || (cut < 1) != (cut_[b] < 1);
-    row_[b] = row;
+                           : std::max(thinnest_cut(scene_->method.basis), at.cut);
+    stale_ |= at.row != row_[b] || (cut < 1) != (cut_[b] < 1);
+    row_[b] = at.row;
     cut_[b] = cut;
   }
-  if (stale_) list_nodes(state);
+  if (stale_) {
+    list_nodes(state);
+    walls_.forget_nodes();  // rows that others prescribe are left to them
+  }
   stale_ = false;
   for (auto& c : combinations_) orthonormalise(c);
+  walls_.prepare(state, t, dt, [this](const NodeIndex<Dim>& node, int axis) {
+    return std::any_of(components_.begin(), components_.end(), [&](const Component& c) {
+      return c.direction[axis] != 0 && covers(static_cast<std::size_t>(c.boundary), node);
+    });
+  });
+  walls_.decide(state);
 }
 
 template <int Dim>
 bool Conditions<Dim>::covers(std::size_t b, const NodeIndex<Dim>& node) const {
   const auto& condition = scene_->boundaries[b].condition;
-  if (const auto* wall = std::get_if<WallSpec>(&condition))
-    return wall->upper ? node[wall->axis] >= row_[b] : node[wall->axis] <= row_[b];
+  if (const auto* wall = std::get_if<WallSpec>(&condition)) {
+    const int beyond = (wall->upper ? 1 : -1) * (node[wall->axis] - row_[b]);
+    return beyond >= (wall->place == WallPlace::surface ? SurfaceWalls<Dim>::kRowsBeyond : 0);
+  }
   const auto& box = std::get<VelocityBoxSpec>(condition);
   const auto& grid = scene_->grid;
   for (std::size_t d = 0; d < Dim; ++d) {
@@ -229,7 +228,7 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
 }
 
 template <int Dim>
-void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) const {
+void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
   for (const auto& [slot, combination] : nodes_) {
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     if (!(state.nodes.column(Nodal::mass)[slot] > 0)) continue;
@@ -243,6 +242,7 @@ void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) const
         const double mass = state.nodes.column(Nodal::mass)[slot];
         state.nodes.set(velocities, slot, state.nodes.vector(velocities, slot) + (impulse / mass) * e);
       });
+  walls_.impose_velocity(state, velocities);
 }
 
 /// On row k, at s_k = k − ξ cells from the plane, the velocity becomes u + g s_k; the slope with the least
@@ -276,8 +276,8 @@ template <int Dim>
 void Conditions<Dim>::book(int component, double impulse, double dt) {
   const Component& c = components_[static_cast<std::size_t>(component)];
   const auto b = static_cast<std::size_t>(c.boundary);
-  force_[b] += (impulse / dt) * c.direction;
-  if (c.moving) work_ += impulse * speed_[b];
+  books_.force[b] += (impulse / dt) * c.direction;
+  if (c.moving) books_.work += impulse * speed_[b];
 }
 
 /// Calls change(mass, slot, direction, speed) for every constrained component; it returns the reaction along
@@ -292,13 +292,13 @@ void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
     double reaction[Dim];
     for (int k = 0; k < c.count; ++k) {
       reaction[k] = change(mass, slot, c.direction[k], c.speed[k]);
-      work_ += reaction[k] * c.speed[k] * dt;
+      books_.work += reaction[k] * c.speed[k] * dt;
     }
     // Each boundary pushes along its own direction only: R = Σ λ_k n_k with n_k = Σ_j share_kj e_j, from the
     // last on.
     for (int k = c.count - 1; k >= 0; --k) {
       const double push = reaction[k] / c.share(k, k);
-      force_[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
+      books_.force[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
       for (int j = 0; j < k; ++j) reaction[j] -= push * c.share(k, j);
     }
   }
@@ -321,6 +321,7 @@ void Conditions<Dim>::react(State<Dim>& state, double dt) {
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
     book(component, impulse, dt);
   });
+  walls_.react(state, dt, books_);
 }
 
 template <int Dim>
@@ -340,6 +341,7 @@ void Conditions<Dim>::enforce(State<Dim>& state, double dt) {
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
     book(component, impulse, dt);
   });
+  walls_.enforce(state, dt, books_);
 }
 
 template class Conditions<2>;

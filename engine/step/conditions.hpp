@@ -9,6 +9,7 @@
 
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
+#include "engine/step/surface_walls.hpp"
 
 namespace mpmfast {
 
@@ -32,32 +33,47 @@ class Conditions {
   /// The speeds of the step from t to t + dt, and the nodes that they act on.
   void prepare(const State<Dim>& state, double t, double dt);
   /// After a sort: slots have new numbers.
-  void forget_nodes() { stale_ = true; }
+  void forget_nodes() {
+    stale_ = true;
+    walls_.forget_nodes();
+  }
 
   /// Puts the prescribed components into the nodal velocities that the strain is taken from: `velocity`, or
   /// `re_extrapolated`.
-  void impose_velocity(State<Dim>& state, Nodal velocities = Nodal::velocity) const;
+  void impose_velocity(State<Dim>& state, Nodal velocities = Nodal::velocity);
   /// f ← f − (f·e)e + ((m u − p·e)/Δt) e before the momentum update (NN Eq. 2.7 to 2.11).
   void react(State<Dim>& state, double dt);
   /// After the second contact correction: momentum and force together.
   void enforce(State<Dim>& state, double dt);
 
-  /// Do conditions prescribe a component of the slot's velocity?
-  bool holds(int slot) const {
-    return !combination_at_.empty() && combination_at_[static_cast<std::size_t>(slot)] >= 0;
+  /// What conditions prescribe of a slot's velocity: which combination of theirs (−1: none), and axes, a bit
+  /// each.
+  struct Held {
+    int combination = -1;
+    unsigned axes = 0;
+    bool any() const { return combination >= 0 || axes != 0; }
+  };
+  Held held(int slot) const {
+    return {combination_at_.empty() ? -1 : combination_at_[static_cast<std::size_t>(slot)],
+            walls_.held_axes(slot)};
   }
-  /// The part of x along what they leave free there.
-  Vec<Dim> free_part(int slot, Vec<Dim> x) const {
-    const Combination& c =
-        combinations_[static_cast<std::size_t>(combination_at_[static_cast<std::size_t>(slot)])];
-    for (int k = 0; k < c.count; ++k) x -= x.dot(c.direction[k]) * c.direction[k];
+  /// The part of x along what is left free.
+  Vec<Dim> free_part(const Held& held, Vec<Dim> x) const {
+    if (held.combination >= 0) {
+      const Combination& c = combinations_[static_cast<std::size_t>(held.combination)];
+      for (int k = 0; k < c.count; ++k) x -= x.dot(c.direction[k]) * c.direction[k];
+    }
+    for (int d = 0; d < Dim; ++d)
+      if (held.axes >> d & 1) x[d] = 0;
     return x;
   }
 
   /// Force of each boundary on the material in this step, N.
-  const std::vector<Vec<Dim>>& force() const { return force_; }
+  const std::vector<Vec<Dim>>& force() const { return books_.force; }
   /// Work that the boundaries did on the material in this step, J.
-  double work() const { return work_; }
+  double work() const { return books_.work; }
+  /// Work that friction at the boundaries took in this step, J.
+  double friction_work() const { return books_.friction_work; }
   /// Largest prescribed speed ever, m/s.
   double fastest() const { return fastest_; }
   bool empty() const { return scene_->boundaries.empty(); }
@@ -113,9 +129,10 @@ class Conditions {
   std::vector<double> speed_;  ///< by boundary, this step
   std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it
   std::vector<double> cut_;    ///< by wall: cells from the last row inside to the plane; 1: it lies on a row
-  std::vector<Vec<Dim>> force_;
-  double work_ = 0, fastest_ = 0;
+  BoundaryBooks<Dim> books_;
+  double fastest_ = 0;
   bool stale_ = true;
+  SurfaceWalls<Dim> walls_;
 };
 
 extern template class Conditions<2>;

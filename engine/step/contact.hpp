@@ -137,6 +137,7 @@ class Contact {
   Vec<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                           Correction correction, const Law& law, double area_time) const;
   bool lasts(const ContactEntry<Dim>& entry) const;
+  Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;
   void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);

@@ -47,8 +47,9 @@ struct ContactNode {
   int entry_begin, entry_end;  ///< into ContactList::entries
   int pair_begin;  ///< entries from here on are the explicit pairs of a node of three or more fields
   int rigid;       ///< which of its fields is the rigid one; −1: none
-  bool constrained =
-      false;  ///< conditions prescribe a component of its velocities: contact acts along the others
+  int held_combination = -1;  ///< of its fields, see Conditions::Held
+  unsigned held_axes = 0;
+  bool constrained = false;  ///< by either: contact acts along what is left free
 };
 
 struct ContactCounters {

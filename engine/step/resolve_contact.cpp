@@ -101,6 +101,11 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
   if (correction == (re_extrapolated_ ? Correction::strain : Correction::final)) book_friction(state);
 }
 
+template <int Dim>
+Vec<Dim> Contact<Dim>::free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const {
+  return conditions_->free_part({node.held_combination, node.held_axes}, x);
+}
+
 /// A wall and a contact that correct each other in turn are no projection, and hold different velocities in
 /// the strain, the force and v′: that makes energy without end where grains jam at a wall. So on nodes where
 /// conditions hold a direction, contact acts in the others alone: both are one projection then. A gap d along
@@ -111,12 +116,16 @@ void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
   conditions_ = &conditions;
   if (conditions.empty() || !one_set_) return;
   for (auto& node : list_.nodes) {
-    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin)].slot;
-    node.constrained = conditions.holds(slot);
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const auto held = conditions.held(list_.fields[static_cast<std::size_t>(f)].slot);
+      node.held_combination = std::max(node.held_combination, held.combination);
+      node.held_axes |= held.axes;
+      node.constrained |= held.any();
+    }
     if (!node.constrained) continue;
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      const Vec<Dim> free = conditions.free_part(slot, entry.normal);
+      const Vec<Dim> free = free_part(node, entry.normal);
       const double length = free.norm();
       entry.normal = length > kNone ? Vec<Dim>(free / length) : Vec<Dim>::Zero();
       entry.separation = length > kNone ? entry.separation / length : std::numeric_limits<double>::infinity();
@@ -171,7 +180,7 @@ typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const
     const int r = slot_of(node.rigid);
     meeting = {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
   }
-  if (node.constrained) meeting.stick = conditions_->free_part(slot_of(a), meeting.stick);
+  if (node.constrained) meeting.stick = free_part(node, meeting.stick);
   return meeting;
 }
 
@@ -333,7 +342,7 @@ void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& 
     const double inverse_mass = 1 / state.nodes.column(Nodal::mass)[slot];
     const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
     Vec<Dim> velocity = inverse_mass * state.nodes.vector(Nodal::momentum, slot);
-    if (node.constrained) velocity = conditions_->free_part(slot, velocity);
+    if (node.constrained) velocity = free_part(node, velocity);
     fields.push_back({velocity, rigid ? 0.0 : inverse_mass});
   }
 }

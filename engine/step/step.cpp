@@ -398,6 +398,7 @@ void Step<Dim>::move_rigid_end(double dt) {
 template <int Dim>
 void Step<Dim>::book(double dt) {
   sums_.boundary_work += conditions_.work();
+  sums_.friction_work += conditions_.friction_work();
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) {

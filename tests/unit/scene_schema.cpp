@@ -77,6 +77,7 @@ std::vector<std::string> small_scenes() {
                                    "material: b}\n  - {name: two, material: b, box: {from: [6 mm, 1 mm], "
                                    "to: [9 mm, 4 mm]}}\n");
   return {plain,
+          plain + "boundaries: {left: {wall: sliding, at: surface}}\n",
           material("model: mie_gruneisen, density: 8, bulk: 1, " + heat + state),
           material("model: j2_plasticity, " + metal + heat + "equation_of_state: {" + state + "}"),
           material("model: johnson_cook, " + metal + heat +

@@ -153,8 +153,9 @@ constexpr std::array kNotes{
     KeyNote{"boundaries.FACE.position", "Where the wall is at time 0; the face of the grid if not given."},
     KeyNote{
         "boundaries.FACE.at",
-        "What is held where the wall cuts a cell: the nodes beyond it, or its plane, which is exact for a "
-        "body that stands against it."},
+        "Where the wall acts: on the nodes at and beyond its plane, on its plane, which is exact for a body "
+        "that stands against it, or on the surface of what reaches it."},
+    KeyNote{"boundaries.FACE<at=surface>.friction", "Coulomb's coefficient of the wall on what touches it."},
     KeyNote{"boundaries.NAME",
             "A velocity given at some nodes, along one direction; the name heads its columns."},
     KeyNote{"boundaries.NAME.box", "All nodes in this box."},

@@ -72,6 +72,7 @@ bodies:
 boundaries:
   left: wall
   right: {wall: held, position: 1 m, at: nodes}
+  bottom: {wall: sliding, at: surface, friction: 0.2}
   top: {piston: 1 m/s, direction: x, held: true, position: 1 m, at: plane}
   box: {box: {from: [0, 0], to: [1, 1]}, direction: [1, 0], speed: 0}
   node: {node: [0, 0], direction: x, speed: 0}
