@@ -56,11 +56,12 @@ inline constexpr std::array<Word<StrainKind>, 5> kStrains{{
     {StrainKind::first, "first",
      "before the forces: keeps the energy of bodies that bounce or vibrate; may gain in what spins"},
     {StrainKind::last, "last", "after the particles: the cheapest"},
-    {StrainKind::average, "average", "half before, half after: takes energy from bodies of few cells"},
+    {StrainKind::average, "average",
+     "half before, half after (default): stable everywhere, takes energy from bodies of few cells"},
     {StrainKind::last_re_extrapolated, "last+",
      "after the particles, from the velocities that they give back to the grid (MUSL)"},
     {StrainKind::average_re_extrapolated, "average+",
-     "half before, half after from the velocities that particles give back (default): keeps energy"},
+     "half before, half after from the velocities that particles give back: keeps energy"},
 }};
 
 inline constexpr std::array<Word<PositionKind>, 4> kPositions{{

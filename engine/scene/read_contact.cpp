@@ -32,7 +32,12 @@ void read_regression(MapReader& map, ContactSpec& contact) {
 
 }  // namespace
 
-void read_contact(MapReader& top, int dimension, ContactSpec& contact) {
+void read_contact(MapReader& top, int dimension, StrainKind strain, ContactSpec& contact) {
+  // With one set of touching pairs nothing has to be drained (tools/manual/theory.md, "The energy of a
+  // contact").
+  const bool set =
+      strain == StrainKind::last_re_extrapolated || strain == StrainKind::average_re_extrapolated;
+  if (set) contact.first_correction_share = 0;
   const auto section = top.find("contact");
   if (!section) return;
   if (section->is_word("none")) {

@@ -90,7 +90,7 @@ struct MethodSpec {
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
-  StrainKind strain = StrainKind::average_re_extrapolated;
+  StrainKind strain = StrainKind::average;
   PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, kAllTerms or kInverse.
   int deformation_terms = 2;
@@ -286,7 +286,7 @@ struct ContactSpec : LawSpec {
   bool persistent = true;
   /// Share of the first correction's impulse that FLIP's particles take too (N20: none). Without it they keep
   /// for good the approach that the grid is relieved of every step: noise that grows.
-  double first_correction_share = 0;
+  double first_correction_share = 0.03;
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

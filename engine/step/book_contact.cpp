@@ -51,63 +51,52 @@ Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& 
   return node.constrained ? free_part(node, slip) : slip;
 }
 
-/// What the slips are before a correction.
+/// What the slips are before the first correction.
 template <int Dim>
 void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  if (correction != (first_correction_ ? Correction::initial : Correction::final)) return;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    if (correction == Correction::strain) {
-      if (!first_correction_stays_) entry.slip_end = slip_of(state, node, entry);
-      continue;
-    }
-    const Vec<Dim> slip = slip_of(state, node, entry);
-    if (correction == Correction::initial)
-      entry.slip_start = slip;
-    else
-      entry.slip_free = slip;
-    if (!first_correction_) entry.slip_start = entry.slip_held = slip;
+    entry.slip_start = entry.slip_held = slip_of(state, node, entry);
   }
 }
 
-/// What a correction leaves to know. A pull that takes back all that the first correction pressed ends the
-/// contact.
+/// What a correction leaves to know. A pair of the set stays until its surfaces part; speeds of 1e-10 cells a
+/// step are round-off, which must not decide.
 template <int Dim>
 void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const bool acts = !entry.impulse.isZero(0);
+    const Vec<Dim> slip = slip_of(state, node, entry);
     if (correction == Correction::initial) {
       entry.first = entry.impulse;
       entry.held = acts;
-      entry.slip_held = slip_of(state, node, entry);
+      entry.slip_held = slip;
     } else if (correction == Correction::final) {
-      const double pull = entry.impulse.dot(entry.normal);
+      const bool parts = one_set_ && -slip.dot(entry.normal) > 1e-10 * cell_ / dt_;
       entry.second = entry.impulse + entry.passed;
-      entry.touching = acts && !(one_set_ && pull > 0 && pull >= -entry.first.dot(entry.normal));
-      if (!re_extrapolated_ || first_correction_stays_) entry.slip_end = slip_of(state, node, entry);
+      entry.touching = one_set_ ? (acts || entry.held || lasts(entry)) && !parts : acts;
     }
+    if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
+      entry.slip_end = slip;
   }
 }
 
-/// What the particles lose by sliding, J. Of a contact with the impulses J₁, J₂, J₃ of the corrections, the
-/// slips s₀ and s′ that the particles give the grid before and after the step, and s₁ → s₂ that the forces
-/// change, FLIP's particles and strains gain J₂·½ (s₀ + s′) − ½ (s₂ − s₁)·(J₁ + J₃); its tangential part is
-/// friction's, and no bound is put on it: noise that turns back within a step gives back what it took, and to
-/// drop that would count it twice. Particles that keep the first correction gain J₁·½ (s₀ + s₁) + J₂·½ (s₁ +
-/// s⁺).
+/// What the particles lose by sliding, J: the tangential impulse on the mean of the slips that the strains of
+/// the step see. (Its normal part does no work: tools/manual/theory.md, "The energy of a contact".) Where
+/// each correction finds its pairs by itself, on the slip that is left: impulses of many fields that jam and
+/// do not settle take energy with both parts. Particles that keep the first correction lose by that too.
 template <int Dim>
-double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry) const {
-  const auto along = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - x.dot(entry.normal) * entry.normal; };
-  const Vec<Dim> first = along(entry.first), second = along(entry.second);
-  double gain = 0;
-  if (first_correction_stays_) {
-    gain =
-        0.5 * (first.dot(entry.slip_start + entry.slip_held) + second.dot(entry.slip_held + entry.slip_end));
-  } else {
-    const Vec<Dim> kept = re_extrapolated_ ? Vec<Dim>(first + along(entry.impulse)) : first;
-    gain =
-        0.5 * (second.dot(entry.slip_start + entry.slip_end) - (entry.slip_free - entry.slip_held).dot(kept));
-  }
+double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const {
+  const auto rubbing = [&](const Vec<Dim>& x) -> Vec<Dim> {
+    return tangential || one_set_ ? Vec<Dim>(x - x.dot(entry.normal) * entry.normal) : x;
+  };
+  const Vec<Dim> second = rubbing(entry.second - (one_set_ ? Vec<Dim>::Zero() : entry.passed));
+  double gain = one_set_ ? 0.5 * second.dot(entry.slip_held + entry.slip_end) : second.dot(entry.slip_end);
+  if (first_correction_stays_)
+    gain += rubbing(entry.first)
+                .dot(one_set_ ? Vec<Dim>(0.5 * (entry.slip_start + entry.slip_held)) : entry.slip_held);
   return -gain;
 }
 
@@ -120,13 +109,12 @@ void Contact<Dim>::book_friction(const State<Dim>& state) {
       if (entry.first.isZero(0) && entry.second.isZero(0)) continue;
       const int law = pair_of(state, node, entry);
       entry.friction_work = 0;
-      const bool rubs = std::visit(
-          [](const auto& l) { return l.scope == LawScope::contact || l.scope == LawScope::bonded; },
-          laws_[static_cast<std::size_t>(law + 1)]);
-      if (!rubs) continue;
+      const LawScope scope =
+          std::visit([](const auto& l) { return l.scope; }, laws_[static_cast<std::size_t>(law + 1)]);
+      if (scope != LawScope::contact && scope != LawScope::bonded) continue;
       // In a lump, each touching pair is seen from both sides.
       const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-      entry.friction_work = share * friction_work_of(entry);
+      entry.friction_work = share * friction_work_of(entry, scope == LawScope::bonded);
       books_.friction_work += entry.friction_work;
       if (law >= 0) books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
     }

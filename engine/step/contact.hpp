@@ -142,7 +142,7 @@ class Contact {
                    const ContactEntry<Dim>& entry) const;
   void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
   void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
-  double friction_work_of(const ContactEntry<Dim>& entry) const;
+  double friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const;
   void book_friction(const State<Dim>& state);
   std::size_t place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
                             const ContactEntry<Dim>& entry) const;
@@ -161,7 +161,6 @@ class Contact {
   double dt_ = 0;  ///< of the step, s
   bool first_correction_;
   bool one_set_;                 ///< the touching pairs are decided once a step
-  bool re_extrapolated_;         ///< contact of re-extrapolated momenta follows the second correction
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
   bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
   double first_share_;           ///< of the first correction's impulse: a force of the second too

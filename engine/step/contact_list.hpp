@@ -32,10 +32,9 @@ struct ContactEntry {
   Vec<Dim> impulse;          ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
   Vec<Dim> second = Vec<Dim>::Zero();  ///< Δp_a of the second, with what that passes on of the first
-  /// v_a − v_b as the particles give it to the grid, after the first correction, before the second, and as
-  /// the particles give it back (or after the second), m/s
-  Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_free = Vec<Dim>::Zero(),
-           slip_end = Vec<Dim>::Zero();
+  /// v_a − v_b as the particles give it to the grid, after the first correction, and as the last one leaves
+  /// it
+  Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_end = Vec<Dim>::Zero();  ///< m/s
   Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a of the first correction that the second passes on as a force
 };
 

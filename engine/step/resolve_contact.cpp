@@ -43,7 +43,6 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       cell_volume_(cell_volume(scene)),
       first_correction_(plan.first_correction),
       one_set_(plan.one_set),
-      re_extrapolated_(plan.re_extrapolate),
       keep_velocity_change_(plan.paired),
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
@@ -98,7 +97,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
   }
   if (correction == Correction::final || (correction == Correction::initial && first_correction_stays_))
     book(state);
-  if (correction == (re_extrapolated_ ? Correction::strain : Correction::final)) book_friction(state);
+  if (correction == (one_set_ ? Correction::strain : Correction::final)) book_friction(state);
 }
 
 template <int Dim>
@@ -302,10 +301,13 @@ Vec<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meet
     return Vec<Dim>::Zero();
   const double gap = last ? 0 : std::max(0.0, entry.separation);
   const double hold = along + meeting.reduced * gap / dt_;
-  if (correction == Correction::initial && hold > 0 && !entry.touched) return Vec<Dim>::Zero();
+  if (correction == Correction::initial && hold > 0 && !last) return Vec<Dim>::Zero();
   const double normal =
       correction == Correction::final ? std::min(hold, std::max(0.0, -entry.first.dot(entry.normal))) : hold;
-  const double limit = law({std::max(0.0, -normal), needed, meeting.reduced, area_time});
+  // Friction is a force of the second correction. What is held for the strain alone must be a projection.
+  const bool rubs = correction == Correction::final || first_correction_stays_;
+  const double limit =
+      law({rubs ? std::max(0.0, -normal) : 0, needed, meeting.reduced, rubs ? area_time : 0});
   return normal * entry.normal + (needed > limit ? Vec<Dim>((limit / needed) * tangential) : tangential);
 }
 
