@@ -301,7 +301,7 @@ Vec<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meet
     return Vec<Dim>::Zero();
   const double gap = last ? 0 : std::max(0.0, entry.separation);
   const double hold = along + meeting.reduced * gap / dt_;
-  if (correction == Correction::initial && hold > 0 && !last) return Vec<Dim>::Zero();
+  if (correction == Correction::initial && hold > 0 && !entry.touched) return Vec<Dim>::Zero();
   const double normal =
       correction == Correction::final ? std::min(hold, std::max(0.0, -entry.first.dot(entry.normal))) : hold;
   // Friction is a force of the second correction. What is held for the strain alone must be a projection.

@@ -334,7 +334,7 @@ def main():
     only = words.pop() if "--only" in options else ""
     program, source = os.path.abspath(words[0]), pathlib.Path(words[1]).resolve()
     listed = subprocess.run([program, "list"], capture_output=True, text=True).stdout
-    known = set(re.findall(r"[a-z0-9_]+", listed))
+    known = set(re.findall(r"[a-z0-9_]+\+?", listed))
     ran, left_out = 0, []
     with tempfile.TemporaryDirectory(prefix="documents-") as root:
         root = pathlib.Path(root)

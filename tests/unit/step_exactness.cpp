@@ -107,7 +107,7 @@ void check_all_perfect(const std::string& more) {
   // Two terms: a particle about to leave a uGIMP node is there with round-off alone, which the inverse form
   // enlarges. The smooth bases of the next case have none of that.
   for (const char* update : {"flip", "pic"})
-    for (const char* strain : {"first", "last", "average"}) {
+    for (const char* strain : {"first", "last", "average", "last+", "average+"}) {
       CAPTURE(std::string(update));
       CAPTURE(std::string(strain));
       check_perfect<Dim>(
@@ -134,6 +134,8 @@ TEST_CASE("a perfect interface reproduces one field to round-off with smooth bas
         check_perfect<2>(overrides, "");
         check_perfect<3>(overrides, "");
       }
+      check_perfect<2>({{"method.basis", basis}, {"method.update", update}, {"method.strain", "average+"}},
+                       "");
     }
 }
 TEST_CASE("a perfect interface reproduces one field to round-off between a floor and a piston") {
