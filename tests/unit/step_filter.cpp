@@ -59,6 +59,34 @@ TEST_CASE("a spinning disk: higher orders lose less, fmpm(m) less than xpic(m), 
   CHECK(std::abs(apic) < 1e-4);
 }
 
+TEST_CASE("a filter every n-th step: FLIP to the bit until the first, and less lost than by one a step") {
+  const auto turned = [](const std::vector<Override>& overrides, int steps) {
+    const Scene scene = scene_from(kSpinning, overrides);
+    Step<2> step(scene);
+    auto& particles = step.state().particles;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      const Vec<2> x = particles.vector(Quantity::position, p) - Vec<2>(1e-4, 2e-4);
+      particles.column(Quantity::velocity, 0)[p] = -2000 * x[1];
+      particles.column(Quantity::velocity, 1)[p] = 2000 * x[0];
+    }
+    advance(step, steps);
+    return std::pair(by_id(particles, Quantity::velocity), kinetic_energy(particles));
+  };
+  for (const char* update : {"xpic(3)", "fmpm(3)"})
+    for (const char* strain : {"average", "average+"}) {
+      CAPTURE(std::string(update));
+      CAPTURE(std::string(strain));
+      const std::vector<Override> flip{{"method.strain", strain}};
+      const std::vector<Override> each{{"method.strain", strain}, {"method.update", update}};
+      std::vector<Override> seldom = each;
+      seldom.push_back({"method.every", "20"});
+      CHECK(turned(seldom, 19).first == turned(flip, 19).first);
+      CHECK(turned(seldom, 20).first != turned(flip, 20).first);
+      CHECK(turned(seldom, 200).second > turned(each, 200).second);
+    }
+  CHECK_THROWS_AS(scene_from(kSpinning, {{"method.every", "10"}}), SceneError);
+}
+
 /// Hat function of the grid of kSpinning, at cell coordinates from a node.
 double hat(const Vec<2>& r) { return std::max(0.0, 1 - std::abs(r[0])) * std::max(0.0, 1 - std::abs(r[1])); }
 
