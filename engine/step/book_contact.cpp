@@ -54,6 +54,7 @@ Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& 
 /// What the slips are before the first correction.
 template <int Dim>
 void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  if (!one_set_ && !first_correction_stays_) return;
   if (correction != (first_correction_ ? Correction::initial : Correction::final)) return;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
@@ -68,11 +69,10 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const bool acts = !entry.impulse.isZero(0);
-    const Vec<Dim> slip = slip_of(state, node, entry);
     if (correction == Correction::initial) {
       entry.first = entry.impulse;
       entry.held = acts;
-      entry.slip_held = slip;
+      if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
     } else if (correction == Correction::final) {
       const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
       const double least = 1e-10 * state.nodes.column(Nodal::mass)[slot] * cell_ / dt_;
@@ -82,7 +82,7 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
       entry.touching = one_set_ ? (acts || entry.held) && !ends : acts;
     }
     if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
-      entry.slip_end = slip;
+      entry.slip_end = slip_of(state, node, entry);
   }
 }
 

@@ -368,7 +368,8 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double
     entry.advanced = separation_of(entry, meeting, dt);
     with_law(laws, node, entry, [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
-      const bool apart = !(entry.advanced < 0) && !lasts(entry) && !entry.held && !entry.touching;
+      const bool in_set = one_set_ && (lasts(entry) || entry.held || entry.touching);
+      const bool apart = !(entry.advanced < 0) && !in_set;
       if (Law::scope == LawScope::contact ? apart : Law::scope == LawScope::nowhere) return;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
