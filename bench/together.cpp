@@ -58,7 +58,7 @@ void solve(benchmark::State& state) {
     solver.contacts = nodes[next].contacts;
     unsettled += !solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
       ++laws;
-      return resolve_pair<Dim>(stick, solver.contacts[k].normal, -1.0, friction);
+      return demand_of(resolve_pair<Dim>(stick, solver.contacts[k].normal, -1.0, friction), stick);
     });
     benchmark::DoNotOptimize(solver.contacts.data());
     next = (next + 1) % draws;

@@ -120,8 +120,8 @@ class Contact {
   void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
                    std::vector<MovingField<Dim>>& fields) const;
   template <class Laws>
-  void find_acting(const State<Dim>& state, const Laws& laws, double dt, const ContactNode<Dim>& node,
-                   Together& together);
+  void find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                   const ContactNode<Dim>& node, Together& together);
   template <class Laws>
   void finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
               const Together& together) const;
@@ -131,12 +131,14 @@ class Contact {
   bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                         const ContactNode<Dim>& node);
   template <class Law>
-  Vec<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
-                      Correction correction, const Law& law, double area_time) const;
+  Demand<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                         Correction correction, const Law& law, double area_time) const;
   template <class Law>
-  Vec<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
-                          Correction correction, const Law& law, double area_time) const;
+  Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                             Correction correction, const Law& law, double area_time) const;
   bool lasts(const ContactEntry<Dim>& entry) const;
+  double closing_of(const ContactEntry<Dim>& entry) const;
+  double pull_of(const ContactEntry<Dim>& entry, Correction correction) const;
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;

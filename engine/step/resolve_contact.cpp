@@ -235,7 +235,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       using Law = std::decay_t<decltype(law)>;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
-      entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time);
+      entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time).impulse;
       pass_on(entry, correction, Law::scope);
     };
     if constexpr (Laws::by_pair)
@@ -254,8 +254,9 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
 /// zero along n and no energy comes from the contact.
 template <int Dim>
 template <class Law>
-Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
-                                  Correction correction, const Law& law, double area_time) const {
+Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                     double separation, Correction correction, const Law& law,
+                                     double area_time) const {
   if (one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded))
     return impulse_of_set(entry, meeting, separation, correction, law, area_time);
   const Vec<Dim> free =
@@ -264,7 +265,7 @@ Vec<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting&
   const bool overlaps = spec_.detection == DetectionKind::separation;  // in contact, parting or not
   const bool lasts = correction == Correction::initial && spec_.persistent && entry.touched;
   const bool holds = Law::scope == LawScope::contact && (overlaps || lasts) && separation < 0 && along > 0;
-  return holds ? Vec<Dim>(along * entry.normal) : free;
+  return demand_of<Dim>(holds ? Vec<Dim>(along * entry.normal) : free, meeting.stick);
 }
 
 /// Does the pair stay in contact until a force pulls it apart? Held by its velocities, a surface drifts from
@@ -276,6 +277,20 @@ bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
   return one_set_ && entry.touched && entry.separation < kDrift * cell_;
 }
 
+/// The approach that closes a gap by the end of the step, m/s: an impulse of the set leaves it.
+template <int Dim>
+double Contact<Dim>::closing_of(const ContactEntry<Dim>& entry) const {
+  return lasts(entry) ? 0 : std::max(0.0, entry.separation) / dt_;
+}
+
+/// The largest J·n of a pair of the set, N s: in the second correction as much as the first pressed; in the
+/// others, pairs that last are held whichever way they go.
+template <int Dim>
+double Contact<Dim>::pull_of(const ContactEntry<Dim>& entry, Correction correction) const {
+  if (correction == Correction::final) return std::max(0.0, -entry.first.dot(entry.normal));
+  return lasts(entry) ? kUnbounded : 0;
+}
+
 /// The impulse of a pair of the step's one set (tools/manual/theory.md, "The energy of a contact").
 ///
 /// In the set are pairs that will touch by the end of the step as the first correction sees it, and those
@@ -285,30 +300,28 @@ bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
 /// held.
 template <int Dim>
 template <class Law>
-Vec<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
-                                      double separation, Correction correction, const Law& law,
-                                      double area_time) const {
+Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                         double separation, Correction correction, const Law& law,
+                                         double area_time) const {
   const double along = meeting.stick.dot(entry.normal);
   const Vec<Dim> tangential = meeting.stick - along * entry.normal;
   const double needed = tangential.norm();
   if constexpr (Law::scope == LawScope::bonded)
     if (entry.separation < law.reach && law.holds({-along, needed, meeting.reduced, area_time}))
-      return meeting.stick;
+      return {meeting.stick, Hinders::slip};
   const bool last = lasts(entry), closes = separation < 0 || last;
   if (correction == Correction::initial ? !closes
       : correction == Correction::final ? !closes && !entry.held
                                         : !entry.touching)
-    return Vec<Dim>::Zero();
-  const double gap = last ? 0 : std::max(0.0, entry.separation);
-  const double hold = along + meeting.reduced * gap / dt_;
-  if (correction == Correction::initial && hold > 0 && !entry.touched) return Vec<Dim>::Zero();
-  const double normal =
-      correction == Correction::final ? std::min(hold, std::max(0.0, -entry.first.dot(entry.normal))) : hold;
+    return {Vec<Dim>::Zero(), Hinders::nothing};
+  const double normal = along + meeting.reduced * closing_of(entry), pull = pull_of(entry, correction);
+  if (normal > pull) return {pull * entry.normal, Hinders::nothing};
   // Friction is a force of the second correction. What is held for the strain alone must be a projection.
   const bool rubs = correction == Correction::final || first_correction_stays_;
   const double limit =
       law({rubs ? std::max(0.0, -normal) : 0, needed, meeting.reduced, rubs ? area_time : 0});
-  return normal * entry.normal + (needed > limit ? Vec<Dim>((limit / needed) * tangential) : tangential);
+  if (needed <= limit && limit > 0) return {normal * entry.normal + tangential, Hinders::slip};
+  return {normal * entry.normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
 }
 
 /// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
@@ -320,15 +333,15 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
                                     double dt, const ContactNode<Dim>& node) {
   Together& together = together_[static_cast<std::size_t>(omp_get_thread_num())];
   find_moving(state, node, together.solver.fields);
-  find_acting(state, laws, dt, node, together);
+  find_acting(state, laws, correction, dt, node, together);
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const Acting& acting = together.acting[k];
-    Vec<Dim> impulse;
+    Demand<Dim> demand;
     with_law(laws, node, *acting.entry, [&](const auto& law) {
-      impulse = impulse_of(*acting.entry, {stick, together.solver.contacts[k].reduced},
-                           acting.entry->advanced, correction, law, acting.area_time);
+      demand = impulse_of(*acting.entry, {stick, together.solver.contacts[k].reduced}, acting.entry->advanced,
+                          correction, law, acting.area_time);
     });
-    return impulse;
+    return demand;
   });
   finish(laws, correction, node, together);
   return settled;
@@ -353,7 +366,7 @@ void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& 
 /// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
 template <int Dim>
 template <class Laws>
-void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double dt,
+void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                                const ContactNode<Dim>& node, Together& together) {
   auto& solver = together.solver;
   together.acting.clear();
@@ -375,6 +388,11 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, double
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       together.acting.push_back({&entry, area_time});
       solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
+      if (!one_set_) return;
+      auto& contact = solver.contacts.back();
+      contact.closing = closing_of(entry);
+      contact.pull = pull_of(entry, correction);
+      contact.both_ways = correction != Correction::final && contact.pull == kUnbounded;
     });
   }
 }

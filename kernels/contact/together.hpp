@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
+
+inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// A field of the node; a rigid one has no inverse mass.
 template <int Dim>
@@ -19,14 +22,38 @@ struct MovingField {
   double inverse_mass;  ///< 1/kg
 };
 
+/// What motion of two surfaces a contact hinders by its present kind: parted or pulled all it can; sliding;
+/// stuck.
+enum class Hinders { nothing, approach, slip };
+
+/// What a law demands of one contact while the others stay.
+template <int Dim>
+struct Demand {
+  Vec<Dim> impulse;  ///< Δp_a, N s
+  Hinders hinders;
+};
+
+/// The demand of a law that returns impulses alone: one that is neither none nor all of `stick` slides.
+template <int Dim>
+inline Demand<Dim> demand_of(const Vec<Dim>& impulse, const Vec<Dim>& stick) {
+  return {impulse, impulse.isZero(0)  ? Hinders::nothing
+                   : impulse == stick ? Hinders::slip
+                                      : Hinders::approach};
+}
+
 /// A contact between the node's fields a and b that may have an impulse.
 template <int Dim>
 struct FieldContact {
   int a, b;
-  Vec<Dim> normal;                      ///< unit, from a to b
-  double reduced;                       ///< 1/(1/m_a + 1/m_b), kg
-  Vec<Dim> stick = Vec<Dim>::Zero();    ///< Δp_a that sticking would need while the others stay, N s
-  Vec<Dim> impulse = Vec<Dim>::Zero();  ///< found: Δp_a, N s; b takes −Δp_a
+  Vec<Dim> normal;                       ///< unit, from a to b
+  double reduced;                        ///< 1/(1/m_a + 1/m_b), kg
+  double closing = 0;                    ///< the approach that closes a gap within the step, and is left, m/s
+  bool both_ways = false;                ///< it pulls as it presses
+  double pull = kUnbounded;              ///< the largest J·n; what pulls with it has parted, N s
+  Hinders hinders = Hinders::nothing;    ///< found, as the law says
+  Vec<Dim> stick = Vec<Dim>::Zero();     ///< Δp_a that sticking would need while the others stay, N s
+  Vec<Dim> impulse = Vec<Dim>::Zero();   ///< found: Δp_a, N s; b takes −Δp_a
+  Vec<Dim> friction = Vec<Dim>::Zero();  ///< its tangential part while friction lags, N s
 };
 
 /// The contacts of one node and the room to solve them in, which later nodes use again.
@@ -43,23 +70,25 @@ class ContactsTogether {
   std::vector<FieldContact<Dim>> contacts;
 
   /// Finds the impulses, from the present ones.
-  /// @param law  law(k, d): the impulse of contact k where sticking would need d
+  /// @param law  law(k, d): the Demand of contact k where sticking would need d
   /// @return whether they settled to 1e-9 of the largest; if not, they are as they are, less what would do
   /// work
   template <class Law>
   bool solve(const Law& law) {
-    constexpr int kSweeps = 100, kLeaps = 10;  // where kinds still change then, leaps seldom help
+    find_scales();
     for (int done = 0; done < kSweeps; ++done) {
-      if (sweep(law) || contacts.size() == 1) return true;
+      const bool settled = sweep(law);
+      if (contacts.size() == 1) return true;
+      if (!is_bounded()) break;
+      if (settled) return true;
       if (done < kLeaps || done % kLeaps == 0) leap(law);
     }
-    take_back_work();
-    for (FieldContact<Dim>& c : contacts) c.stick = c.impulse + c.reduced * slip(c);
-    return false;
+    return lag(law);
   }
 
  private:
-  static constexpr int kMost = 32;  ///< hindrances; with more, elimination costs more than sweeps
+  static constexpr int kSweeps = 100, kLeaps = 10;  ///< where kinds still change then, leaps seldom help
+  static constexpr int kMost = 64;  ///< hindrances; with more, elimination costs more than sweeps
 
   /// Changes of contacts' impulses along given directions, and the motions that they are to end. Those of a
   /// contact follow each other.
@@ -87,20 +116,124 @@ class ContactsTogether {
     field(c.b).velocity -= field(c.b).inverse_mass * impulse;
   }
 
-  /// @return whether no impulse changed by more than 1e-9 of the largest
+  /// Friction that follows the last normal impulses, from none, which then settle for it: fields that jam may
+  /// have no impulses that obey both, but normal impulses for given friction always exist, and do no work.
+  /// @return whether the friction settled too
+  template <class Law>
+  bool lag(const Law& law) {
+    constexpr int kRounds = 8;
+    lags_ = true;
+    bool settled = false;
+    double last = kUnbounded;
+    bool pressed = restart(law);
+    for (int round = 0; round < kRounds && !settled; ++round) {
+      double largest = 0, change = 0;
+      changes_.resize(contacts.size());
+      for (std::size_t k = 0; k < contacts.size(); ++k) {
+        FieldContact<Dim>& c = contacts[k];
+        const Vec<Dim> impulse = law(k, c.impulse + c.reduced * slip(c)).impulse;
+        changes_[k] = impulse - impulse.dot(c.normal) * c.normal - c.friction;
+        largest = std::max(largest, impulse.squaredNorm());
+        change = std::max(change, changes_[k].squaredNorm());
+      }
+      settled = pressed && is_settled(change, largest);
+      if (!(change < last)) break;
+      for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k].friction += 0.5 * changes_[k];
+      last = change;
+      pressed = press(law);
+    }
+    for (int round = 0; round < kRounds && !settled && drop(law); ++round) press(law);
+    settled &= is_bounded();
+    if (!is_bounded()) restart(law);
+    lags_ = false;
+    if (!settled) take_back_work();
+    for (FieldContact<Dim>& c : contacts) c.stick = c.impulse + c.reduced * slip(c);
+    return settled;
+  }
+
+  /// Friction may wedge fields with any stress of their own; what it cannot have got from their motion is
+  /// none.
+  bool is_bounded() const {
+    constexpr double kMost = 30;
+    return largest_ <= kMost * kMost * motion_ * motion_;
+  }
+
+  /// Normal impulses without friction, from none.
+  template <class Law>
+  bool restart(const Law& law) {
+    for (std::size_t k = 0; k < fields.size(); ++k) fields[k].velocity = start_[k];
+    for (FieldContact<Dim>& c : contacts) {
+      c.impulse.setZero();
+      c.friction.setZero();
+    }
+    return press(law);
+  }
+
+  /// Normal impulses for given friction. @return whether they settled
+  template <class Law>
+  bool press(const Law& law) {
+    for (int done = 0; done < kSweeps; ++done) {
+      if (sweep(law)) return true;
+      leap(law);
+    }
+    return false;
+  }
+
+  /// Friction only takes energy, and no more than its law allows. @return whether some was dropped
+  template <class Law>
+  bool drop(const Law& law) {
+    constexpr double kSpare = 1.001;
+    bool dropped = false;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      FieldContact<Dim>& c = contacts[k];
+      const Vec<Dim> impulse = law(k, c.impulse + c.reduced * slip(c)).impulse;
+      const double allowed = (impulse - impulse.dot(c.normal) * c.normal).norm(), now = c.friction.norm();
+      const double share = c.friction.dot(slip(c)) < 0 ? 0 : now > kSpare * allowed ? allowed / now : 1;
+      c.friction *= share;
+      dropped |= share < 1;
+    }
+    return dropped;
+  }
+
+  bool is_settled(double change, double largest) const {
+    return change <= std::max(1e-18 * largest, noise_ * noise_);
+  }
+
+  /// What round-off of the velocities makes of impulses, and all that there is to move.
+  void find_scales() {
+    constexpr double kRoundOff = 1e-14;
+    double fastest = 0, heaviest = 0;
+    const MovingField<Dim>* ground = fields.data();
+    for (const MovingField<Dim>& f : fields) {
+      fastest = std::max(fastest, f.velocity.squaredNorm());
+      if (f.inverse_mass < ground->inverse_mass) ground = &f;
+    }
+    for (const FieldContact<Dim>& c : contacts) heaviest = std::max(heaviest, c.reduced);
+    noise_ = kRoundOff * heaviest * std::sqrt(fastest);
+    motion_ = 0;
+    start_.clear();
+    for (const MovingField<Dim>& f : fields) start_.push_back(f.velocity);
+    for (const MovingField<Dim>& f : fields)
+      if (f.inverse_mass > 0) motion_ += (f.velocity - ground->velocity).norm() / f.inverse_mass;
+  }
+
+  /// @return whether no impulse changed by more than 1e-9 of the largest, or by round-off alone
   template <class Law>
   bool sweep(const Law& law) {
-    double largest = 0, change = 0;
+    double change = 0;
+    largest_ = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       FieldContact<Dim>& c = contacts[k];
       c.stick = c.impulse + c.reduced * slip(c);
-      const Vec<Dim> impulse = law(k, c.stick), step = impulse - c.impulse;
+      const Demand<Dim> demand = lags_ ? pressing(law, k) : law(k, c.stick);
+      const Vec<Dim> step = demand.impulse - c.impulse;
       add(c, step);
-      c.impulse = impulse;
-      largest = std::max(largest, impulse.squaredNorm());
+      c.impulse = demand.impulse;
+      c.hinders = demand.hinders;
+      largest_ = std::max(largest_, c.impulse.squaredNorm());
       change = std::max(change, step.squaredNorm());
     }
-    return change <= 1e-18 * largest;
+    return is_settled(change, largest_);
   }
 
   /// Contact only takes energy: Σ J · slip ≥ 0 over the slips that it leaves. Impulses that have not settled
@@ -123,26 +256,37 @@ class ContactsTogether {
     }
   }
 
+  /// The demand of a contact whose friction is given.
+  template <class Law>
+  Demand<Dim> pressing(const Law& law, std::size_t k) {
+    const FieldContact<Dim>& c = contacts[k];
+    const Demand<Dim> demand = law(k, c.stick.dot(c.normal) * c.normal);
+    return {demand.impulse.dot(c.normal) * c.normal + c.friction,
+            demand.hinders == Hinders::nothing ? Hinders::nothing : Hinders::approach};
+  }
+
   /// What each contact hinders by its present kind: stuck, all slip; sliding, with J = J_n (n + s) and s to
-  /// stay, the approach; parted, nothing.
+  /// stay, the approach.
   /// @return false if that is nothing at all or too much
   bool find_hindrances() {
     hindrances_.count = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const FieldContact<Dim>& c = contacts[k];
       const int at = static_cast<int>(k);
-      if (c.impulse.isZero(0)) continue;
+      if (c.hinders == Hinders::nothing) continue;
       if (hindrances_.count + Dim > kMost) return false;
-      if (c.impulse == c.stick)
+      const double along = c.impulse.dot(c.normal);
+      if (c.hinders == Hinders::slip)
         for (int d = 0; d < Dim; ++d) hindrances_.push(at, c, Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
       else
-        hindrances_.push(at, c, c.impulse / c.impulse.dot(c.normal), c.normal);
+        hindrances_.push(at, c, lags_ || along == 0 ? c.normal : Vec<Dim>(c.impulse / along), c.normal);
     }
     return hindrances_.count > 0;
   }
 
-  /// The equations Σ_j m_k c_kl (motion_i · impulse_j) x_j = m_k slip_k · motion_i, where hindrance i is of
-  /// contact k and j of l, and c_kl is how v_a − v_b of k changes for an impulse of l: the diagonal is one.
+  /// The equations Σ_j m_k c_kl (motion_i · impulse_j) x_j = m_k (slip_k + closing_k n_k) · motion_i, where
+  /// hindrance i is of contact k and j of l, and c_kl is how v_a − v_b of k changes for an impulse of l: the
+  /// diagonal is one.
   void set_equations(int width) {
     const Hindrances& h = hindrances_;
     const Lanes zero{}, one = broadcast<Lanes>(1.0);
@@ -157,55 +301,92 @@ class ContactsTogether {
         for (int d = 1; d < Dim; ++d) along += h.motion[i][d] * load_lanes(h.impulse[d] + j);
         store_lanes(matrix_ + i * width + j, share * along);
       }
-      right_[i] = c.reduced * slip(c).dot(h.motion[i]);
+      right_[i] = c.reduced * (slip(c) + c.closing * c.normal).dot(h.motion[i]);
     }
   }
 
-  /// Goes where no hindered motion is left, or as far as all contacts remain what they are and just beyond.
+  /// Goes where no hindered motion is left; contacts that part on the way are left behind.
   template <class Law>
   void leap(const Law& law) {
-    if (!find_hindrances()) return;
+    while (leap_until_one_parts(law)) {
+    }
+  }
+
+  /// @return whether a contact parted
+  template <class Law>
+  bool leap_until_one_parts(const Law& law) {
+    if (!find_hindrances()) return false;
     const int n = hindrances_.count, width = padded_count(n);
     set_equations(width);
     eliminate(n, width);
     changes_.assign(contacts.size(), Vec<Dim>::Zero());
     for (int i = 0; i < n; ++i) {
-      if (!std::isfinite(right_[i])) return;
+      if (!std::isfinite(right_[i])) return false;
       for (int d = 0; d < Dim; ++d)
         changes_[static_cast<std::size_t>(hindrances_.contact[i])][d] +=
             right_[i] * hindrances_.impulse[d][i];
     }
-    const double share = share_of_leap(law);
+    FieldContact<Dim>* parts = nullptr;
+    const double share = share_of_leap(law, parts), before = excess();
+    go(share);
+    if (lags_ && !(excess() <= before)) {
+      go(-share);
+      return false;
+    }
+    if (parts) parts->hinders = Hinders::nothing;
+    return parts;
+  }
+
+  /// Adds a share of the leap.
+  void go(double share) {
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       contacts[k].impulse += share * changes_[k];
       add(contacts[k], share * changes_[k]);
     }
   }
 
-  /// Does every contact remain what it is over this share of the leap?
+  /// What impulses of contacts that do not rub make least: Σ ½ m v² − Σ closing J·n, J.
+  double excess() {
+    double sum = 0;
+    for (const MovingField<Dim>& f : fields)
+      if (f.inverse_mass > 0) sum += 0.5 * f.velocity.squaredNorm() / f.inverse_mass;
+    for (const FieldContact<Dim>& c : contacts) sum -= c.closing * c.impulse.dot(c.normal);
+    return sum;
+  }
+
+  /// Does every stuck contact remain so over this share of the leap?
   template <class Law>
-  bool kinds_remain(const Law& law, double share) {
+  bool all_stick(const Law& law, double share) {
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const FieldContact<Dim>& c = contacts[k];
-      if (c.impulse.isZero(0)) continue;
+      if (c.hinders != Hinders::slip) continue;
       const Vec<Dim> impulse = c.impulse + share * changes_[k];
-      const bool stuck = c.impulse == c.stick;
-      if (stuck ? law(k, impulse) != impulse : impulse.dot(c.normal) * c.impulse.dot(c.normal) < 0)
-        return false;
+      if (law(k, impulse - c.reduced * c.closing * c.normal).hinders != Hinders::slip) return false;
     }
     return true;
   }
 
-  /// All of the leap, or what leads just beyond the first change of a contact's kind.
+  /// All of the leap, or as far as no contact changes its kind: what lies beyond may be far from any
+  /// solution.
+  /// @param parts the contact that stops it by parting
   template <class Law>
-  double share_of_leap(const Law& law) {
-    if (kinds_remain(law, 1)) return 1;
-    double below = 0, above = 1;
-    for (int halving = 0; halving < 6; ++halving) {
-      const double middle = 0.5 * (below + above);
-      (kinds_remain(law, middle) ? below : above) = middle;
+  double share_of_leap(const Law& law, FieldContact<Dim>*& parts) {
+    double most = 1;
+    for (std::size_t k = 0; k < contacts.size(); ++k) {
+      FieldContact<Dim>& c = contacts[k];
+      if (c.hinders != Hinders::approach || c.both_ways) continue;
+      const double now = c.impulse.dot(c.normal), change = changes_[k].dot(c.normal), end = now + change;
+      const double bound = end * now < 0 ? 0 : c.pull;
+      if (!(end * now < 0 || end > bound)) continue;
+      const double share = std::max(0.0, (bound - now) / change);
+      if (share < most) most = share, parts = &c;
     }
-    return above;
+    if (all_stick(law, most)) return most;
+    parts = nullptr;
+    double share = 0;
+    for (double step = 0.5 * most; step > 0.01 * most; step *= 0.5)
+      if (all_stick(law, share + step)) share += step;
+    return share;
   }
 
   /// Gauss–Jordan; the solution takes the place of the right-hand side. Three fields that stick to each other
@@ -230,6 +411,10 @@ class ContactsTogether {
   }
 
   Hindrances hindrances_{};
+  double noise_ = 0, motion_ = 0;  ///< N s
+  double largest_ = 0;             ///< |J|², N² s²
+  bool lags_ = false;              ///< friction is given
+  std::vector<Vec<Dim>> start_;    ///< velocities, m/s
   std::vector<Vec<Dim>> changes_;  ///< of the contacts' impulses, or the fields' momenta
   double matrix_[kMost * kMost], right_[kMost];
 };

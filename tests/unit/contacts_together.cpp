@@ -29,9 +29,9 @@ void add_contact(ContactsTogether<Dim>& node, int a, int b, const Vec<Dim>& norm
 /// Solves surfaces that overlap under one law.
 template <int Dim, class Law>
 bool solve(ContactsTogether<Dim>& node, const Law& law) {
-  return node.solve([&](std::size_t k, const Vec<Dim>& stick) -> Vec<Dim> {
+  return node.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const auto& c = node.contacts[k];
-    return resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced);
+    return demand_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
   });
 }
 
@@ -151,17 +151,17 @@ void check_energy() {
     const double before = energy();
     const Vec<Dim> momentum = momentum_of(node);
     const Coulomb law{0.2, 0};
-    unsettled += !node.solve([&](std::size_t k, const Vec<Dim>& stick) -> Vec<Dim> {
+    unsettled += !node.solve([&](std::size_t k, const Vec<Dim>& stick) {
       const auto& c = node.contacts[k];
       const double along = stick.dot(c.normal);
-      if (k % 2 == 0 && along > 0) return along * c.normal;
-      return resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced);
+      if (k % 2 == 0 && along > 0) return Demand<Dim>{along * c.normal, Hinders::approach};
+      return demand_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
     });
     CHECK(energy() <= before * (1 + 1e-9));
     CHECK((momentum_of(node) - momentum).norm() < 1e-9 * std::sqrt(before));
     double taken = 0;
     for (const auto& c : node.contacts) taken += c.impulse.dot(c.stick - c.impulse) / c.reduced;
-    CHECK(taken >= -1e-8 * before);  // round-off: measured 3e-9
+    CHECK(taken >= -1e-6 * before);  // round-off of masses over nine orders: measured 6e-8
     CHECK(taken <= before * (1 + 1e-8));
   }
   CHECK(unsettled > 20);
@@ -170,5 +170,70 @@ void check_energy() {
 
 TEST_CASE("contacts that jam and do not settle still take energy, never give it (2-D)") { check_energy<2>(); }
 TEST_CASE("contacts that jam and do not settle still take energy, never give it (3-D)") { check_energy<3>(); }
+
+/// Pairs of a step's one set: every third is held both ways, every third may pull up to a bound, and the
+/// others close a gap by the end of the step. Whether friction settles or not, the normal impulses hold.
+template <int Dim>
+void check_set(double friction, int most_unsettled, double tolerance) {
+  std::mt19937_64 draw(5);
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> exponent(-5, 0), uniform;
+  int unsettled = 0;
+  double worst = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    ContactsTogether<Dim> node;
+    const int count = 3 + trial % 4;
+    const auto vector = [&] {
+      Vec<Dim> out;
+      for (int d = 0; d < Dim; ++d) out[d] = gauss(draw);
+      return out;
+    };
+    for (int k = 0; k < count; ++k) node.fields.push_back({vector(), std::pow(10.0, -exponent(draw))});
+    for (int a = 0; a < count; ++a)
+      for (int b = a + 1; b < count; ++b) {
+        add_contact<Dim>(node, a, b, vector());
+        auto& c = node.contacts.back();
+        const auto kind = node.contacts.size() % 3;
+        c.both_ways = kind == 0;
+        c.pull = kind == 0 ? kUnbounded : kind == 1 ? c.reduced * uniform(draw) : 0;
+        c.closing = kind == 2 ? uniform(draw) : 0;
+      }
+    const auto law = [&](std::size_t k, const Vec<Dim>& stick) -> Demand<Dim> {
+      const auto& c = node.contacts[k];
+      const double along = stick.dot(c.normal), normal = along + c.reduced * c.closing;
+      if (normal > c.pull) return {c.pull * c.normal, Hinders::nothing};
+      const Vec<Dim> tangential = stick - along * c.normal;
+      const double limit = friction * std::max(0.0, -normal), needed = tangential.norm();
+      if (needed <= limit) return {normal * c.normal + tangential, Hinders::slip};
+      return {normal * c.normal + limit / needed * tangential, Hinders::approach};
+    };
+    const Vec<Dim> before = momentum_of(node);
+    unsettled += !node.solve(law);
+    double scale = 1e-7;  // of fields that part: 1e-14 is round-off of their momenta
+    for (const auto& c : node.contacts) scale = std::max(scale, c.impulse.norm());
+    for (std::size_t k = 0; k < node.contacts.size(); ++k) {
+      const auto& c = node.contacts[k];
+      const Vec<Dim> slip = node.fields[static_cast<std::size_t>(c.b)].velocity -
+                            node.fields[static_cast<std::size_t>(c.a)].velocity;
+      const Vec<Dim> missing = law(k, c.impulse + c.reduced * slip).impulse - c.impulse;
+      worst = std::max(worst, std::abs(missing.dot(c.normal)) / scale);
+    }
+    CHECK((momentum_of(node) - before).norm() < 1e-9 * (1 + before.norm()));
+  }
+  CAPTURE(worst);
+  CHECK(worst < tolerance);
+  CHECK(unsettled <= most_unsettled);
+  MESSAGE("friction ", friction, ": ", unsettled, " of 300 did not settle, normal impulses err by ", worst);
+}
+
+// In the plane, 15 pairs of 6 fields ask for more than these can do: a few settle slowly (measured 3e-4).
+TEST_CASE("normal impulses of pairs that last, pull and close gaps settle in any jam (2-D)") {
+  check_set<2>(0, 10, 1e-3);
+  check_set<2>(0.3, 100, 1e-3);
+}
+TEST_CASE("normal impulses of pairs that last, pull and close gaps settle in any jam (3-D)") {
+  check_set<3>(0, 0, 1e-6);
+  check_set<3>(0.3, 100, 1e-6);
+}
 
 }  // namespace
