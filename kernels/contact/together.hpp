@@ -135,8 +135,8 @@ class ContactsTogether {
       if (hindrances_.count + Dim > kMost) return false;
       if (c.impulse == c.stick)
         for (int d = 0; d < Dim; ++d) hindrances_.push(at, c, Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
-      else
-        hindrances_.push(at, c, c.impulse / c.impulse.dot(c.normal), c.normal);
+      else if (const double normal = c.impulse.dot(c.normal); normal != 0)  // squares may underflow
+        hindrances_.push(at, c, c.impulse / normal, c.normal);
     }
     return hindrances_.count > 0;
   }
