@@ -171,25 +171,29 @@ TEST_CASE("whatever share of an approach particles take from a wall, their momen
     }
 }
 
-/// Share of its energy that a block which swings between a held floor and a slow piston loses in 400 steps.
+/// What a block loses that a piston presses, over the work. It starts as the piston moves, without a blow.
 double lost_at_walls(const char* place) {
-  const Scene scene = scene_from(std::string(kBlock) + fmt::format(R"(
-boundaries: {{bottom: {{wall: held, position: 4 mm, at: {0}}}, top: {{piston: 0.5 m/s, position: 10 mm, at: {0}}}}}
-method: {{strain: average+}}
-)",
-                                                                   place));
+  const std::string at = std::string("at: ") + place;
+  const Scene scene =
+      scene_from(std::string(kBlock) + "boundaries: {bottom: {wall: sliding, position: 4 mm, " + at +
+                     "}, top: {piston: 6 m/s, position: 10 mm, " + at + "}}\n",
+                 {{"method.strain", "average+"}, {"time.end", "0.9 ms"}});
   Step<2> step(scene);
-  const auto energy = [&] { return kinetic_energy(step.state().particles) + step.stored_energy(); };
+  auto& particles = step.state().particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.column(Quantity::velocity, 0)[p] = 0;
+    particles.column(Quantity::velocity, 1)[p] = -1e3 * (particles.column(Quantity::position, 1)[p] - 4e-3);
+  }
+  const auto energy = [&] { return kinetic_energy(particles) + step.stored_energy(); };
   const double before = energy();
-  advance(step, 400);
-  MESSAGE(place << " work " << step.sums().boundary_work / before << " lost "
-                << 1 - (energy() - step.sums().boundary_work) / before);
-  return 1 - (energy() - step.sums().boundary_work) / before;
+  advance(step, 200);
+  const double work = step.sums().boundary_work;
+  return 1 - (energy() - before) / work;
 }
 
 TEST_CASE("what FLIP's particles gain and store with `average+` is the work of the walls") {
-  CHECK(std::abs(lost_at_walls("nodes")) < 0.01);
-  CHECK(std::abs(lost_at_walls("plane")) < 0.01);
+  CHECK(std::abs(lost_at_walls("nodes")) < 0.0015);  // measured 0.0009; all of v_s: 0.0024
+  CHECK(std::abs(lost_at_walls("plane")) < 0.0015);  // 0.0010; 0.0026
 }
 
 template <int Dim>
