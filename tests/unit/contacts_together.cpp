@@ -171,25 +171,28 @@ void check_energy() {
 TEST_CASE("contacts that jam and do not settle still take energy, never give it (2-D)") { check_energy<2>(); }
 TEST_CASE("contacts that jam and do not settle still take energy, never give it (3-D)") { check_energy<3>(); }
 
-/// Momenta far ahead of a wave are so small that their squares are zero: slips seem to be none.
+/// Momenta far ahead of a wave are so small that their squares vanish: J·n may be zero where J is not.
 TEST_CASE("momenta whose squares underflow give finite impulses") {
-  for (const double tiny : {1e-150, 2.7e-162, 1e-170, 1e-300}) {
-    CAPTURE(tiny);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int infinite = 0;  // 6 where J·n divides whatever it is
+  for (int trial = 0; trial < 20000; ++trial) {
     ContactsTogether<2> node;
-    node.fields = {{{0, 0}, 1 / 4.8e-6}, {{tiny, -tiny}, 1 / 4.3e-7}, {{0, 0}, 1 / 4.3e-7}};
-    add_contact<2>(node, 0, 1, {-0.595244, 0.803545});
-    add_contact<2>(node, 0, 2, {-0.939608, -0.342253});
-    add_contact<2>(node, 1, 2, {9.25186e-17, -1});
-    // As a contact that lasts: it may pull nothing, and keeps a slip that seems to be none.
+    const double tiny = std::pow(10.0, -157.5 + 7.5 * uniform(random));
+    const auto velocity = [&] { return Vec<2>(tiny * uniform(random), tiny * uniform(random)); };
+    node.fields = {{velocity(), 1 / 4.8e-6}, {velocity(), 1 / 4.3e-7}, {velocity(), 1 / 4.3e-7}};
+    for (const auto& [a, b] : {std::pair(0, 1), std::pair(0, 2), std::pair(1, 2)})
+      add_contact<2>(node, a, b, trial % 3 ? Vec<2>(uniform(random), uniform(random)) : Vec<2>(1e-17, -1));
+    // A contact that lasts pulls too, and a slip whose square vanishes seems to be none.
     node.solve([&](std::size_t k, const Vec<2>& stick) -> Vec<2> {
       const Vec<2>& n = node.contacts[k].normal;
-      const double along = stick.dot(n);
+      const double along = stick.dot(n), normal = trial % 2 ? along : std::min(along, 0.0);
       const Vec<2> tangential = stick - along * n;
-      return std::min(along, 0.0) * n + (tangential.norm() > 0 ? Vec<2>(0 * tangential) : tangential);
+      return tangential.norm() > 0 ? Vec<2>(normal * n) : Vec<2>(normal * n + tangential);
     });
-    for (const auto& c : node.contacts) CHECK(c.impulse.allFinite());
-    for (const auto& field : node.fields) CHECK(field.velocity.allFinite());
+    for (const auto& c : node.contacts) infinite += !c.impulse.allFinite();
   }
+  CHECK(infinite == 0);
 }
 
 }  // namespace
