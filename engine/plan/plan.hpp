@@ -24,6 +24,7 @@ struct Plan {
   bool full_mass = false;          ///< FMPM: the series filters v⁺ instead of v and what it changes by
   double strain_first = 1;  ///< share of the strain that is advanced before the forces; the rest comes last
   bool re_extrapolate = false;  ///< the strain that comes last is taken from the particles' new momenta
+  double wall_share = 1;  ///< of what walls take from velocities as a step begins: FLIP's particles take it
   int deformation_terms = 2;
   bool contact = false;  ///< more than one velocity field, and a law that acts
   bool own_filter = false;

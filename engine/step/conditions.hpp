@@ -41,8 +41,10 @@ class Conditions {
   /// Puts the prescribed components into the nodal velocities that the strain is taken from: `velocity`, or
   /// `re_extrapolated`.
   void impose_velocity(State<Dim>& state, Nodal velocities = Nodal::velocity);
-  /// f ← f − (f·e)e + ((m u − p·e)/Δt) e before the momentum update (NN Eq. 2.7 to 2.11).
-  void react(State<Dim>& state, double dt);
+  /// f ← f − (f·e)e + s ((m u − p·e)/Δt) e before the momentum update (NN Eq. 2.7 to 2.11), and p takes the
+  /// rest of m u − p·e.
+  /// @param share  s: less than all of it where particles are given nothing but forces (FLIP)
+  void react(State<Dim>& state, double dt, double share);
   /// After the second contact correction: momentum and force together.
   void enforce(State<Dim>& state, double dt);
 

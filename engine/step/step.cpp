@@ -108,7 +108,7 @@ void Step<Dim>::advance(double dt) {
   start_velocities();
   if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
   add_body_force(dt);
-  clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt); });
+  clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt, wall_share()); });
   update_momenta(dt);                      // Eq. 30
   correct_contact(Correction::final, dt);  // Eq. 31, 33
   clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });

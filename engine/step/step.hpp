@@ -93,6 +93,7 @@ class Step {
   /// Do XPIC and FMPM filter in this step? Between, particles are updated as FLIP's.
   bool filters() const { return (state_.step + 1) % plan_.filter_every == 0; }
   ParticleUpdate update_rule() const { return filters() ? plan_.update : ParticleUpdate::flip; }
+  double wall_share() const { return update_rule() == ParticleUpdate::flip ? plan_.wall_share : 1; }
   void filter_velocities();
   void re_extrapolate(double dt);
   void update_particles(double dt);
