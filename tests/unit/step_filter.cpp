@@ -17,9 +17,12 @@ materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 3
 bodies: [{name: a, disk: {centre: [0.1 mm, 0.2 mm], radius: 5 mm}, material: m}]
 )";
 
-/// Share of its angular momentum about its centre that a disk has lost after half a turn.
-double lost_spin(const std::string& basis, const std::string& update) {
-  const Scene scene = scene_from(kSpinning, {{"method.basis", basis}, {"method.update", update}});
+/// Share of its angular momentum about its centre that a disk has lost after a twentieth of a turn. By half a
+/// turn PIC and low orders have stopped it and the torsion stored meanwhile turns it back: shares above 1,
+/// which rank nothing.
+double lost_spin(const std::string& basis, const std::string& update, const std::string& strain) {
+  const Scene scene =
+      scene_from(kSpinning, {{"method.basis", basis}, {"method.update", update}, {"method.strain", strain}});
   Step<2> step(scene);
   auto& particles = step.state().particles;
   const double rate = 2000;
@@ -42,7 +45,7 @@ double lost_spin(const std::string& basis, const std::string& update) {
     return sum;
   };
   const double before = spin();
-  while (step.state().time < 3.14159265358979 / rate) step.advance(step.stable_dt());
+  while (step.state().time < 0.314159265358979 / rate) step.advance(step.stable_dt());
   return 1 - spin() / before;
 }
 
@@ -60,7 +63,7 @@ TEST_CASE("a spinning disk: higher orders lose less, fmpm(m) less than xpic(m), 
     CHECK(xpic2 > 1.7 * xpic4);
     CHECK(xpic4 > 1.4 * fmpm4);
     CHECK(fmpm4 > 0.05);
-    CHECK(std::abs(apic) < 1e-4);
+    CHECK(std::abs(apic) < 1e-3);
   }
 }
 
