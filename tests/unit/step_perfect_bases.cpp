@@ -33,8 +33,9 @@ bodies:
 
 /// Largest relative difference of positions, velocities and F after some steps.
 template <int Dim>
-double difference(const char* basis, const char* update, int steps) {
-  const std::vector<Override> own{{"method.basis", basis}, {"method.update", update}};
+double difference(const char* basis, const char* update, int steps, const char* strain = "average") {
+  const std::vector<Override> own{
+      {"method.basis", basis}, {"method.update", update}, {"method.strain", strain}};
   auto tied = own, alone = own;
   tied.push_back({"contact", "{law: perfect}"});
   alone.push_back({"contact", "none"});
@@ -68,21 +69,26 @@ TEST_CASE("a perfect interface reproduces one field in every basis (2-D)") { che
 TEST_CASE("a perfect interface reproduces one field in every basis (3-D)") { check_all_bases<3>(); }
 
 template <int Dim>
-void check_all_orders() {
+void check_all_orders(const char* strain, double bound) {
   for (const char* basis : {"ugimp", "lcpdi", "bspline2"})
     for (const char* update : {"xpic(2)", "xpic(5)"}) {
+      CAPTURE(std::string(strain));
       CAPTURE(std::string(basis));
       CAPTURE(std::string(update));
-      const double found = difference<Dim>(basis, update, 100);
-      CHECK(found < 0.08);
+      const double found = difference<Dim>(basis, update, 100, strain);
+      CHECK(found < bound);
       CHECK(found > 1e-6);
     }
 }
 
 TEST_CASE("with XPIC(m) a perfect interface differs from one field by its own filter alone") {
   // N20 Eq. 47 leaves S (S⁺ − S⁺^α)(V − S v): large only where the blow is, as here. Measured 0.018 to 0.057.
-  check_all_orders<2>();
-  check_all_orders<3>();
+  // The viscosity of the averaged strain damps this rough difference; without it more is left: 0.027 to
+  // 0.090.
+  check_all_orders<2>("average", 0.08);
+  check_all_orders<3>("average", 0.08);
+  check_all_orders<2>("average+", 0.1);
+  check_all_orders<3>("average+", 0.1);
 }
 
 }  // namespace
