@@ -10,10 +10,8 @@ namespace mpmfast {
 
 namespace {
 
-/// The energy of the bar, the grains of ellipses.yaml without and with friction and six packings of coarse
-/// grains changes by -1.1, -2.2, -0.5 and -1.7 to 18 % with 1, by -0.7, -1.7, -0.2 and, but for one, -0.2 to
-/// 1.1 % with 0.1, by -0.5, -0.4, -0.2 and -0.3 to 1.8 % with 0.05, by -0.4, -0.1, -0.1 and -0.4 to 2.8 %
-/// with 0.03 and by 0.0, 0.8, 0.0 and 0.8 to 4 % with 0, where what grains bring to a wall is never spent.
+/// The least share that spends what grains bring to a wall: with none, packings gain up to 0.9 %
+/// (tools/manual/theory.md has the changes of energy for each share).
 constexpr double kWallShare = 0.05;
 
 void plan_method(const MethodSpec& method, Plan& plan) {

@@ -69,10 +69,10 @@ class ContactsTogether {
   std::vector<MovingField<Dim>> fields;
   std::vector<FieldContact<Dim>> contacts;
 
-  /// Finds the impulses, from the present ones.
+  /// Finds the impulses, from the present ones. Where all at once do not settle, friction follows the normal
+  /// impulses, and what of it would drive is left out; no impulses do work, settled or not.
   /// @param law  law(k, d): the Demand of contact k where sticking would need d
-  /// @return whether they settled to 1e-9 of the largest; if not, they are as they are, less what would do
-  /// work
+  /// @return whether they settled to 1e-9 of the largest and obey their laws
   template <class Law>
   bool solve(const Law& law) {
     find_scales();
@@ -154,8 +154,8 @@ class ContactsTogether {
   /// Friction may wedge fields with any stress of their own; what it cannot have got from their motion is
   /// none.
   bool is_bounded() const {
-    constexpr double kMost = 30;
-    return largest_ <= kMost * kMost * motion_ * motion_;
+    constexpr double kShare = 30;
+    return largest_ <= kShare * kShare * motion_ * motion_;
   }
 
   /// Normal impulses without friction, from none.

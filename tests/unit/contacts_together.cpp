@@ -123,26 +123,31 @@ void check_random_nodes() {
 TEST_CASE("contacts of random nodes obey Coulomb's law together (2-D)") { check_random_nodes<2>(); }
 TEST_CASE("contacts of random nodes obey Coulomb's law together (3-D)") { check_random_nodes<3>(); }
 
-/// Of many fields, all pairs in contact, with normals that no bodies could have: they jam in rings. Held
-/// pairs
-/// (`persistent`) may pull.
+/// Many fields, all pairs in contact, with normals that no bodies could have: they jam in rings.
+/// @param orders of magnitude that the masses span
+template <int Dim>
+ContactsTogether<Dim> jam(std::mt19937_64& draw, int fields, double orders) {
+  std::normal_distribution<double> gauss;
+  std::uniform_real_distribution<double> exponent(-orders, 0);
+  const auto vector = [&] {
+    Vec<Dim> out;
+    for (int d = 0; d < Dim; ++d) out[d] = gauss(draw);
+    return out;
+  };
+  ContactsTogether<Dim> node;
+  for (int k = 0; k < fields; ++k) node.fields.push_back({vector(), std::pow(10.0, -exponent(draw))});
+  for (int a = 0; a < fields; ++a)
+    for (int b = a + 1; b < fields; ++b) add_contact<Dim>(node, a, b, vector());
+  return node;
+}
+
+/// Every second pair of a jam is held (`persistent`) and may pull.
 template <int Dim>
 void check_energy() {
   std::mt19937_64 draw(3);
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> exponent(-9, 0), uniform;
   int unsettled = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    ContactsTogether<Dim> node;
-    const int count = 3 + trial % 12;
-    const auto vector = [&] {
-      Vec<Dim> out;
-      for (int d = 0; d < Dim; ++d) out[d] = gauss(draw);
-      return out;
-    };
-    for (int k = 0; k < count; ++k) node.fields.push_back({vector(), std::pow(10.0, -exponent(draw))});
-    for (int a = 0; a < count; ++a)
-      for (int b = a + 1; b < count; ++b) add_contact<Dim>(node, a, b, vector());
+    ContactsTogether<Dim> node = jam<Dim>(draw, 3 + trial % 12, 9);
     const auto energy = [&] {
       double sum = 0;
       for (const auto& field : node.fields) sum += 0.5 * field.velocity.squaredNorm() / field.inverse_mass;
@@ -176,28 +181,18 @@ TEST_CASE("contacts that jam and do not settle still take energy, never give it 
 template <int Dim>
 void check_set(double friction, int most_unsettled, double tolerance) {
   std::mt19937_64 draw(5);
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> exponent(-5, 0), uniform;
+  std::uniform_real_distribution<double> uniform;
   int unsettled = 0;
   double worst = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    ContactsTogether<Dim> node;
-    const int count = 3 + trial % 4;
-    const auto vector = [&] {
-      Vec<Dim> out;
-      for (int d = 0; d < Dim; ++d) out[d] = gauss(draw);
-      return out;
-    };
-    for (int k = 0; k < count; ++k) node.fields.push_back({vector(), std::pow(10.0, -exponent(draw))});
-    for (int a = 0; a < count; ++a)
-      for (int b = a + 1; b < count; ++b) {
-        add_contact<Dim>(node, a, b, vector());
-        auto& c = node.contacts.back();
-        const auto kind = node.contacts.size() % 3;
-        c.both_ways = kind == 0;
-        c.pull = kind == 0 ? kUnbounded : kind == 1 ? c.reduced * uniform(draw) : 0;
-        c.closing = kind == 2 ? uniform(draw) : 0;
-      }
+    ContactsTogether<Dim> node = jam<Dim>(draw, 3 + trial % 4, 5);
+    int kind = 0;
+    for (auto& c : node.contacts) {
+      kind = (kind + 1) % 3;
+      c.both_ways = kind == 0;
+      c.pull = kind == 0 ? kUnbounded : kind == 1 ? c.reduced * uniform(draw) : 0;
+      c.closing = kind == 2 ? uniform(draw) : 0;
+    }
     const auto law = [&](std::size_t k, const Vec<Dim>& stick) -> Demand<Dim> {
       const auto& c = node.contacts[k];
       const double along = stick.dot(c.normal), normal = along + c.reduced * c.closing;
