@@ -62,8 +62,7 @@ void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, con
   }
 }
 
-/// What a correction leaves to know. A pair of the set ends when it is pulled by all that the first
-/// correction pressed; momenta that 1e-10 cells a step give are round-off, which must not decide.
+/// What a correction leaves to know.
 template <int Dim>
 void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
@@ -74,12 +73,7 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
       entry.held = acts;
       if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
     } else if (correction == Correction::final) {
-      const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
-      const double least = 1e-10 * state.nodes.column(Nodal::mass)[slot] * cell_ / dt_;
-      const double pressed = std::max(0.0, -entry.first.dot(entry.normal));
-      const bool ends = entry.impulse.dot(entry.normal) >= pressed - least;
       entry.second = entry.impulse + entry.passed;
-      entry.touching = one_set_ ? (acts || entry.held) && !ends : acts;
     }
     if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
       entry.slip_end = slip_of(state, node, entry);

@@ -28,6 +28,8 @@ struct ContactEntry {
   bool touched = false;      ///< in contact at the end of the last step
   bool held = false;         ///< by the first correction
   bool touching = false;     ///< in contact at the second correction
+  bool released = false;     ///< it parted there
+  bool parts = false;        ///< its law knows no tie, so that it may
   double friction_work = 0;  ///< J, of this step
   Vec<Dim> impulse;          ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
@@ -35,7 +37,7 @@ struct ContactEntry {
   /// v_a − v_b as the particles give it to the grid, after the first correction, and as the last one leaves
   /// it
   Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_end = Vec<Dim>::Zero();  ///< m/s
-  Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a of the first correction that the second passes on as a force
+  Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a that the second counts as a force, beside its own
 };
 
 template <int Dim>

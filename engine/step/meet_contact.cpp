@@ -151,6 +151,46 @@ double Contact<Dim>::pull_of(const ContactEntry<Dim>& entry, Correction correcti
   return lasts(entry) ? kUnbounded : 0;
 }
 
+/// Which pairs of the set touch on, and what of their impulses is no force. A pull by all that the first
+/// correction pressed ends a contact; momenta that 1e-10 cells a step give are round-off, which must not
+/// decide. As a force that pull would do work on the approach that particles keep: it goes to the momenta
+/// alone, and to those that are re-extrapolated. (Where more fields meet, the others' impulses depend on it:
+/// there it stays a force.)
+template <int Dim>
+void Contact<Dim>::see_ends(const State<Dim>& state, const ContactNode<Dim>& node) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const bool acts = !entry.impulse.isZero(0);
+    entry.touching = acts;
+    if (!one_set_) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
+    const double least = 1e-10 * state.nodes.column(Nodal::mass)[slot] * cell_ / dt_;
+    const double pressed = std::max(0.0, -entry.first.dot(entry.normal));
+    const bool ends = entry.impulse.dot(entry.normal) >= pressed - least;
+    entry.touching = (acts || entry.held) && !ends;
+    if (!acts || !entry.parts || first_correction_stays_ || node.field_end - node.field_begin > 2) continue;
+    entry.released = entry.held && ends;
+    if (entry.released)
+      entry.passed -= entry.impulse;
+    else if (closing_of(entry) > 0)
+      entry.passed -= before_touch(state, node, entry);
+  }
+}
+
+/// What of the second correction's impulse is of the time before a gap closes within the step: no force. The
+/// approach v' that particles then keep is such that contact makes no energy, v'² = v² + a (v^c + v'^c): a is
+/// what forces change, v^c what the first correction left, v'^c = −δ/Δt what the last will leave.
+template <int Dim>
+Vec<Dim> Contact<Dim>::before_touch(const State<Dim>& state, const ContactNode<Dim>& node,
+                                    const ContactEntry<Dim>& entry) const {
+  const Meeting meeting = meet(state, node, entry.a, together(state, node));
+  const double before = -entry.slip_start.dot(entry.normal), held = -entry.slip_held.dot(entry.normal);
+  const double forces = meeting.stick.dot(entry.normal) / meeting.reduced - held;
+  const double after = -std::sqrt(std::max(0.0, before * before + forces * (held - closing_of(entry))));
+  const double force = meeting.reduced * (before + forces - after);
+  return (entry.impulse.dot(entry.normal) - force) * entry.normal;
+}
+
 // Here: the members that this file defines.
 template class Contact<2>;
 template class Contact<3>;

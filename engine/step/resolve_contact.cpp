@@ -89,6 +89,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     } else if (outcome == PairOutcome::lump) {
       resolve_each(state, laws, correction, dt, node);
     }
+    if (correction == Correction::final) see_ends(state, node);
     apply(state, correction, dt, node);
     settle(state, correction, node);
   }
@@ -163,6 +164,7 @@ template <class Law>
 Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
                                          double separation, Correction correction, const Law& law,
                                          double area_time) const {
+  if (entry.released && correction == Correction::strain) return {-entry.first, Hinders::nothing};
   const double along = meeting.stick.dot(entry.normal);
   const Vec<Dim> tangential = meeting.stick - along * entry.normal;
   const double needed = tangential.norm();
@@ -289,8 +291,8 @@ void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, cons
 /// do not have, and the noise grows. A small share ends it within as many steps as its inverse.
 template <int Dim>
 void Contact<Dim>::pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const {
-  if (correction == Correction::initial && scope == LawScope::contact)
-    entry.passed = first_share_ * entry.impulse;
+  entry.parts = scope == LawScope::contact;
+  if (correction == Correction::initial && entry.parts) entry.passed = first_share_ * entry.impulse;
 }
 
 /// No contact at the entries [begin, end).
@@ -321,7 +323,7 @@ void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
     else if (keep_velocity_change_ && correction == Correction::initial)
       for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
   };
-  const bool passes = correction == Correction::final && first_share_ > 0;
+  const bool passes = correction == Correction::final && (first_share_ > 0 || one_set_);
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     const auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const bool moves_other = entry.b >= 0 && entry.b != node.rigid;

@@ -18,9 +18,20 @@ double energy_error(const std::string& name, std::vector<Override> overrides = {
 }
 
 TEST_CASE("squares and cubes that meet face to face keep their energy") {
-  CHECK(std::abs(energy_error("squares.yaml")) < 0.01);  // measured -0.5 %; strain: average -22 %
-  CHECK(std::abs(energy_error("squares.yaml", {{"contact.friction", "0"}})) < 0.01);
-  CHECK(std::abs(energy_error("cubes.yaml")) < 0.01);  // -0.3 %; -31 %
+  CHECK(std::abs(energy_error("squares.yaml")) < 0.004);  // measured -0.23 %; strain: average -22 %
+  CHECK(std::abs(energy_error("squares.yaml", {{"contact.friction", "0"}})) < 0.004);
+  CHECK(std::abs(energy_error("cubes.yaml")) < 0.002);  // -0.06 %; -31 %
+}
+
+TEST_CASE("a block of three cells that flies to and fro keeps its energy, the better the shorter its steps") {
+  const auto error = [](const char* cfl, const char* basis) {
+    return std::abs(energy_error("hard/hundred_gaps.yaml", {{"time.cfl", cfl}, {"method.basis", basis}}));
+  };
+  // At CFL 0.5 it gains 7 and 15 %. With the pull that ends a contact and what closes a gap as forces of the
+  // whole step: 18 and 22 %, and 0.4 and 0.5 % in place of the first two.
+  CHECK(error("0.25", "ugimp") < 0.0025);  // measured 0.08 %
+  CHECK(error("0.25", "lcpdi") < 0.0035);  // 0.15 %
+  CHECK(error("0.1", "ugimp") < 0.0015);   // 0.02 %
 }
 
 TEST_CASE("disks that meet off-centre with friction keep their energy, turned in the grid too") {
@@ -34,8 +45,8 @@ TEST_CASE("disks that meet off-centre with friction keep their energy, turned in
     while (step.state().time < scene.time.end)
       step.advance(std::min(step.stable_dt(), scene.time.end - step.state().time));
     const double friction = step.sums().friction_work;
-    // R = 6 cells: the averaged strain loses 8 to 14 %
-    CHECK(std::abs((kinetic_energy(particles) + step.stored_energy() + friction) / energy - 1) < 0.01);
+    // R = 6 cells, measured 0.02 to 0.05 %: the averaged strain loses 8 to 14 %
+    CHECK(std::abs((kinetic_energy(particles) + step.stored_energy() + friction) / energy - 1) < 0.002);
     CHECK(friction > 0);
     CHECK(friction < 0.35 * energy);
   }
