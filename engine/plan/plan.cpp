@@ -12,7 +12,7 @@ namespace {
 
 /// The least share that spends what grains bring to a wall: with none, packings gain up to 0.9 %
 /// (tools/manual/theory.md has the changes of energy for each share).
-constexpr double kWallShare = 0.05;
+constexpr double kWallShare = 0.02;
 
 void plan_method(const MethodSpec& method, Plan& plan) {
   plan.update = method.update == UpdateKind::flip   ? ParticleUpdate::flip

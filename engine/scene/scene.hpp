@@ -282,7 +282,7 @@ struct ContactSpec : LawSpec {
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = true;  ///< corrections judge by δ + Δv·n Δt, Δv the free velocities (NN Eq. 3.56)
   /// Which pairs touch is decided once a step: the first correction holds them, parting or not, the second
-  /// and the momenta that are re-extrapolated hold the same; a pair ends when a force pulls it apart.
+  /// presses, and the momenta that are re-extrapolated hold what it pressed; a pull ends the pair.
   bool persistent = true;
   /// Share of the first correction's impulse that FLIP's particles take too (N20: none). Without it they keep
   /// for good the approach that the grid is relieved of every step: noise that grows.

@@ -138,7 +138,7 @@ class Contact {
                              Correction correction, const Law& law, double area_time) const;
   bool lasts(const ContactEntry<Dim>& entry) const;
   double closing_of(const ContactEntry<Dim>& entry) const;
-  double pull_of(const ContactEntry<Dim>& entry, Correction correction) const;
+  bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;

@@ -28,8 +28,7 @@ struct ContactEntry {
   bool touched = false;      ///< in contact at the end of the last step
   bool held = false;         ///< by the first correction
   bool touching = false;     ///< in contact at the second correction
-  bool released = false;     ///< it parted there
-  bool parts = false;        ///< its law knows no tie, so that it may
+  bool parts = false;        ///< its law knows no tie
   double friction_work = 0;  ///< J, of this step
   Vec<Dim> impulse;          ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction

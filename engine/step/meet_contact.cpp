@@ -143,37 +143,26 @@ double Contact<Dim>::closing_of(const ContactEntry<Dim>& entry) const {
   return lasts(entry) ? 0 : std::max(0.0, entry.separation) / dt_;
 }
 
-/// The largest J·n of a pair of the set, N s: in the second correction as much as the first pressed; in the
-/// others, pairs that last are held whichever way they go.
+/// Is the pair held whichever way it goes?
 template <int Dim>
-double Contact<Dim>::pull_of(const ContactEntry<Dim>& entry, Correction correction) const {
-  if (correction == Correction::final) return std::max(0.0, -entry.first.dot(entry.normal));
-  return lasts(entry) ? kUnbounded : 0;
+bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correction) const {
+  return correction != Correction::final && lasts(entry);
 }
 
-/// Which pairs of the set touch on, and what of their impulses is no force. A pull by all that the first
-/// correction pressed ends a contact; momenta that 1e-10 cells a step give are round-off, which must not
-/// decide. As a force that pull would do work on the approach that particles keep: it goes to the momenta
-/// alone, and to those that are re-extrapolated. (Where more fields meet, the others' impulses depend on it:
-/// there it stays a force.)
+/// Which pairs of the set touch on: those that forces press. Momenta that 1e-10 cells a step give are
+/// round-off, which must not decide.
 template <int Dim>
 void Contact<Dim>::see_ends(const State<Dim>& state, const ContactNode<Dim>& node) {
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const bool acts = !entry.impulse.isZero(0);
-    entry.touching = acts;
+    entry.touching = !entry.impulse.isZero(0);
     if (!one_set_) continue;
     const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
     const double least = 1e-10 * state.nodes.column(Nodal::mass)[slot] * cell_ / dt_;
-    const double pressed = std::max(0.0, -entry.first.dot(entry.normal));
-    const bool ends = entry.impulse.dot(entry.normal) >= pressed - least;
-    entry.touching = (acts || entry.held) && !ends;
-    if (!acts || !entry.parts || first_correction_stays_ || node.field_end - node.field_begin > 2) continue;
-    entry.released = entry.held && ends;
-    if (entry.released)
-      entry.passed -= entry.impulse;
-    else if (closing_of(entry) > 0)
-      entry.passed -= before_touch(state, node, entry);
+    entry.touching = entry.impulse.dot(entry.normal) < -least;
+    if (!entry.touching || !entry.parts || first_correction_stays_ || node.field_end - node.field_begin > 2)
+      continue;
+    if (closing_of(entry) > 0) entry.passed -= before_touch(state, node, entry);
   }
 }
 

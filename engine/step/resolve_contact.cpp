@@ -155,16 +155,14 @@ Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeti
 /// The impulse of a pair of the step's one set (tools/manual/theory.md, "The energy of a contact").
 ///
 /// In the set are pairs that will touch by the end of the step as the first correction sees it, and those
-/// that last; the second may add what the forces bring. A gap δ that closes leaves the approach δ/Δt. In the
-/// set the normal velocity is held, whichever way it goes; a pull ends the contact, but for what the first
-/// correction pressed in this step. Momenta that are re-extrapolated are held where the second correction
-/// held.
+/// that last; the second may add what the forces bring. A gap δ that closes leaves the approach δ/Δt. The
+/// normal velocities of pairs that last are held, whichever way they go; forces are held where they press,
+/// and end the contact where they pull. Momenta that are re-extrapolated are held where forces were.
 template <int Dim>
 template <class Law>
 Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
                                          double separation, Correction correction, const Law& law,
                                          double area_time) const {
-  if (entry.released && correction == Correction::strain) return {-entry.first, Hinders::nothing};
   const double along = meeting.stick.dot(entry.normal);
   const Vec<Dim> tangential = meeting.stick - along * entry.normal;
   const double needed = tangential.norm();
@@ -176,8 +174,8 @@ Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const M
       : correction == Correction::final ? !closes && !entry.held
                                         : !entry.touching)
     return {Vec<Dim>::Zero(), Hinders::nothing};
-  const double normal = along + meeting.reduced * closing_of(entry), pull = pull_of(entry, correction);
-  if (normal > pull) return {pull * entry.normal, Hinders::nothing};
+  const double normal = along + meeting.reduced * closing_of(entry);
+  if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
   // Friction is a force of the second correction. What is held for the strain alone must be a projection.
   const bool rubs = correction == Correction::final || first_correction_stays_;
   const double limit =
@@ -253,8 +251,7 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       if (!one_set_) return;
       auto& contact = solver.contacts.back();
       contact.closing = closing_of(entry);
-      contact.pull = pull_of(entry, correction);
-      contact.both_ways = correction != Correction::final && contact.pull == kUnbounded;
+      contact.both_ways = both_ways(entry, correction);
     });
   }
 }

@@ -22,8 +22,7 @@ struct MovingField {
   double inverse_mass;  ///< 1/kg
 };
 
-/// What motion of two surfaces a contact hinders by its present kind: parted or pulled all it can; sliding;
-/// stuck.
+/// What motion of two surfaces a contact hinders by its present kind: parted; sliding; stuck.
 enum class Hinders { nothing, approach, slip };
 
 /// What a law demands of one contact while the others stay.
@@ -49,7 +48,6 @@ struct FieldContact {
   double reduced;                        ///< 1/(1/m_a + 1/m_b), kg
   double closing = 0;                    ///< the approach that closes a gap within the step, and is left, m/s
   bool both_ways = false;                ///< it pulls as it presses
-  double pull = kUnbounded;              ///< the largest J·n; what pulls with it has parted, N s
   Hinders hinders = Hinders::nothing;    ///< found, as the law says
   Vec<Dim> stick = Vec<Dim>::Zero();     ///< Δp_a that sticking would need while the others stay, N s
   Vec<Dim> impulse = Vec<Dim>::Zero();   ///< found: Δp_a, N s; b takes −Δp_a
@@ -376,9 +374,8 @@ class ContactsTogether {
       FieldContact<Dim>& c = contacts[k];
       if (c.hinders != Hinders::approach || c.both_ways) continue;
       const double now = c.impulse.dot(c.normal), change = changes_[k].dot(c.normal), end = now + change;
-      const double bound = end * now < 0 ? 0 : c.pull;
-      if (!(end * now < 0 || end > bound)) continue;
-      const double share = std::max(0.0, (bound - now) / change);
+      if (now > 0 ? !(end < 0) : !(end > 0)) continue;
+      const double share = std::max(0.0, -now / change);
       if (share < most) most = share, parts = &c;
     }
     if (all_stick(law, most)) return most;
