@@ -74,6 +74,7 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
       if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
     } else if (correction == Correction::final) {
       entry.second = entry.impulse + entry.passed;
+      entry.touching = one_set_ ? touches_on(state, node, entry) : acts;
     }
     if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
       entry.slip_end = slip_of(state, node, entry);

@@ -143,7 +143,9 @@ class Contact {
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;
   void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
-  void see_ends(const State<Dim>& state, const ContactNode<Dim>& node);
+  void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
+  bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
+                  const ContactEntry<Dim>& entry) const;
   Vec<Dim> before_touch(const State<Dim>& state, const ContactNode<Dim>& node,
                         const ContactEntry<Dim>& entry) const;
   void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);

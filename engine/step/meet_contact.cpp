@@ -149,20 +149,28 @@ bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correcti
   return correction != Correction::final && lasts(entry);
 }
 
-/// Which pairs of the set touch on: those that forces press. Momenta that 1e-10 cells a step give are
-/// round-off, which must not decide.
+/// Does the second correction leave the pair of the set in contact: has it pressed, or did the first and no
+/// force pulls? Speeds of 1e-10 cells a step are round-off, which must not decide.
 template <int Dim>
-void Contact<Dim>::see_ends(const State<Dim>& state, const ContactNode<Dim>& node) {
+bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) const {
+  const double least = 1e-10 * cell_ / dt_;
+  const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
+  const double mass = state.nodes.column(Nodal::mass)[slot];
+  if (entry.impulse.dot(entry.normal) < -least * mass) return true;
+  if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
+  return closing_of(entry) - slip_of(state, node, entry).dot(entry.normal) <= least;
+}
+
+/// What of the impulses of the second correction is no force: see before_touch. Where more fields meet, the
+/// others' impulses depend on it: there all of it is.
+template <int Dim>
+void Contact<Dim>::see_gaps(const State<Dim>& state, const ContactNode<Dim>& node) {
+  if (!one_set_ || first_correction_stays_ || node.field_end - node.field_begin > 2) return;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    entry.touching = !entry.impulse.isZero(0);
-    if (!one_set_) continue;
-    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
-    const double least = 1e-10 * state.nodes.column(Nodal::mass)[slot] * cell_ / dt_;
-    entry.touching = entry.impulse.dot(entry.normal) < -least;
-    if (!entry.touching || !entry.parts || first_correction_stays_ || node.field_end - node.field_begin > 2)
-      continue;
-    if (closing_of(entry) > 0) entry.passed -= before_touch(state, node, entry);
+    if (entry.parts && entry.impulse.dot(entry.normal) < 0 && closing_of(entry) > 0)
+      entry.passed -= before_touch(state, node, entry);
   }
 }
 

@@ -89,7 +89,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     } else if (outcome == PairOutcome::lump) {
       resolve_each(state, laws, correction, dt, node);
     }
-    if (correction == Correction::final) see_ends(state, node);
+    if (correction == Correction::final) see_gaps(state, node);
     apply(state, correction, dt, node);
     settle(state, correction, node);
   }
