@@ -85,7 +85,7 @@ void update(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
       state, basis,
       [](auto& block, auto&) {
-        const UpdateRule rule{Update, PositionUpdate::grid, kInstant, 0, 2};
+        const UpdateRule rule{Update, PositionUpdate::grid, kInstant, 0, 2, true};
         block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
       },
       [](const Block<Dim>& block) { return block.work.update(update_vectors(Update)); });
@@ -96,7 +96,7 @@ void update_strain(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
       state, basis,
       [](auto& block, auto&) {
-        const UpdateRule rule{ParticleUpdate::flip, PositionUpdate::grid, kInstant, kInstant, 2};
+        const UpdateRule rule{ParticleUpdate::flip, PositionUpdate::grid, kInstant, kInstant, 2, true};
         block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
       },
       [](const Block<Dim>& block) { return block.work.update_strain(update_vectors(ParticleUpdate::flip)); });
@@ -107,7 +107,7 @@ void update_affine(benchmark::State& state, BasisKind basis) {
   time_pass<Dim>(
       state, basis,
       [](auto& block, auto&) {
-        const UpdateRule rule{ParticleUpdate::apic, PositionUpdate::particle, kInstant, 0, 2};
+        const UpdateRule rule{ParticleUpdate::apic, PositionUpdate::particle, kInstant, 0, 2, true};
         block.passes->update(block.step.state(), rule, Vec<Dim>::Constant(-1), Vec<Dim>::Constant(1));
       },
       [](const Block<Dim>& block) { return block.work.update_affine(); }, "apic");

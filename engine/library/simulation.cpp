@@ -138,14 +138,14 @@ class Simulation::Implementation {
     return *found;
   }
 
-  void advance(double dt) {
-    visit([&](auto& s) { s.advance(dt); });
+  void advance(double dt, bool stresses = true) {
+    visit([&](auto& s) { s.advance(dt, stresses); });
     last_dt = dt;
   }
 
   /// A step as the run takes it.
-  void advance_towards(double time) {
-    advance(visit([&](auto& s) { return s.dt_towards(time, first_dt); }));
+  void advance_towards(double time, bool stresses = true) {
+    advance(visit([&](auto& s) { return s.dt_towards(time, first_dt); }), stresses);
   }
 
   Scene scene;  ///< stays where it is: the step points to it
@@ -229,7 +229,9 @@ std::uint64_t Simulation::advance_to(double time, const std::function<bool()>& s
   const ThreadCount count(i.threads);
   Pause asking;
   said([&] {
-    while (!has_ended(this->time(), time) && !(stop && asking.due() && stop())) i.advance_towards(time);
+    while (!has_ended(this->time(), time) && !(stop && asking.due() && stop()))
+      i.advance_towards(time, false);
+    i.visit([](auto& s) { s.find_stresses(); });
   });
   return steps() - before;
 }

@@ -31,7 +31,7 @@ using Material =
   apply(ElasticJohnsonCook)
 #define MPMFAST_STRAIN_CHUNK(prefix, Dim, Law)                                                          \
   prefix template bool strain_chunk<Dim, Law>(const ParticleView<Dim>&, const Law&, std::uint32_t, int, \
-                                              double, int, const StrainRoom<Dim>&)
+                                              double, int, const StrainRoom<Dim>&, const ChunkStress<Dim>&)
 #define MPMFAST_DECLARE(Law)            \
   MPMFAST_STRAIN_CHUNK(extern, 2, Law); \
   MPMFAST_STRAIN_CHUNK(extern, 3, Law)

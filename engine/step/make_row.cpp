@@ -45,6 +45,7 @@ template <int Dim>
 HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<Dim>& counters) {
   const State<Dim>& state = step.state();
   const Sums<Dim>& sums = step.sums();
+  step.find_stresses();
   HistoryRow row;
   row.step = state.step;
   row.time = state.time;

@@ -168,7 +168,7 @@ class Run {
       const double dt = step_.dt_towards(end, counters_.first_dt);
       counters_.particle_steps += static_cast<double>(state.particles.size());
       const auto begin = Clock::now();
-      step_.advance(dt);
+      step_.advance(dt, false);
       counters_.stepping += seconds_since(begin);
       counters_.dt = dt;
       counters_.dt_min = std::min(counters_.dt_min, dt);
@@ -204,6 +204,7 @@ class Run {
   /// The run as it stands. The history must be on the disk before a checkpoint that counts its rows.
   void save() {
     if (!scene_.output.checkpoint.active) return;
+    step_.find_stresses();
     counters_.wall = seconds_since(start_);
     counters_.rows = history_->rows();
     if (series_) counters_.frame_times = series_->times();
@@ -225,6 +226,7 @@ class Run {
   }
 
   void write_frame() {
+    step_.find_stresses();
     const auto& state = step_.state();
     if (series_) series_->append(state.particles, state.time);
     if (grid_series_ && state.step > 0) {  // before the first step nodes know nothing
@@ -236,6 +238,7 @@ class Run {
 
   void draw(const std::string& which) {
     if (scene_.output.picture == "none") return;
+    step_.find_stresses();
     for (const std::string& field : {std::string("body"), scene_.output.picture})
       draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field),
                      step_.state().particles, scene_, field, step_.state().time);
@@ -278,6 +281,7 @@ class Run {
   }
 
   void write_failed(const RunFailure::Place& place) {
+    step_.find_stresses();
     const auto& state = step_.state();
     Vec<Dim> centre;
     for (int d = 0; d < Dim; ++d) centre[d] = place[static_cast<std::size_t>(d)];
@@ -333,6 +337,7 @@ class Run {
     s.seconds.emplace_back("output", std::max(0.0, s.wall - counters_.stepping));
     s.overlap = counters_.overlap;
     s.outflow = outflow_of(step_, scene_);
+    step_.find_stresses();
     s.checksum = checksum(step_.state().particles);
     write_run_json(options_.folder, s);
     log_->close(s);

@@ -96,7 +96,7 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 }
 
 template <int Dim>
-void Step<Dim>::advance(double dt) {
+void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   sort_if_due();
   project();  // N20 Eq. 5
@@ -121,6 +121,7 @@ void Step<Dim>::advance(double dt) {
   book(dt);
   state_.time += dt;
   ++state_.step;
+  if (stresses) find_stresses();
 }
 
 /// Calls f(first slot, last slot) over all slots, in parallel.
@@ -229,6 +230,7 @@ void Step<Dim>::start_velocities() {
 
 template <int Dim>
 void Step<Dim>::strain_and_force(double dt) {
+  stresses_wait_ = plan_.strain_first > 0;
   const bool sound = clock_.time(Pass::strain_force, [&] {
     return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
   });
@@ -377,8 +379,9 @@ void Step<Dim>::re_extrapolate(double dt) {
 
 template <int Dim>
 void Step<Dim>::update_particles(double dt) {
-  const UpdateRule rule{update_rule(), plan_.position, dt, (1 - plan_.strain_first) * dt,
-                        plan_.deformation_terms};
+  const bool stresses = plan_.strain_first == 0;  // else the next step makes its own
+  const UpdateRule rule{update_rule(),           plan_.position, dt, (1 - plan_.strain_first) * dt,
+                        plan_.deformation_terms, stresses};
   const TileReport report =
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;

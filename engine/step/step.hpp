@@ -47,7 +47,11 @@ class Step {
   double dt_towards(double end, double first) const;
 
   /// Advances the state by dt. Throws RunFailure.
-  void advance(double dt);
+  /// @param stresses  false: stresses that the next step takes anew may stay behind F (find_stresses)
+  void advance(double dt, bool stresses = true);
+
+  /// Brings the stresses up to F, where advance left them behind: for whoever reads them between two steps.
+  void find_stresses();
 
   /// Adds to one component of the particles' velocities, m/s, in the order of the columns; the energy that
   /// this brings is booked as work of body forces.
@@ -121,7 +125,8 @@ class Step {
   double travelled_ = 0;                 ///< bound on any particle's path since the last sort, m
   Vec<Dim> gravity_ = Vec<Dim>::Zero();  ///< of this step, m/s²
   bool sort_due_ = true;
-  bool lost_ = false;  ///< in this step a particle left the box, or is not a number
+  bool stresses_wait_ = false;  ///< some stresses are of an earlier F
+  bool lost_ = false;           ///< in this step a particle left the box, or is not a number
   std::uint64_t nodes_peak_ = 0;
 };
 

@@ -71,7 +71,8 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(p, begin, count, room.inertia);
-        stack_stress(p, begin, count, wide ? 1 : 0, single ? &room.inertia : room.stress);
+        stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
+                     single ? &room.inertia : room.stress);
         for (int k = 0; k < count; ++k) {
           if constexpr (single) {
             scatter_pairs(w, k, room.inertia[k], at[0]);

@@ -15,7 +15,26 @@ template <int Dim>
 struct StrainRoom {
   alignas(64) double gradient[4 * Dim][kChunk<Dim>];  ///< ∂v/∂x_d of a particle, [4 d + component of v]
   alignas(64) double hoop_rate[kChunk<Dim>];          ///< v_r/r in axisymmetry
+  alignas(64) double stress[kSymmetric<Dim>][kChunk<Dim>];  ///< τ that needs no column (stress_can_wait)
 };
+
+/// Where the Kirchhoff stresses of a chunk are: by component, from its first particle on.
+template <int Dim>
+struct ChunkStress {
+  double* component[kSymmetric<Dim>];
+};
+template <int Dim>
+inline ChunkStress<Dim> stress_columns(const ParticleView<Dim>& p, std::uint32_t begin) {
+  ChunkStress<Dim> out;
+  for (int s = 0; s < kSymmetric<Dim>; ++s) out.component[s] = p.stress[s] + begin;
+  return out;
+}
+template <int Dim>
+inline ChunkStress<Dim> staged_stress(StrainRoom<Dim>& room) {
+  ChunkStress<Dim> out;
+  for (int s = 0; s < kSymmetric<Dim>; ++s) out.component[s] = room.stress[s];
+  return out;
+}
 
 /// F ← (I + a) F, τ and c of up to kLanes particles from `at`, `count` of which are the caller's.
 template <int Dim, class Law>
@@ -42,13 +61,16 @@ inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes 
   }
 }
 
-/// Stores the results of up to kLanes particles from `at`, `count` of which are the caller's.
+/// Stores the results of up to kLanes particles, from the k-th of a chunk that begins at `begin`; `count` of
+/// them are the caller's.
 /// @return whether each J is a positive number
 template <int Dim>
-inline bool store_strain(const ParticleView<Dim>& p, std::uint32_t at, int count, const Lanes (&f)[Dim * Dim],
-                         const Lanes (&tau)[kSymmetric<Dim>], Lanes wave_speed_squared, Lanes jacobian) {
+inline bool store_strain(const ParticleView<Dim>& p, std::uint32_t begin, int k, int count,
+                         const Lanes (&f)[Dim * Dim], const Lanes (&tau)[kSymmetric<Dim>],
+                         Lanes wave_speed_squared, Lanes jacobian, const ChunkStress<Dim>& stress) {
+  const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
   for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count);
-  for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(p.stress[s] + at, tau[s], count);
+  for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(stress.component[s] + k, tau[s], count);
   store_first(p.wave_speed + at, square_root(wave_speed_squared), count);
   const LaneSet all = leading_lanes(count);
   return same_lanes(where_less(all, broadcast<Lanes>(0.0), jacobian), all);
@@ -68,7 +90,7 @@ inline void load_strain(const ParticleView<Dim>& p, const StrainRoom<Dim>& room,
 /// As strain_chunk, in a plane that stretches along its normal.
 template <class Law>
 bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
-                             double dt, int terms, const StrainRoom<2>& room) {
+                             double dt, int terms, const StrainRoom<2>& room, const ChunkStress<2>& stress) {
   const bool hoop = p.depth == Depth::hoop;
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
@@ -78,19 +100,57 @@ bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint
     load_strain(p, room, begin, k, l, f);
     advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
     store_first(p.stretch + at, s, count - k);
-    sound &= store_strain(p, at, count - k, f, tau, c2, s * determinant<2>(f));
+    sound &= store_strain(p, begin, k, count - k, f, tau, c2, s * determinant<2>(f), stress);
   }
   return sound;
 }
 
+/// Need nobody keep the stresses of this law, because they follow from F? Not where it has a history, nor in
+/// planes that stretch along their normal.
+template <class Law, int Dim>
+inline bool stress_can_wait(const ParticleView<Dim>& p) {
+  return !Evolving<Law> && p.depth == Depth::held;
+}
+
+/// F of a chunk whose velocity gradients are staged in room.gradient, and nothing else: what strain_chunk
+/// costs is the columns that it goes through. τ and c stay those of an earlier F.
+/// @return whether each J of the chunk is a positive number
+template <int Dim>
+inline bool deform_chunk(const ParticleView<Dim>& p, std::uint32_t begin, int count, double dt, int terms,
+                         const StrainRoom<Dim>& room) {
+  bool sound = true;
+  for (int k = 0; k < count; k += kLanes) {
+    const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
+    Lanes l[Dim * Dim], f[Dim * Dim];
+    load_strain(p, room, begin, k, l, f);
+    advance_deformation<Dim>(l, dt, terms, f);
+    for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count - k);
+    const LaneSet all = leading_lanes(count - k);
+    sound &= same_lanes(where_less(all, broadcast<Lanes>(0.0), determinant<Dim>(f)), all);
+  }
+  return sound;
+}
+
+/// τ of a chunk from F as it is, for whoever reads it.
+template <int Dim, class Law>
+inline void stress_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count) {
+  for (int k = 0; k < count; k += kLanes) {
+    const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
+    Lanes f[Dim * Dim], tau[kSymmetric<Dim>], wave_speed_squared;
+    for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + at);
+    law.template stress<Dim>(f, tau, wave_speed_squared);
+    for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(p.stress[s] + at, tau[s], count - k);
+  }
+}
+
 /// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
-/// exponential, τ, c and the evolving state by the material's law; all columns written back.
+/// exponential, τ, c and the evolving state by the material's law; all columns written back, τ to `stress`.
 /// @return whether each J of the chunk is a positive number
 template <int Dim, class Law>
 bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
-                  int terms, const StrainRoom<Dim>& room) {
+                  int terms, const StrainRoom<Dim>& room, const ChunkStress<Dim>& stress) {
   if constexpr (Dim == 2) {
-    if (p.depth != Depth::held) return strain_chunk_with_depth(p, law, begin, count, dt, terms, room);
+    if (p.depth != Depth::held) return strain_chunk_with_depth(p, law, begin, count, dt, terms, room, stress);
   }
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
@@ -98,7 +158,7 @@ bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begi
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
     load_strain(p, room, begin, k, l, f);
     advance_law<Dim>(p.state, law, l, dt, terms, at, count - k, f, tau, c2);
-    sound &= store_strain(p, at, count - k, f, tau, c2, determinant<Dim>(f));
+    sound &= store_strain(p, begin, k, count - k, f, tau, c2, determinant<Dim>(f), stress);
   }
   return sound;
 }

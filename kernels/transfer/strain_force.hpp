@@ -57,9 +57,9 @@ inline void gather_velocity_gradient(const Weights& w, int count, const Record* 
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
 template <int Dim, class Weights, class Room>
-inline void scatter_force(const ParticleView<Dim>& p, const Weights& w, std::uint32_t begin, int count,
-                          Room& room) {
-  stack_stress(p, begin, count, 0, room.row);
+inline void scatter_force(const ParticleView<Dim>& p, const ChunkStress<Dim>& stress, const Weights& w,
+                          std::uint32_t begin, int count, Room& room) {
+  stack_stress(p, stress, begin, count, 0, room.row);
   for (int k = 0; k < count; ++k) scatter_stress<Dim>(w, k, room.row, room.force.at[0]);
 }
 
@@ -85,7 +85,8 @@ inline void scatter_hoop_force(const ParticleView<Dim>& p, const Weights& w, std
   }
 }
 
-/// One tile: strain first from the nodal velocities (if `dt_strain` > 0), then the internal force.
+/// One tile: strain first from the nodal velocities (if `dt_strain` > 0), then the internal force. Stresses
+/// that follow from F are then for this force alone: no column gets them.
 /// @tparam D  Depth::hoop for the hoop terms of axisymmetry (2-D); the others differ in nothing here
 /// @param visit_material called as visit_material(index, f): f(law) with the material's law
 /// @return whether each J of the tile is a positive number
@@ -100,15 +101,18 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
   clear(room.force);
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+                               ChunkStress<Dim> stress = stress_columns(p, begin);
                                if (dt_strain > 0) {
                                  gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
                                  if constexpr (hoop)
                                    gather_hoop_rate(p, w, begin, count, room.velocity.at[0], room);
-                                 visit_material(c.bodies[run.body].material, [&](const auto& law) {
-                                   sound &= strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room);
+                                 visit_material(c.bodies[run.body].material, [&]<class Law>(const Law& law) {
+                                   if (stress_can_wait<Law>(p)) stress = staged_stress<Dim>(room);
+                                   sound &= strain_chunk<Dim>(p, law, begin, count, dt_strain, terms, room,
+                                                              stress);
                                  });
                                }
-                               scatter_force(p, w, begin, count, room);
+                               scatter_force(p, stress, w, begin, count, room);
                                if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
                              });
   flush_window(room.force, c.tile->slot, for_gradients(force));

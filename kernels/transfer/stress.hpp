@@ -3,6 +3,7 @@
 /// @file The stresses of particles, staged for the internal force.
 
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/transfer/strain_chunk.hpp"
 #include "kernels/transfer/sums.hpp"
 #include "kernels/transfer/window.hpp"
 #include "kernels/views.hpp"
@@ -12,13 +13,13 @@ namespace mpmfast {
 /// −V_p0 τ_p of a chunk as records: row by row, in 2-D both rows as one record of pairs.
 /// @param quad see stack()
 template <int Dim, class R>
-inline void stack_stress(const ParticleView<Dim>& p, std::uint32_t begin, int count, int quad,
-                         R (*out)[kChunk<Dim>]) {
+inline void stack_stress(const ParticleView<Dim>& p, const ChunkStress<Dim>& of, std::uint32_t begin,
+                         int count, int quad, R (*out)[kChunk<Dim>]) {
   constexpr int entries = Dim == 2 ? 4 : Dim;
   for (int r = 0; r < kGradientRecords<Dim>; ++r)
     stack<entries>(count, out[r], quad, [&](int c, int k) {
-      const double* stress = p.stress[symmetric_index<Dim>(c % Dim, r + c / Dim % Dim)];
-      return -detail::load_row(p.volume + begin + k) * detail::load_row(stress + begin + k);
+      const double* stress = of.component[symmetric_index<Dim>(c % Dim, r + c / Dim % Dim)];
+      return -detail::load_row(p.volume + begin + k) * detail::load_row(stress + k);
     });
 }
 

@@ -174,8 +174,11 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
             for (int k = 0; k < count; k += kLanes)  // S v⁺_r / r
               store_lanes(&room.hoop_rate[k],
                           load_lanes(&room.value[0][k]) / load_lanes(p.position[0] + begin + k));
-          visit_material(c.bodies[run.body].material, [&](const auto& law) {
-            report.inverted |= !strain_chunk<Dim>(p, law, begin, count, rule.dt_strain, rule.terms, room);
+          visit_material(c.bodies[run.body].material, [&]<class Law>(const Law& law) {
+            report.inverted |= !(rule.stresses || !stress_can_wait<Law>(p)
+                                     ? strain_chunk<Dim>(p, law, begin, count, rule.dt_strain, rule.terms,
+                                                         room, stress_columns(p, begin))
+                                     : deform_chunk<Dim>(p, begin, count, rule.dt_strain, rule.terms, room));
           });
         }
         if constexpr (Basis::kSpread > 0 && NV == 2) {

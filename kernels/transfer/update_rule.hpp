@@ -15,6 +15,7 @@ struct UpdateRule {
   double dt;
   double dt_strain;  ///< > 0: advance the strain with v⁺ by this time
   int terms;         ///< of the exponential in the strain
+  bool stresses;     ///< also the stresses that follow from the strain, where they can wait
 };
 
 /// Columns gathered by the update: v⁺, a Δt, and for XPIC m(v − v*).
