@@ -57,11 +57,11 @@ inline constexpr std::array<Word<StrainKind>, 5> kStrains{{
      "before the forces: keeps the energy of bodies that bounce or vibrate; may gain in what spins"},
     {StrainKind::last, "last", "after the particles: the cheapest"},
     {StrainKind::average, "average",
-     "half before, half after (default): stable everywhere, takes energy from bodies of few cells"},
+     "half before, half after: stable everywhere, takes energy from bodies of few cells"},
     {StrainKind::last_re_extrapolated, "last+",
      "after the particles, from the velocities that they give back to the grid (MUSL)"},
     {StrainKind::average_re_extrapolated, "average+",
-     "half before, half after from the velocities that particles give back: keeps energy"},
+     "half before, half after from the velocities that particles give back (default): keeps energy"},
 }};
 
 inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
@@ -77,7 +77,7 @@ inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
 /// What is kept of exp(Δt ∇v) after the identity.
 inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
     {1, "1", "F advances by I + dt grad v"},
-    {2, "2", "the same with the square of dt grad v (default of strain last and average)"},
+    {2, "2", "the same with the square of dt grad v (default of strain last and average, also with +)"},
     {MethodSpec::kInverse, "inverse",
      "F advances by (I - dt grad v)^-1: exact for a gradient at the end of the motion (default of strain "
      "first)"},

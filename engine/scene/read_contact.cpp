@@ -37,7 +37,7 @@ void read_contact(MapReader& top, int dimension, StrainKind strain, ContactSpec&
   // contact").
   const bool set =
       strain == StrainKind::last_re_extrapolated || strain == StrainKind::average_re_extrapolated;
-  if (set) contact.first_correction_share = 0;
+  contact.first_correction_share = set ? 0 : ContactSpec::kDrained;
   const auto section = top.find("contact");
   if (!section) return;
   if (section->is_word("none")) {

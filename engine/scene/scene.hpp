@@ -90,7 +90,7 @@ struct MethodSpec {
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
-  StrainKind strain = StrainKind::average;
+  StrainKind strain = StrainKind::average_re_extrapolated;
   PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, kAllTerms or kInverse.
   int deformation_terms = 2;
@@ -282,11 +282,12 @@ struct ContactSpec : LawSpec {
   double volume_screen = 0;  ///< nodes with less material than this share of a cell have no contact (DC)
   bool advance_separation = true;  ///< corrections judge by δ + Δv·n Δt, Δv the free velocities (NN Eq. 3.56)
   /// Which pairs touch is decided once a step: the first correction holds them, parting or not, the second
-  /// presses, and the momenta that are re-extrapolated hold what it pressed; a pull ends the pair.
+  /// presses, and the momenta that are re-extrapolated hold what no force parted.
   bool persistent = true;
-  /// Share of the first correction's impulse that FLIP's particles take too (N20: none). Without it they keep
-  /// for good the approach that the grid is relieved of every step: noise that grows.
-  double first_correction_share = 0.03;
+  /// Share of the first correction's impulse that FLIP's particles take too (N20: none). With strains that
+  /// never see v′ they keep for good, without it, the approach that the grid is relieved of every step.
+  double first_correction_share = 0;
+  static constexpr double kDrained = 0.03;  ///< that share with strain first, last and average
   double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

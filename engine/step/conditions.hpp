@@ -59,6 +59,10 @@ class Conditions {
     return {combination_at_.empty() ? -1 : combination_at_[static_cast<std::size_t>(slot)],
             walls_.held_axes(slot)};
   }
+  /// Adds the slots of which a component is prescribed; not those on the lines of a wall's plane.
+  void list_held_slots(std::vector<int>& slots) const {
+    for (const Constrained& node : nodes_) slots.push_back(node.slot);
+  }
   /// The part of x along what is left free.
   Vec<Dim> free_part(const Held& held, Vec<Dim> x) const {
     if (held.combination >= 0) {

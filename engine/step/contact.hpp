@@ -53,6 +53,9 @@ class Contact {
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
 
+  /// Adds the slots of nodes where surfaces meet that may part (laws of touching surfaces, not bonds).
+  void list_meeting_slots(std::vector<int>& slots) const;
+
   /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
   /// final: forces change too. Friction work and the impulses on rigid bodies and of pairs are summed.
   void resolve(State<Dim>& state, Correction correction, double dt);

@@ -188,6 +188,17 @@ Vec<Dim> Contact<Dim>::before_touch(const State<Dim>& state, const ContactNode<D
   return (entry.impulse.dot(entry.normal) - force) * entry.normal;
 }
 
+template <int Dim>
+void Contact<Dim>::list_meeting_slots(std::vector<int>& slots) const {
+  for (const auto& node : list_.nodes) {
+    const auto entry = list_.entries.begin();
+    if (std::none_of(entry + node.entry_begin, entry + node.entry_end, [](const auto& e) { return e.parts; }))
+      continue;
+    for (int f = node.field_begin; f < node.field_end; ++f)
+      slots.push_back(list_.fields[static_cast<std::size_t>(f)].slot);
+  }
+}
+
 // Here: the members that this file defines.
 template class Contact<2>;
 template class Contact<3>;

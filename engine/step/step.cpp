@@ -11,21 +11,9 @@
 
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
+#include "engine/step/slots.hpp"
 
 namespace mpmfast {
-
-namespace {
-
-/// out = factor x/m, zero where there is no mass, of slots [begin, end): tiles, so a multiple of kLanes.
-void divide_by_mass(const double* mass, const double* x, double factor, std::int64_t begin, std::int64_t end,
-                    double* out) {
-  for (std::int64_t i = begin; i < end; i += kLanes) {
-    const Lanes m = load_lanes(mass + i);
-    store_lanes(out + i, m > 0.0 ? factor * load_lanes(x + i) / m : 0.0);
-  }
-}
-
-}  // namespace
 
 template <int Dim>
 Step<Dim>::Step(const Scene& scene)
@@ -113,8 +101,10 @@ void Step<Dim>::advance(double dt, bool stresses) {
   correct_contact(Correction::final, dt);  // Eq. 31, 33
   clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
   end_velocities(dt);
-  filter_velocities();   // Eq. 42 to 44
-  re_extrapolate(dt);    // NN §2.8
+  weigh_body_force(dt);
+  filter_velocities();  // Eq. 42 to 44
+  re_extrapolate(dt);   // NN §2.8
+  move_as_strained();
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
   let_leave();
@@ -124,24 +114,13 @@ void Step<Dim>::advance(double dt, bool stresses) {
   if (stresses) find_stresses();
 }
 
-/// Calls f(first slot, last slot) over all slots, in parallel.
-template <int Dim>
-template <class F>
-void Step<Dim>::for_each_slot(F f) {
-  constexpr std::int64_t block = 512;
-  const auto n = static_cast<std::int64_t>(state_.tiling.slots());
-  const std::int64_t blocks = (n + block - 1) / block;
-#pragma omp parallel for num_threads(state_.threads) schedule(static) if (blocks > 4)
-  for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
-}
-
 /// What `own_filter` filters: the velocities of each field before contact changes them.
 template <int Dim>
 void Step<Dim>::keep_own_velocities() {
   if (!plan_.own_filter) return;
   clock_.time(Pass::nodes, [&] {
     const double* mass = state_.nodes.column(Nodal::mass);
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d)
         divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
                        state_.nodes.column(Nodal::star, d));
@@ -166,7 +145,7 @@ void Step<Dim>::project() {
   for (int attempt = 0; attempt < 2; ++attempt) {
     const bool inside = clock_.time(Pass::project, [&] {
       auto& nodes = state_.nodes;
-      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
         const auto bytes = static_cast<std::size_t>(end - begin) * sizeof(double);
         const auto clear = [&](Nodal q, int components) {
           if (!nodes.has(q)) return;
@@ -217,7 +196,7 @@ void Step<Dim>::start_velocities() {
   clock_.time(Pass::nodes, [&] {
     auto& nodes = state_.nodes;
     const double* mass = nodes.column(Nodal::mass);
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
         double* v = nodes.column(Nodal::velocity, d);
         divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end, v);
@@ -243,8 +222,7 @@ bool Step<Dim>::is_rigid_slot(std::int64_t slot) const {
   return state_.field_rigid[static_cast<std::size_t>(state_.tiling.node_tiles[tile].field)];
 }
 
-/// f += m g(t), g ramped from zero; rigid bodies move as they are told. Its work is booked with v⁺ in
-/// end_velocities.
+/// f += m g(t), g ramped from zero; rigid bodies move as they are told.
 template <int Dim>
 void Step<Dim>::add_body_force(double dt) {
   if (!plan_.gravity) return;
@@ -256,17 +234,32 @@ void Step<Dim>::add_body_force(double dt) {
     const double g = share * gravity.acceleration[static_cast<std::size_t>(d)];
     gravity_[d] = g;
     double* f = state_.nodes.column(Nodal::force, d);
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i)
         if (!is_rigid_slot(i)) f[i] += mass[i] * g;
     });
   }
 }
 
+/// The work of the body force on what moves with v⁺ − ½ a Δt.
+template <int Dim>
+void Step<Dim>::weigh_body_force(double dt) {
+  if (!plan_.gravity) return;
+  body_force_work_ = 0;
+  const double* mass = state_.nodes.column(Nodal::mass);
+  for (int d = 0; d < Dim; ++d) {
+    const double *v = state_.nodes.column(Nodal::velocity, d), *jump = state_.nodes.column(Nodal::force, d);
+    double momentum = 0;
+    for (int i = 0; i < state_.tiling.slots(); ++i)
+      if (!is_rigid_slot(i)) momentum += mass[i] * (v[i] - 0.5 * jump[i]);
+    body_force_work_ += gravity_[d] * momentum * dt;
+  }
+}
+
 template <int Dim>
 void Step<Dim>::update_momenta(double dt) {
   clock_.time(Pass::nodes, [&] {
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
         const double* f = state_.nodes.column(Nodal::force, d);
         double* p = state_.nodes.column(Nodal::momentum, d);
@@ -281,7 +274,7 @@ template <int Dim>
 void Step<Dim>::end_velocities(double dt) {
   clock_.time(Pass::nodes, [&] {
     const double* mass = state_.nodes.column(Nodal::mass);
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
         const double* p = state_.nodes.column(Nodal::momentum, d);
         double* v = state_.nodes.column(Nodal::velocity, d);
@@ -307,7 +300,7 @@ void Step<Dim>::filter_velocities() {
   // Without a contact node, Δv is zero everywhere.
   const bool paired = plan_.paired && !contact_.list().nodes.empty();
   clock_.time(Pass::nodes, [&] {
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
         double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
         const double *v = nodes.column(Nodal::velocity, d), *jump = nodes.column(Nodal::force, d);
@@ -318,7 +311,7 @@ void Step<Dim>::filter_velocities() {
   });
   for (int k = 2; k <= m; ++k) {
     clock_.time(Pass::xpic, [&] {
-      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
         for (int d = 0; d < (paired ? 2 : 1) * Dim; ++d)
           std::fill(nodes.column(Nodal::next, d) + begin, nodes.column(Nodal::next, d) + end, 0.0);
       });
@@ -329,7 +322,7 @@ void Step<Dim>::filter_velocities() {
     const double star_factor = static_cast<double>(m + 1 - k) / k,
                  change_factor = static_cast<double>(m - k) / k;
     clock_.time(Pass::nodes, [&] {
-      for_each_slot([&](std::int64_t begin, std::int64_t end) {
+      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
         for (int d = 0; d < Dim; ++d) {
           double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
           const double* next = nodes.column(Nodal::next, d);
@@ -344,37 +337,6 @@ void Step<Dim>::filter_velocities() {
       });
     });
   }
-}
-
-/// v′ = S⁺V_new, with contact and conditions: what the strain that comes last is taken from.
-template <int Dim>
-void Step<Dim>::re_extrapolate(double dt) {
-  if (!plan_.re_extrapolate) return;
-  auto& nodes = state_.nodes;
-  const double* mass = nodes.column(Nodal::mass);
-  clock_.time(Pass::re_extrapolate, [&] {
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d) {
-        double* momentum = nodes.column(Nodal::momentum, d);
-        for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
-          if (!is_rigid_slot(tile)) std::fill_n(momentum + tile, kTileNodes<Dim>, 0.0);
-        if (update_rule() != ParticleUpdate::xpic) continue;
-        double* star = nodes.column(Nodal::star, d);
-        const double *series = nodes.column(Nodal::series, d), *jump = nodes.column(Nodal::force, d);
-        for (std::int64_t i = begin; i < end; ++i) star[i] = series[i] + jump[i];
-      }
-    });
-    passes_->re_extrapolate(state_, update_rule());
-  });
-  correct_contact(Correction::strain, dt);
-  clock_.time(Pass::nodes, [&] {
-    for_each_slot([&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
-                       nodes.column(Nodal::re_extrapolated, d));
-    });
-  });
-  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
 }
 
 template <int Dim>
@@ -417,18 +379,7 @@ void Step<Dim>::book(double dt) {
       sums_.pair_friction_work[k] += books.pair_friction_work[k];
     }
   }
-  if (plan_.gravity) {
-    double power = 0;
-    const double* mass = state_.nodes.column(Nodal::mass);
-    for (int d = 0; d < Dim; ++d) {
-      const double *v = state_.nodes.column(Nodal::velocity, d), *jump = state_.nodes.column(Nodal::force, d);
-      double sum = 0;
-      for (int i = 0; i < state_.tiling.slots(); ++i)
-        if (!is_rigid_slot(i)) sum += mass[i] * (v[i] - 0.5 * jump[i]);
-      power += gravity_[d] * sum;
-    }
-    sums_.body_force_work += power * dt;
-  }
+  if (plan_.gravity) sums_.body_force_work += body_force_work_;
 }
 
 template <int Dim>

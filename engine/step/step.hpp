@@ -98,8 +98,10 @@ class Step {
   bool filters() const { return (state_.step + 1) % plan_.filter_every == 0; }
   ParticleUpdate update_rule() const { return filters() ? plan_.update : ParticleUpdate::flip; }
   double wall_share() const { return update_rule() == ParticleUpdate::flip ? plan_.wall_share : 1; }
+  void weigh_body_force(double dt);
   void filter_velocities();
   void re_extrapolate(double dt);
+  void move_as_strained();
   void update_particles(double dt);
   void move_rigid_end(double dt);
   void let_leave();
@@ -107,9 +109,6 @@ class Step {
   /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
   [[noreturn]] void fail(const char* otherwise) const;
   [[noreturn]] void fail_at(std::size_t particle, const std::string& cause) const;
-
-  template <class F>
-  void for_each_slot(F f);
 
   const Scene* scene_;
   Plan plan_;
@@ -120,10 +119,13 @@ class Step {
   RigidBodies<Dim> rigid_;
   Sums<Dim> sums_;
   PassClock clock_;
-  Vec<Dim> lower_, upper_;               ///< box that particles must stay in, m
-  double fastest_ = 0;                   ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;                 ///< bound on any particle's path since the last sort, m
-  Vec<Dim> gravity_ = Vec<Dim>::Zero();  ///< of this step, m/s²
+  Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m
+  double fastest_ = 0;                     ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
+  Vec<Dim> gravity_ = Vec<Dim>::Zero();    ///< of this step, m/s²
+  double body_force_work_ = 0;             ///< of this step, J
+  std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step
+  std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s
   bool sort_due_ = true;
   bool stresses_wait_ = false;  ///< some stresses are of an earlier F
   bool lost_ = false;           ///< in this step a particle left the box, or is not a number

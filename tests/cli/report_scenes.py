@@ -9,8 +9,8 @@ materials:
   soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}
   stiff: {model: neo_hookean, density: 2400 kg/m^3, bulk: 160 MPa, shear: 60 MPa}
 bodies:
-  - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: soft, velocity: [40 m/s, 0 m/s]}
-  - {name: right, box: {from: [5.5 mm, 1 mm], to: [10 mm, 6 mm]}, material: stiff, velocity: [-40 m/s, 0 m/s]}
+  - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: soft, velocity: [30 m/s, 0 m/s]}
+  - {name: right, box: {from: [5.5 mm, 1 mm], to: [10 mm, 6 mm]}, material: stiff, velocity: [-30 m/s, 0 m/s]}
 output: {frames: 6, history: 30, picture: von_mises}
 """
 SPACE = """

@@ -61,17 +61,19 @@ TEST_CASE("oblique impact: turned by 30 degrees with its particles it gives near
   // differs by 11 %, plain LR by 45 degrees by 9 %. Both figures fall with the cell size (the next cases).
   struct Reached {
     const Overrides& normal;
-    double turning, energy;
+    double turning, gain, loss;
   };
-  for (const Reached& reached : {Reached{kPlain, 0.025, 0.09},      // measured 1.7 %; -6.8, -7.8 %
-                                 Reached{kSmoothed, 0.015, 0.085},  // 0.96 %; -7.4, -7.2 %
-                                 Reached{kDefault, 0.06, 0.09}}) {  // 5.3 %; -7.9, -8.1 %
+  // N20's contact decides who touches in each correction anew, which makes energy (theory.md, "The energy of
+  // a contact").
+  for (const Reached& reached : {Reached{kPlain, 0.025, 0.05, 0.01},        // measured 1.7 %; +2.2, +4.0 %
+                                 Reached{kSmoothed, 0.015, 0.002, 0.002},   // 0.96 %
+                                 Reached{kDefault, 0.06, 0.002, 0.002}}) {  // 5.3 %
     CAPTURE(reached.normal.front().second);
     const Impact along = impact(reached.normal, 0), turned = impact(reached.normal, 30);
     CHECK(turning_error(along, turned) < reached.turning);
     for (const Impact& result : {along, turned}) {
-      CHECK(result.energy_change < 0.005);
-      CHECK(result.energy_change > -reached.energy);
+      CHECK(result.energy_change < reached.gain);
+      CHECK(result.energy_change > -reached.loss);
     }
   }
 }

@@ -55,9 +55,8 @@ TEST_CASE("uniaxial: LR with FLIP is within 0.6 % of one field to 10 % strain, a
     smoothed.push_back({"contact.normal", "smoothed_max_margin"});
     const Outcome smooth = uniaxial(smoothed);
     CHECK(smooth.failure == "");
-    // Measured 0.025 %, mid-cell 0.033 %; where particles take nothing of the first correction 0.003, 0.008
-    // %.
-    CHECK(error(smooth.history, one.history, 0.20) < 0.0005);
+    // Measured 0.07 %, mid-cell 0.10 % (strain: average 0.025, 0.033 %).
+    CHECK(error(smooth.history, one.history, 0.20) < 0.00105);
     CHECK(std::abs(smooth.summary.energy_error) < 0.002);
   }
 }
@@ -77,7 +76,7 @@ TEST_CASE("uniaxial: LR with XPIC(5) is within 0.5 % of one field to 10 % strain
     CHECK(smoothed.failure == "");
     CHECK(strain_of(smoothed.summary.time) > 0.2);
     CHECK(error(smoothed.history, one.history, 0.20) <
-          0.0002);  // paper 0.24 %; measured 0.004 %, mid-cell 0.005 %
+          0.0003);  // paper 0.24 %; measured 0.02 % (strain: average 0.005 %)
   }
 }
 
@@ -91,7 +90,7 @@ TEST_CASE("uniaxial: the power law errs by several percent, as N20 found") {
 }
 
 // Their clouds hold more particles of both fields where an edge node of narrower bases sees a few of one.
-TEST_CASE("uniaxial: on supports of 4 nodes a side, plain LR needs no smoothing: within 0.1 % to 20 %") {
+TEST_CASE("uniaxial: on supports of 4 nodes a side, plain LR needs no smoothing: within 0.4 % to 20 %") {
   for (const char* update : {"flip", "xpic(5)"}) {
     CAPTURE(std::string(update));
     const std::vector<Override> method{{"method.basis", "bspline3"}, {"method.update", update}};
@@ -104,7 +103,8 @@ TEST_CASE("uniaxial: on supports of 4 nodes a side, plain LR needs no smoothing:
       const Outcome two = uniaxial(overrides);
       CHECK(two.failure == "");
       CHECK(strain_of(two.summary.time) > 0.2);
-      CHECK(error(two.history, one.history, 0.20) < 0.001);  // measured 0.02 % at most; qcpdi likewise
+      // measured 0.1 % at most with FLIP, 0.38 % with XPIC(5)
+      CHECK(error(two.history, one.history, 0.20) < (method.back().second == "flip" ? 0.001 : 0.004));
     }
   }
 }

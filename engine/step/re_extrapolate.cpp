@@ -1,0 +1,73 @@
+/// The velocities that particles give back to the grid, for strains that come last, and what moves particles
+/// then.
+
+#include <algorithm>
+
+#include "engine/step/slots.hpp"
+#include "engine/step/step.hpp"
+
+namespace mpmfast {
+
+/// v′ = S⁺V_new, with contact and conditions: what the strain that comes last is taken from.
+template <int Dim>
+void Step<Dim>::re_extrapolate(double dt) {
+  if (!plan_.re_extrapolate) return;
+  auto& nodes = state_.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  clock_.time(Pass::re_extrapolate, [&] {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        double* momentum = nodes.column(Nodal::momentum, d);
+        for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
+          if (!is_rigid_slot(tile)) std::fill_n(momentum + tile, kTileNodes<Dim>, 0.0);
+        if (update_rule() != ParticleUpdate::xpic) continue;
+        double* star = nodes.column(Nodal::star, d);
+        const double *series = nodes.column(Nodal::series, d), *jump = nodes.column(Nodal::force, d);
+        for (std::int64_t i = begin; i < end; ++i) star[i] = series[i] + jump[i];
+      }
+    });
+    passes_->re_extrapolate(state_, update_rule());
+  });
+  correct_contact(Correction::strain, dt);
+  clock_.time(Pass::nodes, [&] {
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d)
+        divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
+                       nodes.column(Nodal::re_extrapolated, d));
+    });
+  });
+  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
+}
+
+/// FLIP's and XPIC's particles move with v′, which strains them too. Moved with v⁺ they would leave F by
+/// (a − S⁺S a) Δt² a step: under tension a body tears by what comes between its particles so. Nodes where
+/// surfaces meet keep v⁺, since v′ of a pair that forces part has the approach that its particles keep, and
+/// so do those of which conditions prescribe a component.
+template <int Dim>
+void Step<Dim>::move_as_strained() {
+  const ParticleUpdate update = update_rule();
+  if (!plan_.re_extrapolate || (update != ParticleUpdate::flip && update != ParticleUpdate::xpic)) return;
+  clock_.time(Pass::nodes, [&] {
+    auto& nodes = state_.nodes;
+    kept_slots_.clear();
+    if (plan_.contact) contact_.list_meeting_slots(kept_slots_);
+    conditions_.list_held_slots(kept_slots_);
+    kept_velocities_.clear();
+    for (const int slot : kept_slots_) kept_velocities_.push_back(nodes.vector(Nodal::velocity, slot));
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d)
+        std::copy(nodes.column(Nodal::re_extrapolated, d) + begin,
+                  nodes.column(Nodal::re_extrapolated, d) + end, nodes.column(Nodal::velocity, d) + begin);
+    });
+    for (std::size_t k = 0; k < kept_slots_.size(); ++k)
+      nodes.set(Nodal::velocity, kept_slots_[k], kept_velocities_[k]);
+  });
+}
+
+// Here: the members that this file defines.
+template void Step<2>::re_extrapolate(double);
+template void Step<3>::re_extrapolate(double);
+template void Step<2>::move_as_strained();
+template void Step<3>::move_as_strained();
+
+}  // namespace mpmfast
