@@ -229,9 +229,19 @@ std::uint64_t Simulation::advance_to(double time, const std::function<bool()>& s
   const ThreadCount count(i.threads);
   Pause asking;
   said([&] {
-    while (!has_ended(this->time(), time) && !(stop && asking.due() && stop()))
-      i.advance_towards(time, false);
-    i.visit([](auto& s) { s.find_stresses(); });
+    const auto settle = [&] { i.visit([](auto& s) { s.find_stresses(); }); };
+    const auto is_stopped = [&] {
+      if (!stop || !asking.due()) return false;
+      settle();  // for whom it asks
+      return stop();
+    };
+    try {
+      while (!has_ended(this->time(), time) && !is_stopped()) i.advance_towards(time, false);
+    } catch (...) {
+      settle();
+      throw;
+    }
+    settle();
   });
   return steps() - before;
 }

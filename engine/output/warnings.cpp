@@ -17,7 +17,7 @@ const char* cure_of_drift(const RunSummary& summary) {
     return "noise grows; a smaller time.cfl, or method.position: grid_end, may help";
   if (summary.averaged_strain)
     return "the averaged strain takes energy from bodies of few cells that vibrate, bounce or spin: set "
-           "method.strain: first; if it still drifts, smaller cells";
+           "method.strain: average+; if it still drifts, smaller cells";
   return "the method took it; smaller cells, or another method.update, may help";
 }
 

@@ -181,9 +181,7 @@ Plan make_plan(const Scene& scene) {
   plan.contact_geometry = any_law(scene.contact, uses_geometry);
   plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
   plan.first_correction = scene.contact.corrections == 2;
-  plan.one_set = plan.re_extrapolate && plan.first_correction && scene.contact.persistent &&
-                 scene.contact.advance_separation && scene.contact.detection == DetectionKind::both &&
-                 scene.contact.separation != SeparationKind::none;
+  plan.one_set = plan.re_extrapolate && scene.contact.decides_once();
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&
                 !scene.method.own_filter && plan.first_correction;
   plan.own_filter = scene.method.own_filter && plan.order > 1 && !plan.full_mass;

@@ -9,14 +9,24 @@ bool is_gradient(NormalKind normal) {
          normal == NormalKind::max_volume || normal == NormalKind::own_gradient;
 }
 
+bool is_ours(NormalKind normal) {
+  return normal == NormalKind::max_margin || normal == NormalKind::smoothed_max_margin ||
+         normal == NormalKind::smoothed_logistic_regression;
+}
+
+/// The default first_correction_share: with one set of touching pairs nothing has to be drained
+/// (tools/manual/theory.md, "The energy of a contact").
+double share_of(StrainKind strain, const ContactSpec& contact) {
+  const bool seen =
+      strain == StrainKind::last_re_extrapolated || strain == StrainKind::average_re_extrapolated;
+  return seen || !is_ours(contact.normal) ? 0 : ContactSpec::kDrained;
+}
+
 /// What follows from the choice of normals, before the scene's other words: the published methods are as
 /// published, ours with all that makes them robust.
 void set_defaults(ContactSpec& contact) {
-  const bool ours = contact.normal == NormalKind::max_margin ||
-                    contact.normal == NormalKind::smoothed_max_margin ||
-                    contact.normal == NormalKind::smoothed_logistic_regression;
+  const bool ours = is_ours(contact.normal);
   contact.advance_separation = contact.warm_start = contact.persistent = ours;
-  if (!ours) contact.first_correction_share = 0;
   contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
   if (is_gradient(contact.normal)) contact.separation = SeparationKind::position_offset;
 }
@@ -32,14 +42,13 @@ void read_regression(MapReader& map, ContactSpec& contact) {
 
 }  // namespace
 
-void read_contact(MapReader& top, int dimension, StrainKind strain, ContactSpec& contact) {
-  // With one set of touching pairs nothing has to be drained (tools/manual/theory.md, "The energy of a
-  // contact").
-  const bool set =
-      strain == StrainKind::last_re_extrapolated || strain == StrainKind::average_re_extrapolated;
-  contact.first_correction_share = set ? 0 : ContactSpec::kDrained;
+void read_contact(MapReader& top, int dimension, bool strain_stated, StrainKind& strain,
+                  ContactSpec& contact) {
   const auto section = top.find("contact");
-  if (!section) return;
+  if (!section) {
+    contact.first_correction_share = share_of(strain, contact);
+    return;
+  }
   if (section->is_word("none")) {
     contact.active = false;
     return;
@@ -67,11 +76,13 @@ void read_contact(MapReader& top, int dimension, StrainKind strain, ContactSpec&
   map.quantity("rigid_bias", Measure::number, kNotNegative, contact.rigid_bias);
   map.boolean("advance_separation", contact.advance_separation);
   map.boolean("persistent", contact.persistent);
-  map.quantity("first_correction_share", Measure::number, kWhole, contact.first_correction_share);
   map.quantity("hysteresis", Measure::number, kNotNegative, contact.hysteresis);
   map.quantity("mass_screen", Measure::number, kShare, contact.mass_screen);
   map.quantity("volume_screen", Measure::number, kNotNegative, contact.volume_screen);
   map.integer("corrections", 1, 2, contact.corrections);
+  if (!strain_stated && !contact.decides_once()) strain = StrainKind::average;
+  contact.first_correction_share = share_of(strain, contact);
+  map.quantity("first_correction_share", Measure::number, kWhole, contact.first_correction_share);
   map.word("area", kAreas, contact.area);
   map.word("fields", kManyFields, contact.fields);
   const bool grid_separation = contact.separation == SeparationKind::displacement ||

@@ -66,9 +66,9 @@ void read_update(const Value& value, MethodSpec& method) {
 
 }  // namespace
 
-void read_method(MapReader& top, MethodSpec& method) {
+bool read_method(MapReader& top, MethodSpec& method) {
   const auto section = top.find("method");
-  if (!section) return;
+  if (!section) return false;
   MapReader map(*section, "a map {basis, update, …}");
   map.word("basis", kBases, method.basis);
   map.otherwise("update", name_of(kUpdates, method.update));
@@ -95,7 +95,9 @@ void read_method(MapReader& top, MethodSpec& method) {
   // A gradient taken after the particles have moved is that at the end of their motion.
   if (method.strain == StrainKind::first) method.deformation_terms = MethodSpec::kInverse;
   map.word("deformation_terms", kDeformationTerms, method.deformation_terms);
+  const bool strain_stated = map.find("strain").has_value();
   map.finish();
+  return strain_stated;
 }
 
 }  // namespace mpmfast

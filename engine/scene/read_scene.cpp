@@ -103,8 +103,8 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
   const int dimension = scene.dimension();
   const bool grid_known = read_grid(top, dimension, scene.grid);
   read_time(top, scene.time);
-  read_method(top, scene.method);
-  read_contact(top, dimension, scene.method.strain, scene.contact);
+  const bool strain_stated = read_method(top, scene.method);
+  read_contact(top, dimension, strain_stated, scene.method.strain, scene.contact);
   read_gravity(top, dimension, scene.gravity);
   read_output(top, dimension, scene.output);
   read_materials(top, scene.materials);

@@ -90,7 +90,8 @@ struct MethodSpec {
   bool contact_correction = true;  ///< the Δv* terms of N20 Eq. 42
   /// XPIC filters each field's velocities from before the first contact correction, which then needs no Δv.
   bool own_filter = false;
-  StrainKind strain = StrainKind::average_re_extrapolated;
+  StrainKind strain =
+      StrainKind::average_re_extrapolated;         ///< `average` where contact decides more than once
   PositionKind position = PositionKind::grid_end;  ///< FLIP moves with the grid, APIC with its velocity
   /// Terms of exp(Δt ∇v) kept after the identity: 1 or 2, kAllTerms or kInverse.
   int deformation_terms = 2;
@@ -288,7 +289,7 @@ struct ContactSpec : LawSpec {
   /// never see v′ they keep for good, without it, the approach that the grid is relieved of every step.
   double first_correction_share = 0;
   static constexpr double kDrained = 0.03;  ///< that share with strain first, last and average
-  double hysteresis = 0;  ///< cells; a node in contact stays so up to this gap
+  double hysteresis = 0;                    ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen
   /// round-off only.
@@ -297,6 +298,12 @@ struct ContactSpec : LawSpec {
   ManyFields fields = ManyFields::simultaneous;
   AreaKind area = AreaKind::volume_gradient;
   std::vector<ContactPair> pairs;
+
+  /// Can it be decided once a step which pairs touch? Else re-extrapolated strains make energy of contact.
+  bool decides_once() const {
+    return corrections == 2 && persistent && advance_separation && detection == DetectionKind::both &&
+           separation != SeparationKind::none;
+  }
 };
 
 /// When a run writes its state down, beside at a signal and at its end.

@@ -19,8 +19,11 @@ bool read_grid(MapReader& top, int dimension, GridSpec& grid);
 void read_time(MapReader& top, TimeSpec& time);
 void read_gravity(MapReader& top, int dimension, GravitySpec& gravity);
 void read_output(MapReader& top, int dimension, OutputSpec& output);
-void read_method(MapReader& top, MethodSpec& method);
-void read_contact(MapReader& top, int dimension, StrainKind strain, ContactSpec& contact);
+/// @return whether the scene states its strain
+bool read_method(MapReader& top, MethodSpec& method);
+/// @param strain  stated, or to be found: what suits the contact
+void read_contact(MapReader& top, int dimension, bool strain_stated, StrainKind& strain,
+                  ContactSpec& contact);
 /// `law` and its parameters; what is absent keeps its value.
 void read_law(MapReader& map, LawSpec& law);
 /// Needs the contact section and the bodies.

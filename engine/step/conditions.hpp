@@ -59,8 +59,9 @@ class Conditions {
     return {combination_at_.empty() ? -1 : combination_at_[static_cast<std::size_t>(slot)],
             walls_.held_axes(slot)};
   }
-  /// Adds the slots of which a component is prescribed; not those on the lines of a wall's plane.
+  /// Where the plane of some wall is held (`at: plane`), adds the slots of which a component is prescribed.
   void list_held_slots(std::vector<int>& slots) const {
+    if (cuts_.empty()) return;
     for (const Constrained& node : nodes_) slots.push_back(node.slot);
   }
   /// The part of x along what is left free.

@@ -110,6 +110,7 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
     }
     entry.a = k;
     entry.b = fields == 2 && !own_normals ? 1 - k : -1;
+    entry.alone = fields == 2;
     list_.entries.push_back(entry);
     if (entry.b >= 0) return;
   }

@@ -53,7 +53,7 @@ class Contact {
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
 
-  /// Adds the slots of nodes where surfaces meet that may part (laws of touching surfaces, not bonds).
+  /// Adds the slots of nodes where surfaces meet that may part (not bonds).
   void list_meeting_slots(std::vector<int>& slots) const;
 
   /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
@@ -149,8 +149,7 @@ class Contact {
   void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
   bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
                   const ContactEntry<Dim>& entry) const;
-  Vec<Dim> before_touch(const State<Dim>& state, const ContactNode<Dim>& node,
-                        const ContactEntry<Dim>& entry) const;
+  double force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const;
   void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
   double friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const;
   void book_friction(const State<Dim>& state);

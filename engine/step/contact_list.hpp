@@ -29,6 +29,7 @@ struct ContactEntry {
   bool held = false;         ///< by the first correction
   bool touching = false;     ///< in contact at the second correction
   bool parts = false;        ///< its law knows no tie
+  bool alone = false;        ///< its node has these two fields only
   double friction_work = 0;  ///< J, of this step
   Vec<Dim> impulse;          ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction

@@ -39,10 +39,10 @@ void Step<Dim>::re_extrapolate(double dt) {
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
 }
 
-/// FLIP's and XPIC's particles move with v′, which strains them too. Moved with v⁺ they would leave F by
-/// (a − S⁺S a) Δt² a step: under tension a body tears by what comes between its particles so. Nodes where
-/// surfaces meet keep v⁺, since v′ of a pair that forces part has the approach that its particles keep, and
-/// so do those of which conditions prescribe a component.
+/// The particles of FLIP, XPIC and FMPM move with v′, which strains them too. Moved with v⁺ they would leave
+/// F by (a − S⁺S a) Δt² a step: under tension a body tears by what comes between its particles so. Nodes
+/// where surfaces meet keep v⁺, since v′ of a pair that forces part has the approach that its particles
+/// keep. So do held nodes in scenes with a wall `at: plane`, whose lines give v′ a noise of its own.
 template <int Dim>
 void Step<Dim>::move_as_strained() {
   const ParticleUpdate update = update_rule();

@@ -89,7 +89,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     } else if (outcome == PairOutcome::lump) {
       resolve_each(state, laws, correction, dt, node);
     }
-    if (correction == Correction::final) see_gaps(state, node);
+    if (correction == Correction::final && one_set_) see_gaps(state, node);
     apply(state, correction, dt, node);
     settle(state, correction, node);
   }
@@ -178,8 +178,9 @@ Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const M
   if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
   // Friction is a force of the second correction. What is held for the strain alone must be a projection.
   const bool rubs = correction == Correction::final || first_correction_stays_;
+  const double presses = Law::scope == LawScope::contact ? force_of(entry, meeting, normal) : normal;
   const double limit =
-      law({rubs ? std::max(0.0, -normal) : 0, needed, meeting.reduced, rubs ? area_time : 0});
+      law({rubs ? std::max(0.0, -presses) : 0, needed, meeting.reduced, rubs ? area_time : 0});
   if (needed <= limit && limit > 0) return {normal * entry.normal + tangential, Hinders::slip};
   return {normal * entry.normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
 }

@@ -32,6 +32,7 @@ TEST_CASE("slow: FLIP presses the ellipses to 75 % without making energy of nois
     const Outcome outcome = run(scene_file("ellipses.yaml", {{"grid.cell", "1/20 mm"},
                                                              {"output.frames", "0"},
                                                              {"method.update", "flip"},
+                                                             {"method.strain", "average"},
                                                              {"contact.first_correction_share", share}}));
     CHECK(outcome.failure == "");
     CHECK(std::abs(outcome.summary.energy_error) < 0.05);  // measured -2.6 to -3.0 %
@@ -56,7 +57,7 @@ TEST_CASE("grains of one to four particles, pressed with FLIP, make no energy wh
       CHECK(outcome.summary.energy_error > -0.3);  // measured -9 to -25 %
       const double work = outcome.history.at("boundary_work_J").back();
       CHECK(outcome.history.at("friction_J").back() < 0.2 * work);
-      CHECK(outcome.history.at("kinetic_J").back() < 0.1 * work);
+      CHECK(outcome.history.at("kinetic_J").back() < 0.12 * work);  // frictionless grains slip: 10 %
     }
 }
 
@@ -88,7 +89,7 @@ TEST_CASE("pressed to 75 %, one field keeps its energy and comes to the stress o
 TEST_CASE("slow: pressed to 75 %, every update and strain keeps its energy; midpoint positions do not") {
   // Measured, in order: -1.9 to +1.4 % and -2.8 to +6 % of the stress; -57 and -58 %.
   for (const char* update : {"flip", "xpic(5)"})
-    for (const char* strain : {"first", "last", "average"}) {
+    for (const char* strain : {"first", "last", "average", "average+"}) {
       CAPTURE(std::string(update));
       CAPTURE(std::string(strain));
       const Outcome outcome = pressed_as_one({{"method.strain", strain}, {"method.update", update}});
@@ -96,8 +97,9 @@ TEST_CASE("slow: pressed to 75 %, every update and strain keeps its energy; midp
       CHECK(-outcome.history.at("all.mean_stress_yy_Pa").back() == doctest::Approx(kPressed).epsilon(0.08));
     }
   for (const char* update : {"flip", "xpic(5)"})
-    CHECK(pressed_as_one({{"method.update", update}, {"method.position", "grid"}}).summary.energy_error <
-          -0.4);
+    CHECK(
+        pressed_as_one({{"method.strain", "average"}, {"method.update", update}, {"method.position", "grid"}})
+            .summary.energy_error < -0.4);
 }
 
 TEST_CASE("bodies a million times apart in density meet") {

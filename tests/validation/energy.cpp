@@ -82,7 +82,45 @@ TEST_CASE("grains pressed until many jam on a node keep their energy") {
 }
 
 TEST_CASE("slow: rings of uGIMP keep their energy") {
-  CHECK(std::abs(energy_error("rings.yaml", {{"method.basis", "ugimp"}})) < 0.008);  // wanted 0.5 %; measured -0.65 %; -20 %
+  CHECK(std::abs(energy_error("rings.yaml", {{"method.basis", "ugimp"}})) <
+        0.008);  // wanted 0.5 %; measured -0.65 %; -20 %
+}
+
+/// Of a disk: energy, root mean square radius and angular momentum.
+struct Spin {
+  double energy, radius, moment;
+};
+Spin spin_of(Step<2>& step) {
+  const auto& particles = step.state().particles;
+  const BodyMotion motion = body_motion(particles, 0);
+  double squares = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    squares += (particles.vector(Quantity::position, p) - motion.centre).squaredNorm();
+  return {kinetic_energy(particles) + step.stored_energy(),
+          std::sqrt(squares / static_cast<double>(particles.size())), motion.spin};
+}
+
+TEST_CASE("slow: a disk that spins a thousand turns neither makes nor loses energy") {
+  for (const char* basis : {"ugimp", "bspline2"}) {
+    CAPTURE(std::string(basis));
+    const Scene scene = scene_file("hard/spin.yaml", {{"method.basis", basis}});
+    Step<2> step(scene);
+    const Spin start = spin_of(step);
+    const double turn = scene.time.end / 2;
+    for (const int turns : {10, 1000}) {
+      while (step.state().time < turns * turn) step.advance(step.stable_dt(), false);
+      const Spin now = spin_of(step);
+      MESSAGE(std::string(basis) << ", " << turns << " turns: energy " << now.energy / start.energy
+                                 << ", radius " << now.radius / start.radius << ", angular momentum "
+                                 << now.moment / start.moment);
+      // Of three cells' radius. Measured 1.004 and 1.07 (ugimp), 1.000 and 1.03; strain: average 0.14, 0.04.
+      // But it is vibration more and more: the angular momentum is 0.26 and 0.02 of that at the start, 0.05
+      // and 0.02.
+      CHECK(now.energy / start.energy > 0.98);
+      CHECK(now.energy / start.energy < 1.1);
+      CHECK(now.radius / start.radius < 1.05);
+    }
+  }
 }
 
 TEST_CASE("slow: ellipses that FLIP presses to 75 % keep their energy, with friction and without") {

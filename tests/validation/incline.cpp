@@ -96,9 +96,9 @@ TEST_CASE("incline: with exact normals a block slides as a rigid one within 1 %,
 
 TEST_CASE(
     "incline: with the default normals every slope is met within 1 %, along the grid and turned in it") {
-  // Measured over nine slopes: 2.3 % along the grid, at 20 degrees and 0.3, where the vibrating block sticks
-  // for a moment (strain: average 0.995 %); else below 0.3 %.
-  CHECK(largest_slide_error(kDefault + method("flip", "lcpdi"), 0) < 0.025);
+  // Measured over nine slopes: 1.25 and 0.44 % (lcpdi), both at 20 degrees and 0.3 as with exact normals
+  // (strain: average 0.995); else 0.26 %, and from 30 degrees on 0.16 %. The goal is 1 %.
+  CHECK(largest_slide_error(kDefault + method("flip", "lcpdi"), 0) < 0.014);
   CHECK(largest_slide_error(kDefault + method("flip", "lcpdi"), 30) < 0.01);
 }
 
@@ -145,11 +145,11 @@ TEST_CASE("incline: below the friction angle a block creeps less than 0.1 % of i
       CAPTURE(normal.size());
       CAPTURE(std::string(update));
       CHECK(std::abs(creep({20, 0.4, 0, normal + method(update, "lcpdi")})) < 0.001);
-      CHECK(std::abs(creep({30, 0.6, 30, normal + method(update, "lcpdi")})) < 0.0015);  // 0.11 %
+      CHECK(std::abs(creep({30, 0.6, 30, normal + method(update, "lcpdi")})) < 0.0012);  // 0.107 %
     }
   // With 1.04 of the friction that holds it and the plane on a grid line, its vibration breaks the one row of
-  // contact nodes loose again and again: 8.1 %. Half a cell higher, 0.03 %.
-  CHECK(std::abs(creep({30, 0.6, 0, kExact + method("flip", "lcpdi")})) < 0.09);
+  // contact nodes loose again and again: 5.9 %. Half a cell higher, 0.03 %.
+  CHECK(std::abs(creep({30, 0.6, 0, kExact + method("flip", "lcpdi")})) < 0.07);
   const Overrides mid_cell{{"bodies.0.box.to", "[4 m, 0.45 m]"},
                            {"bodies.1.box.from", "[0.5 m, 0.45 m]"},
                            {"bodies.1.box.to", "[1.3 m, 0.85 m]"}};
@@ -174,9 +174,10 @@ TEST_CASE(
     "incline: a block slides within 1 % down a plane drawn across the grid, its lattice turned with it") {
   for (const char* basis : {"ugimp", "lcpdi"}) {
     CAPTURE(std::string(basis));
-    CHECK(std::abs(tilted_error(kDefault + method("flip", basis)) - kHalfStepAhead) < 0.001);
-    const Overrides midpoint{{"method.position", "grid"}};  // both measured 0.03 to 0.05 and 0.09 %
-    CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + midpoint)) < 0.001);
+    CHECK(std::abs(tilted_error(kDefault + method("flip", basis)) - kHalfStepAhead) <
+          0.0008);                                          // 0.02 and 0.065 %
+    const Overrides midpoint{{"method.position", "grid"}};  // measured 0.04 and 0.065 %
+    CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + midpoint)) < 0.0008);
     // The clouds at the block's ends: -13 and -2.8 %.
     CHECK(tilted_error(kPlain + method("flip", basis)) < -0.02);
   }

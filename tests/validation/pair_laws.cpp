@@ -33,11 +33,11 @@ TEST_CASE("three blocks on one leaning plane obey their own friction") {
   CHECK(fastest < 3e-5);  // measured 1.5e-5 m/s, of vibration: 3e-5 of the driven block's speed
   CHECK(std::abs(moved("still", time.size() - 1)) < 1e-7);  // measured 3e-8 m, of the elastic shear
   CHECK(std::abs(h.at("still+plane.force_x_N").back() / (-0.3 * weight) - 1) < 1e-3);
+  CHECK(std::abs(h.at("still+plane.friction_J").back()) < 1e-9);
   // Friction takes what the pair's force does over the path: 0.1 of the weight over the driven block's way,
   // less in the ramp, where it only creeps along at 0.1 m/s.
   const double ramp_path = 0.1 * 2e-3, way = moved("driven", time.size() - 1);
   const double dissipated = h.at("driven+plane.friction_J").back();
-  CHECK(std::abs(h.at("still+plane.friction_J").back()) < 1e-4 * dissipated);  // measured 4e-5: it shivers
   CHECK(dissipated < 0.1 * weight * way);
   CHECK(dissipated > 0.1 * weight * (way - 1.2 * ramp_path));
   CHECK(std::abs(out.summary.energy_error) < 0.01);
@@ -90,9 +90,9 @@ TEST_CASE("a bond breaks at its tensile and at its shear strength") {
   // Judged by where the surfaces will be at the end of the step, the bond is broken a little earlier: 0.930
   // (rows of the history are 0.017 apart).
   CHECK(std::abs(breaking_stress(100, "y", "smoothed_max_margin") - 1) < 0.08);
-  // Measured 0.987, and 0.74: the shear of so short a bar is not even, and the bond tears from where it is
-  // most, the sooner the less the waves of its start are damped (strain: average 0.885).
-  CHECK(shear > 0.7);
+  // Measured 0.987, and 0.885: the shear of so short a bar is not even, and the bond tears from where it is
+  // most.
+  CHECK(shear > 0.8);
   CHECK(shear < 1.05);
 }
 

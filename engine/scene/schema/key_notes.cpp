@@ -32,7 +32,9 @@ constexpr std::array kNotes{
     KeyNote{"method", "How the grid and the particles exchange; the defaults suit most scenes."},
     KeyNote{"method.basis", "Shape functions of the nodes."},
     KeyNote{"method.update", "How particles take their velocity from the grid."},
-    KeyNote{"method.strain", "When within a step the strain of the particles is updated."},
+    KeyNote{"method.strain",
+            "When within a step the strain of the particles is updated; `average` by default where contact "
+            "is as published."},
     KeyNote{"method.position", "Which velocity moves the particles; `particle` with the update apic."},
     KeyNote{"method.every", "xpic and fmpm: they filter every n-th step, and flip updates those between."},
     KeyNote{"method.contact_correction",
