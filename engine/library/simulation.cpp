@@ -139,8 +139,17 @@ class Simulation::Implementation {
   }
 
   void advance(double dt, bool stresses = true) {
-    visit([&](auto& s) { s.advance(dt, stresses); });
+    try {
+      visit([&](auto& s) { s.advance(dt, stresses); });
+    } catch (...) {
+      find_stresses();  // of the half-made step that its caller may read
+      throw;
+    }
     last_dt = dt;
+  }
+
+  void find_stresses() {
+    visit([](auto& s) { s.find_stresses(); });
   }
 
   /// A step as the run takes it.
@@ -229,19 +238,13 @@ std::uint64_t Simulation::advance_to(double time, const std::function<bool()>& s
   const ThreadCount count(i.threads);
   Pause asking;
   said([&] {
-    const auto settle = [&] { i.visit([](auto& s) { s.find_stresses(); }); };
     const auto is_stopped = [&] {
       if (!stop || !asking.due()) return false;
-      settle();  // for whom it asks
+      i.find_stresses();  // for whom it asks
       return stop();
     };
-    try {
-      while (!has_ended(this->time(), time) && !is_stopped()) i.advance_towards(time, false);
-    } catch (...) {
-      settle();
-      throw;
-    }
-    settle();
+    while (!has_ended(this->time(), time) && !is_stopped()) i.advance_towards(time, false);
+    i.find_stresses();
   });
   return steps() - before;
 }

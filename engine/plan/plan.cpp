@@ -107,6 +107,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
   if (plan.re_extrapolate) plan.nodal_columns.push_back(Nodal::re_extrapolated);
+  if (plan.moves_as_strained()) plan.nodal_columns.push_back(Nodal::pressed);
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
   plan_areas(scene, plan);
 }
@@ -159,6 +160,8 @@ void list_passes(const Scene& scene, Plan& plan) {
     p.push_back("re-extrapolate new momenta");
     if (plan.contact) p.push_back("contact of the re-extrapolated momenta");
     if (conditions) p.push_back("boundaries' velocities imposed on them");
+    if (plan.moves_as_strained())
+      p.push_back("velocities that move the particles: re-extrapolated where nothing presses");
   }
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
   if (rigid) p.push_back("rigid bodies move");

@@ -46,6 +46,12 @@ struct Plan {
   std::vector<Quantity> particle_columns;
   std::vector<Nodal> nodal_columns;
   std::vector<std::string> passes;  ///< of a step, in order
+
+  /// Do particles move with v′, and with v⁺ as far as they are pressed? `position: grid` stays as published.
+  bool moves_as_strained() const {
+    return re_extrapolate && position == PositionUpdate::grid_end &&
+           (update == ParticleUpdate::flip || update == ParticleUpdate::xpic);
+  }
 };
 
 Plan make_plan(const Scene& scene);

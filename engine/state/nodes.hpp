@@ -22,12 +22,13 @@ enum class Nodal {
   next,             ///< what an XPIC pass accumulates
   series,           ///< m (v − v*) of XPIC
   re_extrapolated,  ///< v′: what the particles give back with their new velocities, for the strain
-  volume_gradient,  ///< Σ G_pi V_p
-  mass_position,    ///< Σ S_pi M_p X_p
-  volume,           ///< Σ S_pi V_p
+  pressed,  ///< Σ S_pi M_p times how far p is pressed: this share of a node moves particles with v⁺
+  volume_gradient,    ///< Σ G_pi V_p
+  mass_position,      ///< Σ S_pi M_p X_p
+  volume,             ///< Σ S_pi V_p
   mass_displacement,  ///< Σ S_pi M_p (X_p − X_p0)
 };
-inline constexpr int kNodalQuantities = 12;
+inline constexpr int kNodalQuantities = 13;
 
 struct NodalInfo {
   Nodal quantity;
@@ -45,6 +46,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::next, "next", true, true, "XPIC"},
     {Nodal::series, "series", true, false, "XPIC"},
     {Nodal::re_extrapolated, "re_extrapolated", true, false, "strain with re-extrapolation"},
+    {Nodal::pressed, "pressed", false, false, "what moves particles, with re-extrapolation"},
     {Nodal::volume_gradient, "volume_gradient", true, false, "gradient normals"},
     {Nodal::mass_position, "mass_position", true, false, "separation by position"},
     {Nodal::volume, "volume", false, false, "normals, screening and contact areas by volume"},

@@ -111,8 +111,10 @@ class BasisPasses final : public Passes<Dim> {
     auto& nodes = state.nodes;
     const NodeColumns<Dim> in = nodes.columns(update == ParticleUpdate::flip   ? Nodal::force
                                               : update == ParticleUpdate::xpic ? Nodal::star
-                                                                               : Nodal::velocity),
-                           out = nodes.columns(Nodal::momentum);
+                                                                               : Nodal::velocity);
+    NodeColumns<Dim + 1> out{};
+    for (int d = 0; d < Dim; ++d) out.column[d] = nodes.column(Nodal::momentum, d);
+    if (nodes.has(Nodal::pressed)) out.column[Dim] = nodes.column(Nodal::pressed);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (!rigid) re_extrapolate_tile<Dim, Basis>(c, room.re_extrapolate, update, in, out);
     });

@@ -75,6 +75,7 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
     } else if (correction == Correction::final) {
       entry.second = entry.impulse + entry.passed;
       entry.touching = one_set_ ? touches_on(state, node, entry) : acts;
+      if (one_set_) entry.slip_pulled = slip_of(state, node, entry);
     }
     if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
       entry.slip_end = slip_of(state, node, entry);
@@ -82,9 +83,10 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
 }
 
 /// What the particles lose by sliding, J: the tangential impulse on the mean of the slips that the strains of
-/// the step see. (Its normal part does no work: tools/manual/theory.md, "The energy of a contact".) Where
-/// each correction finds its pairs by itself, on the slip that is left: impulses of many fields that jam and
-/// do not settle take energy with both parts. Particles that keep the first correction lose by that too.
+/// the step see, and what forces do to slips that strains do not see because the pair sticks. (Normal parts
+/// do no work: tools/manual/theory.md, "The energy of a contact".) Where each correction finds its pairs by
+/// itself, on the slip that is left: impulses of many fields that jam and do not settle take energy with both
+/// parts. Particles that keep the first correction lose by that too.
 template <int Dim>
 double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const {
   const auto rubbing = [&](const Vec<Dim>& x) -> Vec<Dim> {
@@ -95,6 +97,11 @@ double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tange
   if (first_correction_stays_)
     gain += rubbing(entry.first)
                 .dot(one_set_ ? Vec<Dim>(0.5 * (entry.slip_start + entry.slip_held)) : entry.slip_held);
+  else if (one_set_) {
+    const Vec<Dim> unseen = entry.slip_pulled - entry.slip_held;
+    if (entry.stuck_before) gain -= 0.5 * rubbing(entry.first).dot(unseen);
+    if (entry.stuck) gain -= 0.5 * rubbing(entry.impulse).dot(unseen);
+  }
   return -gain;
 }
 

@@ -273,6 +273,20 @@ void Conditions<Dim>::apply_cuts(const State<Dim>& state, Velocity velocity, Pus
 }
 
 template <int Dim>
+void Conditions<Dim>::share_pressed(State<Dim>& state) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  double* pressed = state.nodes.column(Nodal::pressed);
+  for (const Cut& cut : cuts_) {
+    const auto has_mass = [&](int slot) { return slot >= 0 && mass[slot] > 0; };
+    double least = 1;
+    for (const int slot : cut.slot)
+      if (has_mass(slot)) least = std::min(least, pressed[slot] / mass[slot]);
+    for (const int slot : cut.slot)
+      if (has_mass(slot)) pressed[slot] = least * mass[slot];
+  }
+}
+
+template <int Dim>
 void Conditions<Dim>::book(int component, double impulse, double dt) {
   const Component& c = components_[static_cast<std::size_t>(component)];
   const auto b = static_cast<std::size_t>(c.boundary);

@@ -64,6 +64,9 @@ class Conditions {
     if (cuts_.empty()) return;
     for (const Constrained& node : nodes_) slots.push_back(node.slot);
   }
+  /// Gives the nodes of a line about a plane the least share of pressed mass that one of them has: the plane
+  /// moves with its wall where they all move with the same mean of velocities that do.
+  void share_pressed(State<Dim>& state) const;
   /// The part of x along what is left free.
   Vec<Dim> free_part(const Held& held, Vec<Dim> x) const {
     if (held.combination >= 0) {

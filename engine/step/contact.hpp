@@ -56,6 +56,10 @@ class Contact {
   /// Adds the slots of nodes where surfaces meet that may part (not bonds).
   void list_meeting_slots(std::vector<int>& slots) const;
 
+  /// Gives the fields of a node that are tied the share of pressed mass that all of them have: a tie moves as
+  /// one field does.
+  void share_pressed(State<Dim>& state) const;
+
   /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
   /// final: forces change too. Friction work and the impulses on rigid bodies and of pairs are summed.
   void resolve(State<Dim>& state, Correction correction, double dt);
@@ -91,7 +95,7 @@ class Contact {
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
-    bool touching;
+    bool touching, stuck;
     double plane[Dim + 1];
   };
 
@@ -139,9 +143,11 @@ class Contact {
   template <class Law>
   Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                              Correction correction, const Law& law, double area_time) const;
+  bool may_part(const ContactNode<Dim>& node) const;
   bool lasts(const ContactEntry<Dim>& entry) const;
   double closing_of(const ContactEntry<Dim>& entry) const;
   bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;
+  bool holds_slip(const ContactEntry<Dim>& entry, Correction correction) const;
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;

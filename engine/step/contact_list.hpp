@@ -18,25 +18,27 @@ struct ContactField {
 /// One field against another or against the rest of a node.
 template <int Dim>
 struct ContactEntry {
-  int a;                     ///< which of the node's fields
-  int b;                     ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
-  Vec<Dim> normal;           ///< unit, from a to the rest; zero: unknown, no contact
-  double separation = 0;     ///< m, negative: overlap
-  double advanced = 0;       ///< the separation that a correction judges by, m
-  double plane[Dim + 1]{};   ///< of the regression, cells; zero: none
-  bool settled = false;      ///< the normal is found: no regression
-  bool touched = false;      ///< in contact at the end of the last step
-  bool held = false;         ///< by the first correction
-  bool touching = false;     ///< in contact at the second correction
-  bool parts = false;        ///< its law knows no tie
-  bool alone = false;        ///< its node has these two fields only
-  double friction_work = 0;  ///< J, of this step
-  Vec<Dim> impulse;          ///< Δp_a of the last correction
+  int a;                      ///< which of the node's fields
+  int b;                      ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
+  Vec<Dim> normal;            ///< unit, from a to the rest; zero: unknown, no contact
+  double separation = 0;      ///< m, negative: overlap
+  double advanced = 0;        ///< the separation that a correction judges by, m
+  double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
+  bool settled = false;       ///< the normal is found: no regression
+  bool touched = false;       ///< in contact at the end of the last step
+  bool held = false;          ///< by the first correction
+  bool touching = false;      ///< in contact at the second correction
+  bool stuck = false;         ///< the second correction leaves no slip
+  bool stuck_before = false;  ///< that of the last step did
+  bool parts = false;         ///< its law knows no tie
+  bool alone = false;         ///< its node has these two fields only
+  double friction_work = 0;   ///< J, of this step
+  Vec<Dim> impulse;           ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
   Vec<Dim> second = Vec<Dim>::Zero();  ///< Δp_a of the second, with what that passes on of the first
-  /// v_a − v_b as the particles give it to the grid, after the first correction, and as the last one leaves
-  /// it
-  Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_end = Vec<Dim>::Zero();  ///< m/s
+  /// v_a − v_b, m/s: as the particles give it to the grid, and as the corrections leave it
+  Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_pulled = Vec<Dim>::Zero(),
+           slip_end = Vec<Dim>::Zero();
   Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a that the second counts as a force, beside its own
 };
 

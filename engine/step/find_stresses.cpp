@@ -7,33 +7,32 @@
 
 namespace mpmfast {
 
-/// Wave speeds stay those that the step had: the run must not depend on who looks.
+/// Wave speeds stay those that the step had: the run must not depend on who looks. Its time is that of the
+/// reader.
 template <int Dim>
 void Step<Dim>::find_stresses() {
   if (!std::exchange(stresses_wait_, false)) return;
-  clock_.time(Pass::update, [&] {
-    const ParticleView<Dim> view = state_.view();
-    const auto& body = state_.particles.body();
-    const auto n = static_cast<std::int64_t>(state_.particles.size());
-    constexpr std::int64_t block = 1024;
+  const ParticleView<Dim> view = state_.view();
+  const auto& body = state_.particles.body();
+  const auto n = static_cast<std::int64_t>(state_.particles.size());
+  constexpr std::int64_t block = 1024;
 #pragma omp parallel for num_threads(state_.threads) schedule(static)
-    for (std::int64_t first = 0; first < n; first += block) {
-      const auto last = static_cast<std::size_t>(std::min(n, first + block));
-      for (auto begin = static_cast<std::size_t>(first), end = begin; begin < last; begin = end) {
-        while (end < last && body[end] == body[begin]) ++end;
-        const BodyView<Dim>& of = state_.bodies[body[begin]];
-        if (of.rigid) continue;
-        std::visit(
-            [&]<class Law>(const Law& law) {
-              if constexpr (!Evolving<Law>)
-                if (stress_can_wait<Law>(view))
-                  stress_chunk<Dim>(view, law, static_cast<std::uint32_t>(begin),
-                                    static_cast<int>(end - begin));
-            },
-            state_.materials[static_cast<std::size_t>(of.material)]);
-      }
+  for (std::int64_t first = 0; first < n; first += block) {
+    const auto last = static_cast<std::size_t>(std::min(n, first + block));
+    for (auto begin = static_cast<std::size_t>(first), end = begin; begin < last; begin = end) {
+      while (end < last && body[end] == body[begin]) ++end;
+      const BodyView<Dim>& of = state_.bodies[body[begin]];
+      if (of.rigid) continue;
+      std::visit(
+          [&]<class Law>(const Law& law) {
+            if constexpr (!Evolving<Law>)
+              if (stress_can_wait<Law>(view))
+                stress_chunk<Dim>(view, law, static_cast<std::uint32_t>(begin),
+                                  static_cast<int>(end - begin));
+          },
+          state_.materials[static_cast<std::size_t>(of.material)]);
     }
-  });
+  }
 }
 
 template void Step<2>::find_stresses();

@@ -149,6 +149,16 @@ bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correcti
   return correction != Correction::final && lasts(entry);
 }
 
+/// Is the slip of the pair held where friction is no force: has it stuck at the last step's second
+/// correction, or this one's?
+template <int Dim>
+bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correction) const {
+  if (first_correction_stays_) return false;
+  return correction == Correction::initial  ? lasts(entry) && entry.stuck_before
+         : correction == Correction::strain ? entry.stuck
+                                            : false;
+}
+
 /// Does the second correction leave the pair of the set in contact: has it pressed, or did the first and no
 /// force pulls? Speeds of 1e-10 cells a step are round-off, which must not decide.
 template <int Dim>
@@ -190,14 +200,37 @@ void Contact<Dim>::see_gaps(const State<Dim>& state, const ContactNode<Dim>& nod
   }
 }
 
+/// Has the node surfaces that may part, which are not tied?
+template <int Dim>
+bool Contact<Dim>::may_part(const ContactNode<Dim>& node) const {
+  const auto entry = list_.entries.begin();
+  return std::any_of(entry + node.entry_begin, entry + node.entry_end, [](const auto& e) { return e.parts; });
+}
+
 template <int Dim>
 void Contact<Dim>::list_meeting_slots(std::vector<int>& slots) const {
   for (const auto& node : list_.nodes) {
-    const auto entry = list_.entries.begin();
-    if (std::none_of(entry + node.entry_begin, entry + node.entry_end, [](const auto& e) { return e.parts; }))
-      continue;
+    if (!may_part(node)) continue;
     for (int f = node.field_begin; f < node.field_end; ++f)
       slots.push_back(list_.fields[static_cast<std::size_t>(f)].slot);
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::share_pressed(State<Dim>& state) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  double* pressed = state.nodes.column(Nodal::pressed);
+  for (const auto& node : list_.nodes) {
+    if (may_part(node)) continue;
+    double all = 0, part = 0;
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
+      all += mass[slot], part += pressed[slot];
+    }
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
+      pressed[slot] = part / all * mass[slot];
+    }
   }
 }
 

@@ -16,6 +16,7 @@ void Step<Dim>::re_extrapolate(double dt) {
   const double* mass = nodes.column(Nodal::mass);
   clock_.time(Pass::re_extrapolate, [&] {
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      if (nodes.has(Nodal::pressed)) std::fill_n(nodes.column(Nodal::pressed) + begin, end - begin, 0.0);
       for (int d = 0; d < Dim; ++d) {
         double* momentum = nodes.column(Nodal::momentum, d);
         for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
@@ -39,25 +40,36 @@ void Step<Dim>::re_extrapolate(double dt) {
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
 }
 
-/// The particles of FLIP, XPIC and FMPM move with v′, which strains them too. Moved with v⁺ they would leave
-/// F by (a − S⁺S a) Δt² a step: under tension a body tears by what comes between its particles so. Nodes
-/// where surfaces meet keep v⁺, since v′ of a pair that forces part has the approach that its particles
-/// keep. So do held nodes in scenes with a wall `at: plane`, whose lines give v′ a noise of its own.
+/// The particles of FLIP, XPIC and FMPM move with v′, which strains them too, and as far as they are pressed
+/// with v⁺. By v⁺ they leave F by (a − S⁺S a) Δt² a step. Under tension that tears a body, by what comes
+/// between its particles so; under pressure it is what ends the noise that they make, and that grows with v′
+/// (theory.md, "What moves the particles"). Nodes where surfaces meet keep v⁺, since v′ of a pair that forces
+/// part has the approach that its particles keep. So do held nodes in scenes with a wall `at: plane`, whose
+/// lines give v′ a noise of its own.
 template <int Dim>
-void Step<Dim>::move_as_strained() {
-  const ParticleUpdate update = update_rule();
-  if (!plan_.re_extrapolate || (update != ParticleUpdate::flip && update != ParticleUpdate::xpic)) return;
+void Step<Dim>::find_moving_velocities() {
+  if (!plan_.moves_as_strained()) return;
   clock_.time(Pass::nodes, [&] {
     auto& nodes = state_.nodes;
     kept_slots_.clear();
-    if (plan_.contact) contact_.list_meeting_slots(kept_slots_);
+    if (plan_.contact) {
+      contact_.list_meeting_slots(kept_slots_);
+      contact_.share_pressed(state_);
+    }
+    conditions_.share_pressed(state_);
     conditions_.list_held_slots(kept_slots_);
     kept_velocities_.clear();
     for (const int slot : kept_slots_) kept_velocities_.push_back(nodes.vector(Nodal::velocity, slot));
+    const double *mass = nodes.column(Nodal::mass), *pressed = nodes.column(Nodal::pressed);
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        std::copy(nodes.column(Nodal::re_extrapolated, d) + begin,
-                  nodes.column(Nodal::re_extrapolated, d) + end, nodes.column(Nodal::velocity, d) + begin);
+      for (int d = 0; d < Dim; ++d) {
+        const double* strained = nodes.column(Nodal::re_extrapolated, d);
+        double* moves = nodes.column(Nodal::velocity, d);
+        for (std::int64_t i = begin; i < end; ++i) {
+          const double share = mass[i] > 0 ? pressed[i] / mass[i] : 0;
+          moves[i] = strained[i] + share * (moves[i] - strained[i]);
+        }
+      }
     });
     for (std::size_t k = 0; k < kept_slots_.size(); ++k)
       nodes.set(Nodal::velocity, kept_slots_[k], kept_velocities_[k]);
@@ -67,7 +79,7 @@ void Step<Dim>::move_as_strained() {
 // Here: the members that this file defines.
 template void Step<2>::re_extrapolate(double);
 template void Step<3>::re_extrapolate(double);
-template void Step<2>::move_as_strained();
-template void Step<3>::move_as_strained();
+template void Step<2>::find_moving_velocities();
+template void Step<3>::find_moving_velocities();
 
 }  // namespace mpmfast

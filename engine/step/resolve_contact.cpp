@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/plan/contact_law.hpp"
 #include "engine/step/conditions.hpp"
@@ -119,7 +120,9 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       using Law = std::decay_t<decltype(law)>;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
-      entry.impulse = impulse_of(entry, meeting, separation, correction, law, area_time).impulse;
+      const Demand<Dim> demand = impulse_of(entry, meeting, separation, correction, law, area_time);
+      entry.impulse = demand.impulse;
+      if (correction == Correction::final) entry.stuck = demand.hinders == Hinders::slip;
       pass_on(entry, correction, Law::scope);
     };
     if constexpr (Laws::by_pair)
@@ -157,7 +160,9 @@ Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeti
 /// In the set are pairs that will touch by the end of the step as the first correction sees it, and those
 /// that last; the second may add what the forces bring. A gap δ that closes leaves the approach δ/Δt. The
 /// normal velocities of pairs that last are held, whichever way they go; forces are held where they press,
-/// and end the contact where they pull. Momenta that are re-extrapolated are held where forces were.
+/// and end the contact where they pull. Momenta that are re-extrapolated are held where forces were. Pairs
+/// that stick are held along the surface too: else the friction of a pair at rest works on the slips that the
+/// strains see, and makes energy.
 template <int Dim>
 template <class Law>
 Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
@@ -176,11 +181,15 @@ Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const M
     return {Vec<Dim>::Zero(), Hinders::nothing};
   const double normal = along + meeting.reduced * closing_of(entry);
   if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
-  // Friction is a force of the second correction. What is held for the strain alone must be a projection.
+  // Friction that slides is a force of the second correction: what is held for the strain alone must be a
+  // projection.
   const bool rubs = correction == Correction::final || first_correction_stays_;
+  if (Law::scope == LawScope::contact && holds_slip(entry, correction))
+    return {normal * entry.normal + tangential, Hinders::slip};
   const double presses = Law::scope == LawScope::contact ? force_of(entry, meeting, normal) : normal;
-  const double limit =
-      law({rubs ? std::max(0.0, -presses) : 0, needed, meeting.reduced, rubs ? area_time : 0});
+  constexpr double kLeast = std::numeric_limits<double>::min();  // what carries nothing does not stick
+  const double limit = law(
+      {rubs ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), meeting.reduced, rubs ? area_time : 0});
   if (needed <= limit && limit > 0) return {normal * entry.normal + tangential, Hinders::slip};
   return {normal * entry.normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
 }
@@ -266,6 +275,7 @@ void Contact<Dim>::finish(const Laws& laws, Correction correction, const Contact
     const FieldContact<Dim>& contact = together.solver.contacts[k];
     auto& entry = *together.acting[k].entry;
     entry.impulse = contact.impulse;
+    if (correction == Correction::final) entry.stuck = contact.hinders == Hinders::slip;
     with_law(laws, node, entry, [&](const auto& law) { pass_on(entry, correction, law.scope); });
   }
 }

@@ -104,7 +104,7 @@ void Step<Dim>::advance(double dt, bool stresses) {
   weigh_body_force(dt);
   filter_velocities();  // Eq. 42 to 44
   re_extrapolate(dt);   // NN §2.8
-  move_as_strained();
+  find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
   let_leave();

@@ -101,7 +101,7 @@ class Step {
   void weigh_body_force(double dt);
   void filter_velocities();
   void re_extrapolate(double dt);
-  void move_as_strained();
+  void find_moving_velocities();
   void update_particles(double dt);
   void move_rigid_end(double dt);
   void let_leave();

@@ -44,7 +44,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
-/// The next step asks the last one's entries for their touch and their planes alone (remember).
+/// The next step asks the last one's entries for how they touch (bits: touching, stuck) and their planes
+/// alone (remember).
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
@@ -58,13 +59,14 @@ void Contact<Dim>::visit(Archive& archive) {
       f(list_.entries[k], touching[k], planes.data() + (Dim + 1) * k);
   };
   for_each_entry([](const auto& entry, std::uint8_t& touch, double* plane) {
-    touch = entry.touching;
+    touch = static_cast<std::uint8_t>(entry.touching | entry.stuck << 1);
     std::copy(entry.plane, entry.plane + Dim + 1, plane);
   });
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/planes", planes.data(), planes.size());
   for_each_entry([](auto& entry, std::uint8_t touch, const double* plane) {
-    entry.touching = touch != 0;
+    entry.touching = touch & 1;
+    entry.stuck = touch & 2;
     std::copy(plane, plane + Dim + 1, entry.plane);
   });
 }

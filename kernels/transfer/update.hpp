@@ -139,7 +139,8 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
 /// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41; FMPM
 /// alike); APIC: as PIC, and the slopes about the particle. Positions: grid_end X ← X + Δt S v⁺; grid X ← X +
 /// Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new.
-/// @param nodes  v⁺, aΔt (and m(v − v*) when NV is 3)
+/// @param nodes  v⁺ (or what moves particles in its place: re_extrapolate.hpp), aΔt (and m(v − v*) when NV is
+/// 3)
 /// @param strain  what the strain is taken from: v⁺, or v′ (re_extrapolate.hpp)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>

@@ -5,15 +5,16 @@
 namespace mpmfast {
 
 enum class ParticleUpdate { flip, pic, xpic, apic };
-/// The end velocity makes X and V a symplectic pair. With the midpoint, X ← X + ½Δt (v + v⁺) under forces at
-/// the old X, oscillations held by the geometric stiffness (the pressure) grow by ½(ωΔt)² a step.
+/// The end velocity (v⁺, or v′ where that strains too) makes X and V a symplectic pair. With the midpoint, X
+/// ← X + ½Δt (v + v⁺) under forces at the old X, oscillations held by the geometric stiffness (the pressure)
+/// grow by ½(ωΔt)² a step.
 enum class PositionUpdate { grid_end, grid, trapezoid, particle };
 
 struct UpdateRule {
   ParticleUpdate velocity;
   PositionUpdate position;
   double dt;
-  double dt_strain;  ///< > 0: advance the strain with v⁺ by this time
+  double dt_strain;  ///< > 0: advance the strain with v⁺ or v′ by this time
   int terms;         ///< of the exponential in the strain
   bool stresses;     ///< also the stresses that follow from the strain, where they can wait
 };

@@ -28,6 +28,11 @@ TEST_CASE("passes follow the strain: first, last or on both sides") {
   const auto both = passes_of({{"method", "{update: flip, strain: average}"}});
   CHECK(has(both, "strain, stress and internal force"));
   CHECK(both.back() == "particle update, strain and stress");
+  const auto given_back = passes_of({{"method", "{update: flip, strain: average+}"}});
+  CHECK(has(given_back, "re-extrapolate new momenta"));
+  CHECK(has(given_back, "velocities that move the particles"));
+  CHECK_FALSE(has(passes_of({{"method.position", "grid"}}), "velocities that move the particles"));
+  CHECK_FALSE(has(both, "re-extrapolate"));
   const auto apic = passes_of({{"method", "{update: apic, strain: last, basis: bspline2}"}});
   CHECK(std::find(apic.begin(), apic.end(), "internal force") != apic.end());
 }

@@ -23,7 +23,10 @@ struct Difference {
 };
 
 Difference against_one_field(const Overrides& scene, const Overrides& contact) {
-  const Outcome one = pressed(scene, {{"contact", "none"}}), three = pressed(scene, contact);
+  // In one field the strain that comes with the contact: average with published normals.
+  const std::string strain = contact.front().second == "smoothed_max_margin" ? "average+" : "average";
+  const Outcome one = pressed(scene, {{"contact", "none"}, {"method.strain", strain}}),
+                three = pressed(scene, contact);
   REQUIRE(one.failure == "");
   REQUIRE(three.failure == "");
   const auto column = [](const Outcome& outcome, const char* name) { return outcome.history.at(name); };

@@ -39,17 +39,19 @@ const std::vector<Override> kMidCell{{"bodies.0.box.to", "[40 mm, 52.5 mm]"},
                                      {"bodies.1.box.from", "[0 mm, 52.5 mm]"}};
 
 TEST_CASE("uniaxial: LR with FLIP is within 0.6 % of one field to 10 % strain, and reaches 20 %") {
-  const Outcome one = uniaxial({{"contact", "none"}});
+  const Outcome one = uniaxial({{"contact", "none"}}),
+                averaged = uniaxial({{"contact", "none"}, {"method.strain", "average"}});  // as N20's contact
   REQUIRE(one.failure.empty());
+  REQUIRE(averaged.failure.empty());
   for (const bool mid_cell : {false, true}) {
     CAPTURE(mid_cell);
     std::vector<Override> plain = mid_cell ? kMidCell : std::vector<Override>{};
     plain.push_back({"contact.normal", "logistic_regression"});
     const Outcome two = uniaxial(plain);
     CHECK(two.failure == "");
-    CHECK(error(two.history, one.history, 0.10) < 0.006);  // measured 0.34 %, mid-cell 0.48 %
+    CHECK(error(two.history, averaged.history, 0.10) < 0.006);  // measured 0.34 %, mid-cell 0.48 %
     CHECK(strain_of(two.summary.time) > 0.2);
-    CHECK(error(two.history, one.history, 0.20) < 0.02);  // measured 1.1 %, mid-cell 1.2 %
+    CHECK(error(two.history, averaged.history, 0.20) < 0.02);  // measured 1.1 %, mid-cell 1.2 %
     CHECK(two.summary.contact.regressions > 100000);
     std::vector<Override> smoothed = mid_cell ? kMidCell : std::vector<Override>{};
     smoothed.push_back({"contact.normal", "smoothed_max_margin"});
@@ -58,15 +60,31 @@ TEST_CASE("uniaxial: LR with FLIP is within 0.6 % of one field to 10 % strain, a
     // Measured 0.07 %, mid-cell 0.10 % (strain: average 0.025, 0.033 %).
     CHECK(error(smooth.history, one.history, 0.20) < 0.00105);
     CHECK(std::abs(smooth.summary.energy_error) < 0.002);
+    // Friction at rest does no work. -1.6e-4 of the piston's where strains see what slips the particles
+    // bring.
+    CHECK(std::abs(smooth.history.at("friction_J").back()) <
+          1e-6 * smooth.history.at("boundary_work_J").back());
   }
 }
 
+TEST_CASE("a block that particles cross cell after cell is pressed without noise") {
+  // 40 cells in one field, to 13 %. Where positions follow v' alone, 16 % of the work is motion at 20 %.
+  const Outcome one = uniaxial(
+      {{"contact", "none"}, {"grid.cell", "2.5 mm"}, {"method.basis", "lcpdi"}, {"time.end", "14 ms"}});
+  REQUIRE(one.failure == "");
+  CHECK(one.history.at("kinetic_J").back() < 3e-4 * one.history.at("boundary_work_J").back());
+  CHECK(std::abs(one.summary.energy_error) < 1e-3);
+}
+
 TEST_CASE("uniaxial: LR with XPIC(5) is within 0.5 % of one field to 10 % strain") {
-  const Outcome one = uniaxial({{"contact", "none"}, {"method.update", "xpic(5)"}});
+  const Outcome one = uniaxial({{"contact", "none"}, {"method.update", "xpic(5)"}}),
+                averaged = uniaxial(
+                    {{"contact", "none"}, {"method.update", "xpic(5)"}, {"method.strain", "average"}});
   REQUIRE(one.failure.empty());
+  REQUIRE(averaged.failure.empty());
   const Outcome plain = uniaxial({{"method.update", "xpic(5)"}, {"contact.normal", "logistic_regression"}});
   CHECK(plain.failure == "");
-  CHECK(error(plain.history, one.history, 0.10) < 0.005);  // measured 0.43 %
+  CHECK(error(plain.history, averaged.history, 0.10) < 0.005);  // measured 0.43 %
   for (const bool mid_cell : {false, true}) {
     CAPTURE(mid_cell);
     std::vector<Override> overrides = mid_cell ? kMidCell : std::vector<Override>{};

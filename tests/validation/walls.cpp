@@ -158,15 +158,23 @@ TEST_CASE("a block slides on a wall with its friction, and the books have all of
 }
 
 TEST_CASE("a block sticks to a wall that holds, and slides freely without friction") {
-  const auto speed = [](const std::vector<Override>& overrides) {
-    const Scene scene = scene_from(kSlide, overrides);
+  /// Mean speed over the second half, in units of the one at the start. (At 1 m/s a block that sticks hops.)
+  const auto speed = [](const char* wall) {
+    const Scene scene =
+        scene_from(kSlide, {{"boundaries.bottom", wall}, {"bodies.0.velocity", "[0.05 m/s, 0 m/s]"}});
     Step<2> step(scene);
-    while (step.state().time < scene.time.end) step.advance(step.stable_dt());
-    return momentum(step.state().particles)[0] / (1000 * 0.02 * 0.01);
+    double path = 0, time = 0;
+    while (step.state().time < scene.time.end) {
+      const double dt = step.stable_dt();
+      step.advance(dt);
+      if (step.state().time < 0.5 * scene.time.end) continue;
+      path += dt * momentum(step.state().particles)[0] / (1000 * 0.02 * 0.01);
+      time += dt;
+    }
+    return path / time / 0.05;
   };
-  CHECK(speed({{"boundaries.bottom", "{wall: sliding, at: surface, position: 9.7 mm}"}}) ==
-        doctest::Approx(1).epsilon(1e-12));
-  CHECK(std::abs(speed({{"boundaries.bottom", "{wall: held, at: surface, position: 9.7 mm}"}})) < 0.2);
+  CHECK(speed("{wall: sliding, at: surface, position: 9.7 mm}") == doctest::Approx(1).epsilon(1e-12));
+  CHECK(std::abs(speed("{wall: held, at: surface, position: 9.7 mm}")) < 0.05);
 }
 
 TEST_CASE("walls at the surface give the same bits on one, two and three threads") {
