@@ -1,7 +1,7 @@
 #!/bin/sh
 # How much the grains of configs/ellipses.yaml enter each other with each contact method, as a table:
 #   bench/overlap.sh build/release/mpmfast [CELL [END]]
-# CELL: half the scene's resolution by default, "1/35 mm"; END: "15 us", 75 % of the die. One thread. Overlap: area that two
+# CELL: half the scene's resolution by default, "1/35 mm"; END: "15 us", 75 % of the die. One thread, XPIC(5). Overlap: area that two
 # grains both claim; inside: area of the particles whose centre lies in another grain. A run that fails shows how far it came.
 set -eu
 program=$(realpath "$1")
@@ -24,7 +24,7 @@ row() {
   shift
   # shellcheck disable=SC2046  # the overrides hold no spaces
   set -- $(printf -- '--set %s ' "$@")
-  "$program" run "$scene" --threads 1 --progress none --force --out "$work/run" --set "grid.cell=$cell" --set "time.end=$end" \
+  "$program" run "$scene" --threads 1 --progress none --force --out "$work/run" --set "grid.cell=$cell" --set "time.end=$end" --set "method.update=xpic(5)" \
     --set output.frames=0 --set output.overlap=true "$@" > "$work/log" 2>&1 || true
   awk -v name="$name" -v time="$(last time_s)" -v overlap="$(last overlap_m2)" -v inside="$(last inside_m2)" \
     -v stress="$(last all.mean_stress_yy_Pa)" -v energy="$(value energy_error)" -v steps="$(value steps)" -v wall="$(value wall_s)" \

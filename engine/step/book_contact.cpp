@@ -97,7 +97,7 @@ double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tange
   if (first_correction_stays_)
     gain += rubbing(entry.first)
                 .dot(one_set_ ? Vec<Dim>(0.5 * (entry.slip_start + entry.slip_held)) : entry.slip_held);
-  else if (one_set_) {
+  else if (holds_sticking_) {
     const Vec<Dim> unseen = entry.slip_pulled - entry.slip_held;
     if (entry.stuck_before) gain -= 0.5 * rubbing(entry.first).dot(unseen);
     if (entry.stuck) gain -= 0.5 * rubbing(entry.impulse).dot(unseen);

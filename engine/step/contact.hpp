@@ -177,6 +177,7 @@ class Contact {
   bool first_correction_;
   bool one_set_;                 ///< the touching pairs are decided once a step
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
+  bool holds_sticking_;          ///< pairs that stick are held along the surface in every correction
   bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
   double first_share_;           ///< of the first correction's impulse: a force of the second too
   bool geometry_;                ///< some law asks for normals and separations

@@ -150,10 +150,11 @@ bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correcti
 }
 
 /// Is the slip of the pair held where friction is no force: has it stuck at the last step's second
-/// correction, or this one's?
+/// correction, or this one's? (With FLIP alone: XPIC's filter takes what particles slip of itself, and more
+/// of them that are held.)
 template <int Dim>
 bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correction) const {
-  if (first_correction_stays_) return false;
+  if (!holds_sticking_) return false;
   return correction == Correction::initial  ? lasts(entry) && entry.stuck_before
          : correction == Correction::strain ? entry.stuck
                                             : false;

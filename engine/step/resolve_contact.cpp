@@ -46,6 +46,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       first_correction_(plan.first_correction),
       one_set_(plan.one_set),
       keep_velocity_change_(plan.paired),
+      holds_sticking_(plan.one_set && plan.update == ParticleUpdate::flip),
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
       geometry_(plan.contact_geometry),

@@ -22,8 +22,11 @@ struct Entered {
 
 Entered pressed(Overrides overrides, const Overrides& more) {
   overrides.insert(overrides.end(), more.begin(), more.end());
-  const Overrides common{
-      {"grid.cell", "1/35 mm"}, {"output.frames", "0"}, {"output.history", "4"}, {"output.overlap", "true"}};
+  const Overrides common{{"method.update", "xpic(5)"},
+                         {"grid.cell", "1/35 mm"},
+                         {"output.frames", "0"},
+                         {"output.history", "4"},
+                         {"output.overlap", "true"}};
   overrides.insert(overrides.end(), common.begin(), common.end());
   const Outcome outcome = run(scene_file("ellipses.yaml", overrides));
   REQUIRE(outcome.failure == "");

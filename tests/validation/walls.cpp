@@ -225,7 +225,8 @@ TEST_CASE("slow: no particle of the pressed grains stands beyond a wall") {
   const std::string walls =
       "{left: {wall: sliding, at: surface}, right: {wall: sliding, at: surface}, bottom: {wall: sliding, at: "
       "surface}, top: {piston: 100 m/s, at: surface}}";
-  const Scene scene = scene_file("ellipses.yaml", {{"grid.cell", "1/20 mm"}, {"boundaries", walls}});
+  const Scene scene = scene_file(
+      "ellipses.yaml", {{"grid.cell", "1/20 mm"}, {"method.update", "xpic(5)"}, {"boundaries", walls}});
   Step<2> step(scene);
   while (step.state().time < scene.time.end)
     step.advance(std::min(step.stable_dt(), scene.time.end - step.state().time));
