@@ -96,29 +96,5 @@ TEST_CASE("a bond breaks at its tensile and at its shear strength") {
   CHECK(shear < 1.05);
 }
 
-TEST_CASE("a block that lands sliding rubs by its friction times the force, also while its gaps close") {
-  // Of the impulse that closes a gap within a step a part is no force, and nothing rubs by it.
-  const Scene scene = scene_from(R"(
-space: plane_strain
-grid: {origin: [0, 0], size: [40 mm, 20 mm], cell: 1 mm}
-time: {end: 0.4 ms}
-materials:
-  rubber: {model: neo_hookean, density: 1000 kg/m^3, bulk: 8 MPa, shear: 3 MPa}
-  stone: {model: rigid}
-bodies:
-  - {name: floor, box: {from: [1 mm, 1 mm], to: [39 mm, 4 mm]}, material: stone}
-  - {name: block, box: {from: [8 mm, 4.2 mm], to: [18 mm, 10.2 mm]}, material: rubber, velocity: [8 m/s, -1 m/s]}
-contact: {law: coulomb, friction: 0.2, normal: specified, specified_normal: [0, -1], persistent: true, advance_separation: true}
-)",
-                                 {{"method.strain", "average+"}});
-  Step<2> step(scene);
-  REQUIRE(step.plan().one_set);
-  while (step.state().time < scene.time.end) step.advance(step.stable_dt());
-  const Vec<2> on_floor = step.sums().rigid_impulse[0];
-  CHECK(on_floor[1] < -0.02);  // it landed: 60 g per metre at 1 m/s
-  // Measured -0.199898: a node comes to rest for a step now and then. -0.1964 with all of the impulse.
-  CHECK(on_floor[0] / on_floor[1] == doctest::Approx(-0.2).epsilon(1e-3));
-}
-
 }  // namespace
 }  // namespace mpmfast
