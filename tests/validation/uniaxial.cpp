@@ -57,8 +57,7 @@ TEST_CASE("uniaxial: LR with FLIP is within 0.6 % of one field to 10 % strain, a
     smoothed.push_back({"contact.normal", "smoothed_max_margin"});
     const Outcome smooth = uniaxial(smoothed);
     CHECK(smooth.failure == "");
-    // Measured 0.07 %, mid-cell 0.10 % (strain: average 0.025, 0.033 %).
-    CHECK(error(smooth.history, one.history, 0.20) < 0.00105);
+    CHECK(error(smooth.history, one.history, 0.20) < 1e-4);  // measured 0.0037 %, mid-cell 0.0032 %
     CHECK(std::abs(smooth.summary.energy_error) < 0.002);
     // Friction at rest does no work. -1.6e-4 of the piston's where strains see what slips the particles
     // bring.
@@ -94,7 +93,7 @@ TEST_CASE("uniaxial: LR with XPIC(5) is within 0.5 % of one field to 10 % strain
     CHECK(smoothed.failure == "");
     CHECK(strain_of(smoothed.summary.time) > 0.2);
     CHECK(error(smoothed.history, one.history, 0.20) <
-          0.0016);  // paper 0.24 %; measured 0.13 %, mid-cell 0.06 % (strain: average 0.005 %)
+          0.0013);  // paper 0.24 %; measured 0.098 %, mid-cell 0.015 %
   }
 }
 
