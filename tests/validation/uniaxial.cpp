@@ -57,7 +57,7 @@ TEST_CASE("uniaxial: LR with FLIP is within 0.6 % of one field to 10 % strain, a
     smoothed.push_back({"contact.normal", "smoothed_max_margin"});
     const Outcome smooth = uniaxial(smoothed);
     CHECK(smooth.failure == "");
-    CHECK(error(smooth.history, one.history, 0.20) < 2e-4);  // measured 0.012 %
+    CHECK(error(smooth.history, one.history, 0.20) < 2e-4);  // measured 0.009 %, mid-cell 0.012 %
     CHECK(std::abs(smooth.summary.energy_error) < 0.002);
     // Friction at rest does no work. -1.6e-4 of the piston's where strains see what slips the particles
     // bring.
@@ -93,7 +93,7 @@ TEST_CASE("uniaxial: LR with XPIC(5) is within 0.5 % of one field to 10 % strain
     CHECK(smoothed.failure == "");
     CHECK(strain_of(smoothed.summary.time) > 0.2);
     CHECK(error(smoothed.history, one.history, 0.20) <
-          0.0013);  // paper 0.24 %; measured 0.098 %, mid-cell 0.015 %
+          0.0013);  // paper 0.24 %; measured 0.12 %, mid-cell 0.089 %
   }
 }
 
