@@ -242,7 +242,7 @@ void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
         const double mass = state.nodes.column(Nodal::mass)[slot];
         state.nodes.set(velocities, slot, state.nodes.vector(velocities, slot) + (impulse / mass) * e);
       });
-  walls_.impose_velocity(state, velocities);
+  walls_.impose_velocity(state, velocities, books_);
 }
 
 /// On row k, at s_k = k − ξ cells from the plane, the velocity becomes u + g s_k; the slope with the least

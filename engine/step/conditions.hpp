@@ -38,6 +38,9 @@ class Conditions {
     walls_.forget_nodes();
   }
 
+  /// What lasts from one step to the next.
+  void visit(Archive& archive) { walls_.visit(archive); }
+
   /// Puts the prescribed components into the nodal velocities that the strain is taken from: `velocity`, or
   /// `re_extrapolated`.
   void impose_velocity(State<Dim>& state, Nodal velocities = Nodal::velocity);

@@ -11,17 +11,8 @@ namespace mpmfast {
 
 namespace {
 
-constexpr double kFar = 1;  ///< cells: what is further away cannot reach a plane in a step
-
 /// Cells: so near to the plane, what touches is held until the forces pull. Any more makes no difference.
 constexpr double kTouch = 1e-3;
-
-/// Domains of particles on rings leave gaps: each counts as so much wider.
-constexpr double kOver = 1.25;
-
-/// Cells that a particle may come through between two columns. With 0, Hertz's cylinders are 37 % too stiff
-/// at first and not 12; with 0.1, particles stay beyond a piston.
-constexpr double kSlack = 0.02;
 
 /// What has come further through than kDeep cells is brought back by this part of it in a step. All of it is
 /// to be brought back slowly: pushed hard, a column makes energy out of the noise of its particles' extents.
@@ -32,17 +23,15 @@ constexpr double kDeep = 0.05, kBack = 0.02;
 /// −0.2 % with 0.1 and by 0.5, 0.1 and −0.3 % with 1, where the first force is a seventh too low.
 constexpr double kShare = 0.1;
 
-/// Cells from the last row inside to the plane: with less, the next row inside shares the line. A thin sliver
-/// of a cell by itself would need a small time step.
-constexpr double kThin = 0.5;
-
-constexpr double kReach = 2;  ///< cells: the widest basis function reaches so far
-
 }  // namespace
 
 template <int Dim>
 SurfaceWalls<Dim>::SurfaceWalls(const Scene& scene)
-    : scene_(&scene), share_(scene.method.update == UpdateKind::flip ? kShare : 1) {
+    : scene_(&scene),
+      share_(scene.method.update == UpdateKind::flip ? kShare : 1),
+      whole_(scene.method.strain == StrainKind::average_re_extrapolated ||
+             scene.method.strain == StrainKind::last_re_extrapolated),
+      holds_(scene.method.update == UpdateKind::flip) {
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const auto* wall = std::get_if<WallSpec>(&scene.boundaries[b].condition);
     if (!wall || wall->place != WallPlace::surface) continue;
@@ -70,165 +59,6 @@ void SurfaceWalls<Dim>::prepare(const State<Dim>& state, double t, double dt, co
   if (stale_) list(state, prescribed);
   stale_ = false;
   find_gaps(state);
-}
-
-template <int Dim>
-void SurfaceWalls<Dim>::list(const State<Dim>& state, const Prescribed& prescribed) {
-  columns_.clear();
-  at_.clear();
-  first_.clear();
-  const auto& tiling = state.tiling;
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const Wall& wall = walls_[w];
-    first_.push_back(static_cast<int>(at_.size()));
-    for (const auto& stack : tiling.stacks) {
-      const int layer = wall.row - stack.first_node[wall.axis];
-      if (layer < 0 || layer >= kTileSide) continue;
-      for (int local = 0; local < kTileNodes<Dim>; ++local) {
-        const NodeIndex<Dim> node = tiling.node(stack, local);
-        if (node[wall.axis] != wall.row) continue;
-        for (int n = stack.begin; n < stack.end; ++n) {
-          const int field = tiling.node_tiles[static_cast<std::size_t>(n)].field;
-          if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
-          at_.emplace_back(n * kTileNodes<Dim> + local, static_cast<int>(columns_.size()));
-          list_column(state, static_cast<int>(w), node, field, prescribed);
-        }
-      }
-    }
-    std::sort(at_.begin() + first_.back(), at_.end());
-  }
-  first_.push_back(static_cast<int>(at_.size()));
-  list_near(state);
-}
-
-/// Rows that another condition prescribes are left to it. The last row inside may belong to one column only:
-/// where another wall is as near as two cells, the rows beyond the plane are held as they are.
-template <int Dim>
-void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIndex<Dim>& node, int field,
-                                    const Prescribed& prescribed) {
-  const Wall& wall = walls_[static_cast<std::size_t>(w)];
-  const auto at_other = [&](const NodeIndex<Dim>& n, int axis, int margin) {
-    return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
-      return &other != &wall && other.axis == axis && other.out * (n[axis] - other.row) >= -margin;
-    });
-  };
-  Column& column = columns_.emplace_back();
-  column.wall = w;
-  column.gap = std::numeric_limits<double>::infinity();
-  column.sideways = 0;
-  column.touches = false;
-  NodeIndex<Dim> row = node;
-  for (int k = 0; k < kRows; ++k) {
-    row[wall.axis] = wall.row + wall.out * (k - kInside);
-    const bool free = k >= kInside - (wall.cut < kThin ? 2 : 1) && !prescribed(row, wall.axis) &&
-                      !(k < kInside && at_other(row, wall.axis, 1));
-    column.slot[static_cast<std::size_t>(k)] = free ? state.tiling.slot(row, field) : -1;
-  }
-  if (!(wall.friction > 0)) return;
-  for (int d = 0; d < Dim; ++d)
-    if (d != wall.axis && !prescribed(node, d) && !at_other(node, d, 1)) column.sideways |= 1u << d;
-}
-
-template <int Dim>
-void SurfaceWalls<Dim>::list_near(const State<Dim>& state) {
-  near_.clear();
-  const auto& tiles = state.tiling.tiles;
-  for (std::size_t w = 0; w < walls_.size(); ++w) {
-    const Wall& wall = walls_[w];
-    const auto begin = at_.begin() + first_[w], end = at_.begin() + first_[w + 1];
-    for (std::size_t t = 0; t < tiles.size(); ++t) {
-      const ParticleTile<Dim>& tile = tiles[t];
-      const int layer = wall.row - tile.window[wall.axis];
-      if (layer < 0 || layer >= kWindowSide || state.field_rigid[static_cast<std::size_t>(tile.field)])
-        continue;
-      Near near{static_cast<int>(t), static_cast<int>(w), {}, {}};
-      for (int k = 0; k < kAcross; ++k) {
-        int corner = 0, local = 0, rest = k;
-        for (int d = 0, bit = 1, stride = 1; d < Dim; ++d, bit *= 2, stride *= kTileSide) {
-          const int offset = d == wall.axis ? layer : rest % kWindowSide;
-          if (d != wall.axis) rest /= kWindowSide;
-          corner += offset >= kTileSide ? bit : 0;
-          local += offset % kTileSide * stride;
-        }
-        const int slot = tile.slot[corner] + local;
-        const auto found = std::lower_bound(begin, end, std::pair(slot, 0));
-        near.column[static_cast<std::size_t>(k)] = found != end && found->first == slot ? found->second : -1;
-      }
-      near_.push_back(near);
-    }
-  }
-}
-
-/// The gaps of the columns that the particles of one tile are near to.
-template <int Dim>
-void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
-  const Wall& wall = walls_[static_cast<std::size_t>(near.wall)];
-  const ParticleTile<Dim>& tile = state.tiling.tiles[static_cast<std::size_t>(near.tile)];
-  const auto& particles = state.particles;
-  const double inverse = state.grid.inverse_cell;
-  const double* position[Dim];
-  const double* deformation[Dim * Dim];
-  for (int d = 0; d < Dim; ++d) {
-    position[d] = particles.column(Quantity::position, d);
-  }
-  for (int e = 0; e < Dim * Dim; ++e) deformation[e] = particles.column(Quantity::deformation_gradient, e);
-  near.gap.fill({});
-  for (int r = tile.run_begin; r < tile.run_end; ++r) {
-    const ParticleRun<Dim>& run = state.tiling.runs[static_cast<std::size_t>(r)];
-    const BodyView<Dim>& body = state.bodies[static_cast<std::size_t>(run.body)];
-    for (std::uint32_t p = run.begin; p < run.end; ++p) {
-      const double inside =
-          wall.out * (wall.plane - (position[wall.axis][p] - state.grid.origin[wall.axis]) * inverse);
-      if (inside > 2 * kFar || inside < -kRowsBeyond) continue;
-      const auto extent = [&](int axis) {
-        double sum = 0;
-        for (int d = 0; d < Dim; ++d) sum += std::abs(deformation[axis * Dim + d][p]) * body.half_size[d];
-        return sum * inverse;
-      };
-      const double gap = inside - extent(wall.axis);
-      if (!(gap < kFar)) continue;
-      int low[Dim], high[Dim];
-      double xi[Dim], width[Dim];
-      for (int d = 0; d < Dim; ++d) {
-        if (d == wall.axis) continue;
-        xi[d] = (position[d][p] - state.grid.origin[d]) * inverse - tile.window[d];
-        width[d] = kOver * extent(d);
-        low[d] = std::max(0, static_cast<int>(std::floor(xi[d] - kReach)) + 1);
-        high[d] = std::min(kWindowSide - 1, static_cast<int>(std::ceil(xi[d] + kReach)) - 1);
-      }
-      const int first = wall.axis == 0 ? 1 : 0, second = wall.axis == 2 ? 1 : 2;
-      if constexpr (Dim == 2) {
-        for (int i = low[first]; i <= high[first]; ++i) {
-          const double t = std::abs(i - xi[first]);
-          auto& least = near.gap[static_cast<std::size_t>(i)].of(t < width[first], t < 1);
-          least = std::min(least, gap);
-        }
-      } else {
-        for (int j = low[second]; j <= high[second]; ++j)
-          for (int i = low[first]; i <= high[first]; ++i) {
-            const double s = std::abs(i - xi[first]), t = std::abs(j - xi[second]);
-            const bool over = s < width[first] && t < width[second];
-            auto& least = near.gap[static_cast<std::size_t>(j * kWindowSide + i)].of(over, s < 1 && t < 1);
-            least = std::min(least, gap);
-          }
-      }
-    }
-  }
-}
-
-template <int Dim>
-void SurfaceWalls<Dim>::find_gaps(const State<Dim>& state) {
-  const auto n = static_cast<std::int64_t>(near_.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 16)
-  for (std::int64_t k = 0; k < n; ++k) measure(state, near_[static_cast<std::size_t>(k)]);
-  for (Column& column : columns_) column.gaps = {};
-  for (const Near& near : near_)
-    for (std::size_t k = 0; k < kAcross; ++k) {
-      if (near.column[k] < 0) continue;
-      Column& column = columns_[static_cast<std::size_t>(near.column[k])];
-      column.gaps.take(near.gap[k]);
-    }
-  for (Column& column : columns_) column.gap = state.grid.cell * column.gaps.least(kSlack);
 }
 
 /// On row k, at s_k = k − ξ cells from the plane, the velocity becomes u + g s_k with the slope of the least
@@ -294,13 +124,17 @@ void SurfaceWalls<Dim>::decide(const State<Dim>& state) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
     column.pushed = 0;
     column.touches = false;
-    if (!(column.gap < kFar * state.grid.cell)) continue;
+    if (!(column.gap < kFar * state.grid.cell)) {
+      column.stuck = false;
+      continue;
+    }
     column.target = closing(column);
     column.touches = -wall.out * of_momentum(state, column, column.target, wall.axis).sum > 0;
     if (!column.touches && column.gap < near) {
       column.touches = wall.out * of_momentum(state, column, wall.speed, wall.axis).sum > 0;
       if (column.touches) column.target = column.gap < 0 ? closing(column) : wall.speed;
     }
+    column.stuck = column.stuck && column.touches;
     if (!column.touches) continue;
     for (const int slot : column.slot)
       if (slot >= 0) held_[static_cast<std::size_t>(slot)] |= static_cast<std::uint8_t>(1u << wall.axis);
@@ -308,16 +142,45 @@ void SurfaceWalls<Dim>::decide(const State<Dim>& state) {
 }
 
 template <int Dim>
-void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
+void SurfaceWalls<Dim>::straighten_velocity(State<Dim>& state, Nodal velocities, const Column& column,
+                                            double target, int axis) const {
   const double* mass = state.nodes.column(Nodal::mass);
+  double* v = state.nodes.column(velocities, axis);
+  const Change change = straighten(state, column, target, [&](int slot, double) { return v[slot]; });
+  for (std::size_t k = 0; k < kRows; ++k)
+    if (change.row[k] != 0) v[column.slot[k]] += change.row[k] / mass[column.slot[k]];
+}
+
+template <int Dim>
+void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities, BoundaryBooks<Dim>& books) {
   for (const Column& column : columns_) {
     if (!column.touches) continue;
-    const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-    double* v = state.nodes.column(velocities, wall.axis);
-    const Change change = straighten(state, column, column.target, [&](int slot, double) { return v[slot]; });
-    for (std::size_t k = 0; k < kRows; ++k)
-      if (change.row[k] != 0) v[column.slot[k]] += change.row[k] / mass[column.slot[k]];
+    straighten_velocity(state, velocities, column, column.target,
+                        walls_[static_cast<std::size_t>(column.wall)].axis);
+    for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+      if (velocities == Nodal::re_extrapolated) books.friction_work += rubbing_work(state, column, d, rubbed);
+      if (column.stuck) straighten_velocity(state, velocities, column, 0, d);
+    });
   }
+}
+
+/// What particles lose by sliding, J, with the impulse J along the wall: −J·½(v^c + v'^c) + ½(J₁ + J₃)·(v⁺ −
+/// v^c); v^c and v'^c are what the strains see, J₁ and J₃ what holds put into them, v⁺ the velocity after J.
+template <int Dim>
+double SurfaceWalls<Dim>::rubbing_work(const State<Dim>& state, const Column& column, int axis,
+                                       const Rubbed& rubbed) const {
+  const double *mass = state.nodes.column(Nodal::mass), *end = state.nodes.column(Nodal::velocity, axis),
+               *back = state.nodes.column(Nodal::re_extrapolated, axis);
+  const Change third =
+      column.stuck ? straighten(state, column, 0, [&](int slot, double) { return back[slot]; }) : Change{};
+  double gain = 0;
+  for (std::size_t k = 0; k < kRows; ++k) {
+    const int slot = column.slot[k];
+    if (slot < 0 || !(mass[slot] > 0)) continue;
+    gain += 0.5 * rubbed.impulse[k] * (rubbed.held[k] + back[slot] + third.row[k] / mass[slot]) -
+            0.5 * (rubbed.first[k] + third.row[k]) * (end[slot] - rubbed.held[k]);
+  }
+  return -gain;
 }
 
 /// Impulses that the particles take too.
@@ -330,6 +193,16 @@ void SurfaceWalls<Dim>::push(State<Dim>& state, double dt, Column& column, const
   column.pushed -= wall.out * impulse;
   books.force[static_cast<std::size_t>(wall.boundary)][wall.axis] += impulse / dt;
   books.work += impulse * wall.speed;
+}
+
+/// What sticks keeps its slip in its particles, as pairs do: no force, but the grid does not see it.
+template <int Dim>
+void SurfaceWalls<Dim>::hold_slip(State<Dim>& state, const Column& column) {
+  for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+    const Change change = of_momentum(state, column, 0, d);
+    add(state, Nodal::momentum, column, d, change, 1);
+    std::copy(change.row, change.row + kRows, rubbed.first.begin());
+  });
 }
 
 template <int Dim>
@@ -348,6 +221,7 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
       push(state, dt, column, both, 1, books);
       continue;
     }
+    if (column.stuck) hold_slip(state, column);
     const Change start = of_momentum(state, column, column.target, wall.axis);
     const Change forced =
         straighten(state, column, 0, [&](int slot, double mass) { return dt * force[slot] / mass; });
@@ -380,35 +254,65 @@ void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryBooks<Dim>
     push(state, dt, column, change, factor, books);
     add(state, Nodal::momentum, column, wall.axis, change, factor);
   }
-  for (const Column& column : columns_)
-    if (column.sideways && column.touches) rub(state, dt, column, books);
+  for (Column& column : columns_)
+    if (column.touches)
+      rub(state, dt, column, books);
+    else
+      column.stuck = false;
 }
 
 /// Coulomb: the impulse that stops the slip at the plane, at most μ times the one along the normal.
 template <int Dim>
-void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, const Column& column,
-                            BoundaryBooks<Dim>& books) const {
+void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books) {
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
   Change stick[Dim];
   double squared = 0;
-  for (int d = 0; d < Dim; ++d) {
-    if (!(column.sideways >> d & 1)) continue;
+  for_each_sideways(column, [&](int d, Rubbed&) {
     stick[d] = of_momentum(state, column, 0, d);
     squared += stick[d].sum * stick[d].sum;
-  }
+  });
   const double needed = std::sqrt(squared);
   const bool sticks = std::isinf(wall.friction) || needed <= wall.friction * column.pushed;
   const double factor = sticks ? 1 : wall.friction * std::max(0.0, column.pushed) / needed;
-  for (int d = 0; d < Dim; ++d) {
-    if (!(column.sideways >> d & 1)) continue;
+  const double* mass = state.nodes.column(Nodal::mass);
+  for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+    const double *momentum = state.nodes.column(Nodal::momentum, d),
+                 *force = state.nodes.column(Nodal::force, d);
+    if (!column.stuck) rubbed.first = {};
+    for (std::size_t k = 0; k < kRows; ++k) {
+      const int slot = column.slot[k];
+      if (slot < 0 || !(mass[slot] > 0)) continue;
+      rubbed.impulse[k] = factor * stick[d].row[k];
+      rubbed.held[k] = (momentum[slot] - dt * force[slot]) / mass[slot];
+    }
     add(state, Nodal::momentum, column, d, stick[d], factor);
     add(state, Nodal::force, column, d, stick[d], factor / dt);
     books.force[static_cast<std::size_t>(wall.boundary)][d] += factor * stick[d].sum / dt;
-    const double *mass = state.nodes.column(Nodal::mass), *momentum = state.nodes.column(Nodal::momentum, d);
-    for (std::size_t k = 0; k < kRows; ++k)
+    for (std::size_t k = 0; !whole_ && k < kRows; ++k)
       if (stick[d].row[k] != 0)
-        books.friction_work -= factor * stick[d].row[k] * momentum[column.slot[k]] / mass[column.slot[k]];
-  }
+        books.friction_work -= rubbed.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
+  });
+  column.stuck = sticks && holds_;
+}
+
+template <int Dim>
+void SurfaceWalls<Dim>::keep_stuck() {
+  if (columns_.empty()) return;
+  stuck_.clear();
+  for (const Column& column : columns_)
+    if (column.stuck) stuck_.push_back(column.key);
+  std::sort(stuck_.begin(), stuck_.end());
+}
+
+template <int Dim>
+void SurfaceWalls<Dim>::visit(Archive& archive) {
+  if (!holds_ || walls_.empty()) return;
+  if (archive.reading())
+    columns_.clear();
+  else
+    keep_stuck();
+  archive.list("walls/stuck", stuck_);
+  stale_ = true;
 }
 
 template class SurfaceWalls<2>;

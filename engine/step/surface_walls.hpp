@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
 
 namespace mpmfast {
@@ -34,6 +35,10 @@ struct BoundaryBooks {
 /// particles gain and store is the wall's work to round-off. To react to −P v_s too (NN Eq. 2.7) takes ½ m
 /// v_s² of it in every step; to leave it out for good leaves an approach in the particles that the grid never
 /// sees. A small share of it ends that within as many steps as its inverse; other updates need all of it.
+///
+/// Friction that slides is a force. What sticks is held along the wall as it is across it, in v' and while it
+/// lasts in the next step's v_s: the friction of a body at rest would work on slips that particles happen to
+/// bring (tools/manual/theory.md, "The energy of a contact").
 template <int Dim>
 class SurfaceWalls {
  public:
@@ -43,10 +48,16 @@ class SurfaceWalls {
   static constexpr int kInside = 2;      ///< rows of a column on the inner side of the plane, at most
   static constexpr int kRowsBeyond = 3;  ///< and at or beyond it: as far out as a basis reaches
   static constexpr int kRows = kInside + kRowsBeyond;
+  static constexpr double kFar = 1;  ///< cells: what is further away cannot reach a plane in a step
+  /// Cells from the last row inside to the plane: with less, the next row inside shares the line. A thin
+  /// sliver of a cell by itself would need a small time step.
+  static constexpr double kThin = 0.5;
 
   explicit SurfaceWalls(const Scene& scene);
   bool empty() const { return walls_.empty(); }
   void forget_nodes() { stale_ = true; }
+  /// What lasts from one step to the next: the columns that stick.
+  void visit(Archive& archive);
 
   /// Planes, columns and gaps of the step from t to t + dt, after the projection of masses.
   void prepare(const State<Dim>& state, double t, double dt, const Prescribed& prescribed);
@@ -54,8 +65,9 @@ class SurfaceWalls {
   void decide(const State<Dim>& state);
   /// Axes along which a wall holds the slot in this step, a bit each.
   unsigned held_axes(int slot) const { return held_.empty() ? 0 : held_[static_cast<std::size_t>(slot)]; }
-  /// Puts nodal velocities on the lines of the columns that touch.
-  void impose_velocity(State<Dim>& state, Nodal velocities);
+  /// Puts nodal velocities on the lines of the columns that touch: `velocity`, before forces, or
+  /// `re_extrapolated`, after them, with what friction takes of both.
+  void impose_velocity(State<Dim>& state, Nodal velocities, BoundaryBooks<Dim>& books);
   /// Before the momentum update: reactions to the forces.
   void react(State<Dim>& state, double dt, BoundaryBooks<Dim>& books);
   /// After the second contact correction: what it pushes into walls, and friction.
@@ -98,6 +110,9 @@ class SurfaceWalls {
     double target;      ///< m/s along the axis, at the plane
     double pushed;      ///< N s so far in this step, inwards
     bool touches;
+    bool stuck;         ///< along the wall, at the end of the last friction
+    int rubbed;         ///< the first of its axes in rubbed_
+    std::uint64_t key;  ///< of the wall, the line across it and the field
   };
   /// A tile of particles near a wall, and the columns of its window.
   struct Near {
@@ -111,7 +126,14 @@ class SurfaceWalls {
     double sum = 0;
   };
 
+  /// Friction of a column along an axis, by row: what holds it before forces and its impulse, N s; the
+  /// velocity that the strain before forces sees, m/s.
+  struct Rubbed {
+    std::array<double, kRows> first, impulse, held;
+  };
+
   void list(const State<Dim>& state, const Prescribed& prescribed);
+  void keep_stuck();
   void list_column(const State<Dim>& state, int wall, const NodeIndex<Dim>& node, int field,
                    const Prescribed& prescribed);
   void list_near(const State<Dim>& state);
@@ -124,11 +146,23 @@ class SurfaceWalls {
            double factor) const;
   void push(State<Dim>& state, double dt, Column& column, const Change& change, double factor,
             BoundaryBooks<Dim>& books) const;
-  void rub(State<Dim>& state, double dt, const Column& column, BoundaryBooks<Dim>& books) const;
+  void hold_slip(State<Dim>& state, const Column& column);
+  void rub(State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books);
+  double rubbing_work(const State<Dim>& state, const Column& column, int axis, const Rubbed& rubbed) const;
+  /// Calls f(axis, Rubbed) for every axis along which the wall may rub the column.
+  template <class F>
+  void for_each_sideways(const Column& column, F f) {
+    for (int d = 0, k = column.rubbed; d < Dim; ++d)
+      if (column.sideways >> d & 1) f(d, rubbed_[static_cast<std::size_t>(k++)]);
+  }
+  void straighten_velocity(State<Dim>& state, Nodal velocities, const Column& column, double target,
+                           int axis) const;
   double closing(const Column& column) const;
 
   const Scene* scene_;
   double share_;   ///< of −P v_s that particles take as a force
+  bool whole_;     ///< strains see both velocities, those before forces and those that particles take back
+  bool holds_;     ///< what sticks
   double dt_ = 0;  ///< of this step
   bool stale_ = true;
   std::vector<Wall> walls_;
@@ -137,6 +171,8 @@ class SurfaceWalls {
   std::vector<int> first_;               ///< by wall, into at_
   std::vector<std::uint8_t> held_;       ///< by slot: see held_axes
   std::vector<Near> near_;
+  std::vector<Rubbed> rubbed_;
+  std::vector<std::uint64_t> stuck_;  ///< keys of columns, in order: while the list is made anew
 };
 
 extern template class SurfaceWalls<2>;

@@ -82,6 +82,7 @@ void Step<Dim>::visit(Archive& archive) {
   archive.column("step/seconds", clock_.seconds().data(), clock_.seconds().size());
   visit_sums(archive, "sums", sums_);
   contact_.visit(archive);
+  conditions_.visit(archive);
   visit_particles(archive, state_.particles);
   state_.tiling.visit(archive, state_.particles, state_.body_field);
   if (!archive.reading()) return;

@@ -199,6 +199,25 @@ TEST_CASE("rigid bodies that turn and travel, pistons, walls and gravity go on t
       15, 24);
 }
 
+TEST_CASE("what sticks to a wall goes on sticking, to the bit") {
+  const std::string yaml = R"(
+space: plane_strain
+grid: {size: [8 mm, 8 mm], cell: 0.5 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: block, box: {from: [2 mm, 1.2 mm], to: [6 mm, 4 mm]}, material: soft, velocity: [3 m/s, -9 m/s]}]
+boundaries: {bottom: {wall: sliding, position: 1.2 mm, at: surface, friction: 0.8}}
+)";
+  check_goes_on<2>(yaml, 19, 30);
+  const Scene scene = scene_from(yaml);
+  Step<2> step(scene);
+  advance(step, 19);
+  std::vector<std::uint64_t> stuck;
+  Memory memory = written(step);
+  memory.list("walls/stuck", stuck);
+  CHECK(stuck.size() >= 4);
+}
+
 /// Two blocks of a material that meet.
 std::string blocks(const char* space, const char* material) {
   return std::string("space: ") + space +

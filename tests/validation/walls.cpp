@@ -177,6 +177,27 @@ TEST_CASE("a block sticks to a wall that holds, and slides freely without fricti
   CHECK(std::abs(speed("{wall: held, at: surface, position: 9.7 mm}")) < 0.05);
 }
 
+TEST_CASE("walls that rub what is at rest on them make no energy") {
+  for (const char* strain : {"average+", "first"}) {
+    const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [40 mm, 14 mm], cell: 1 mm}
+time: {end: 10 ms, cfl: 0.5}
+materials: {rubber: {model: neo_hookean, density: 1 g/cm^3, bulk: 24.5 MPa, shear: 9.4 MPa}}
+bodies: [{name: block, box: {from: [10 mm, 1.7 mm], to: [30 mm, 11.7 mm]}, material: rubber}]
+boundaries:
+  bottom: {wall: sliding, at: surface, position: 1.7 mm, friction: 1}
+  top: {piston: 0.2 m/s, at: surface, position: 11.7 mm, friction: 1}
+)",
+                                   {{"method.strain", strain}});
+    CAPTURE(std::string(strain));
+    const Outcome out = run(scene);
+    CHECK(out.failure == "");
+    // Measured −4e-5, 3e-4; without holding what sticks 18 and 6 %.
+    CHECK(std::abs(out.summary.energy_error) < 1e-3);
+  }
+}
+
 TEST_CASE("walls at the surface give the same bits on one, two and three threads") {
   const std::vector<Override> fine{{"grid.cell", "0.5 mm"}, {"time.end", "0.2 ms"}, {"output.frames", "0"}};
   const Outcome one = run(scene_from(kSlide, fine), 1);
@@ -196,35 +217,59 @@ double hertz_force(double path) {
   return low;
 }
 
-TEST_CASE("slow: cylinders pressed by a piston come to Hertz's force, without a kink where it passes a row") {
-  const auto pressed = [](const char* strain, double largest) {
-    const Outcome out = run(scene_from(R"(
+/// Force over Hertz's, less one, at the end, where `cylinders` of R = 20 cells stand between a floor and a
+/// piston and are pressed to 3 % of their height. It shall come there without a kink.
+double hertz_error(int cylinders, double floor, double friction, const std::vector<Override>& method) {
+  const auto disk = [&](int k) {
+    return fmt::format(
+        "  - {{name: cylinder{}, disk: {{centre: [12 mm, {} mm], radius: 10 mm}}, material: ceramic, "
+        "seeding: rings}}\n",
+        k, floor + 10 + 20 * k);
+  };
+  std::string text = R"(
 space: plane_strain
-grid: {size: [24 mm, 46 mm], cell: 0.5 mm}
 time: {end: 800 us, cfl: 0.5}
 materials: {ceramic: {model: neo_hookean, density: 2.5 g/cm^3, young: 94.53 GPa, poisson: 0.07}}
-bodies:
-  - {name: lower, disk: {centre: [12 mm, 13 mm], radius: 10 mm}, material: ceramic, seeding: rings}
-  - {name: upper, disk: {centre: [12 mm, 33 mm], radius: 10 mm}, material: ceramic, seeding: rings}
-boundaries:
-  bottom: {wall: sliding, position: 3 mm, at: surface, friction: 0.2}
-  top: {piston: 0.75 m/s, position: 43 mm, at: surface, friction: 0.2}
 contact: {law: coulomb, friction: 0.2}
 output: {frames: 0, history: 100}
+bodies:
+)";
+  for (int k = 0; k < cylinders; ++k) text += disk(k);
+  text +=
+      fmt::format(R"(
+grid: {{size: [24 mm, {} mm], cell: 0.5 mm}}
+boundaries:
+  bottom: {{wall: sliding, position: {} mm, at: surface, friction: {}}}
+  top: {{piston: {} m/s, position: {} mm, at: surface, friction: {}}}
 )",
-                                       {{"method.strain", strain}}));
-    REQUIRE(out.failure == "");
-    const auto &time = out.history.at("time_s"), &above = out.history.at("top.force_y_N"),
-               &below = out.history.at("bottom.force_y_N");
-    const auto error = [&](std::size_t k) {
-      return 0.5 * (below[k] - above[k]) / hertz_force(0.75 * time[k]) - 1;
-    };
-    CHECK(std::abs(error(time.size() - 1)) < largest);
-    for (std::size_t k = time.size() / 2; k < time.size(); ++k)
-      CHECK(std::abs(error(k) - error(k - 1)) < 0.02);
+                  6 + 20 * cylinders, floor, friction, 0.375 * cylinders, floor + 20 * cylinders, friction);
+  const Outcome out = run(scene_from(text.c_str(), method));
+  REQUIRE(out.failure == "");
+  const auto &time = out.history.at("time_s"), &above = out.history.at("top.force_y_N"),
+             &below = out.history.at("bottom.force_y_N");
+  const auto error = [&](std::size_t k) {
+    return 0.5 * (below[k] - above[k]) / hertz_force(0.75 * time[k]) - 1;
   };
-  pressed("average", 0.03);    // measured +2.2 %
-  pressed("average+", 0.075);  // wanted 3 %; measured +6.5 %: friction of walls at rest makes energy, 2.2 %
+  for (std::size_t k = time.size() / 2; k < time.size(); ++k) CHECK(std::abs(error(k) - error(k - 1)) < 0.02);
+  return error(time.size() - 1);
+}
+
+TEST_CASE(
+    "slow: a cylinder between walls comes to Hertz's force, without a kink where a piston passes a row") {
+  // Hertz knows no friction. Measured −0.4, 0.8, 1.0 %; with the floor between two rows 1.3, 2.3
+  for (const char* basis : {"ugimp", "bspline2", "lcpdi"})
+    CHECK(std::abs(hertz_error(1, 3, 0, {{"method.basis", basis}})) < 0.03);
+  for (const double floor : {3.1, 3.25}) CHECK(std::abs(hertz_error(1, floor, 0, {})) < 0.03);
+  CHECK(std::abs(hertz_error(1, 3, 0, {{"method.strain", "average"}})) < 0.03);  // 1.5 %
+}
+
+TEST_CASE("slow: two cylinders between walls with friction come to Hertz's force") {
+  // Measured 2.1, 2.7 %. Friction at the walls, which one cylinder alone has too, is 2 to 3 of it.
+  for (const double floor : {3.125, 3.25}) CHECK(std::abs(hertz_error(2, floor, 0.2, {})) < 0.03);
+  CHECK(std::abs(hertz_error(2, 3, 0.2, {{"method.strain", "average"}})) < 0.03);  // 2.2 %
+  // Where the two meet on a row of nodes, those a row further have next to none of one body's mass: 6.5 %,
+  // and 2.5 with a mass_screen of 1e-4, which elsewhere lets forces throw what it screens.
+  CHECK(std::abs(hertz_error(2, 3, 0.2, {})) < 0.075);
 }
 
 TEST_CASE("slow: no particle of the pressed grains stands beyond a wall") {
