@@ -75,7 +75,10 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
     } else if (correction == Correction::final) {
       entry.second = entry.impulse + entry.passed;
       entry.touching = one_set_ ? touches_on(state, node, entry) : acts;
-      if (one_set_) entry.slip_pulled = slip_of(state, node, entry);
+      if (one_set_) {
+        entry.slip_pulled = slip_of(state, node, entry);
+        entry.spring = spring_of(state, node, entry);
+      }
     }
     if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
       entry.slip_end = slip_of(state, node, entry);

@@ -124,7 +124,7 @@ void Contact<Dim>::remember() {
   memory_.reserve(list_.entries.size());
   for (std::size_t k = 0; k < list_.entries.size(); ++k) {
     const auto& entry = list_.entries[k];
-    Memory m{keys_[k], entry.touching, entry.stuck, {}};
+    Memory m{keys_[k], entry.touching, entry.stuck, entry.spring, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
     memory_.push_back(m);
   }
@@ -147,6 +147,7 @@ void Contact<Dim>::recall(const State<Dim>& state) {
       if (last == memory_.end() || last->key != key) continue;
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;
+      entry.spring_before = last->spring;
       std::memcpy(entry.plane, last->plane, sizeof entry.plane);
     }
 }

@@ -52,6 +52,8 @@ class Contact {
 
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
+  /// The time in which the fastest wave crosses a cell, s.
+  void set_crossing(double seconds) { crossing_ = seconds; }
 
   /// Adds the slots of nodes where surfaces meet that may part (not bonds).
   void list_meeting_slots(std::vector<int>& slots) const;
@@ -96,6 +98,7 @@ class Contact {
   struct Memory {
     std::uint64_t key;
     bool touching, stuck;
+    double spring;
     double plane[Dim + 1];
   };
 
@@ -155,6 +158,8 @@ class Contact {
   void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
   bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
                   const ContactEntry<Dim>& entry) const;
+  double spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                   const ContactEntry<Dim>& entry) const;
   double force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const;
   void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
   double friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const;
@@ -173,7 +178,8 @@ class Contact {
   std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
   const Conditions<Dim>* conditions_ = nullptr;
   double cell_, cell_volume_;
-  double dt_ = 0;  ///< of the step, s
+  double dt_ = 0;        ///< of the step, s
+  double crossing_ = 0;  ///< s
   bool first_correction_;
   bool one_set_;                 ///< the touching pairs are decided once a step
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction

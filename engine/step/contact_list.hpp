@@ -30,6 +30,8 @@ struct ContactEntry {
   bool touching = false;      ///< in contact at the second correction
   bool stuck = false;         ///< the second correction leaves no slip
   bool stuck_before = false;  ///< that of the last step did
+  double spring = 0;          ///< m: how far the surfaces would come together if nothing pressed them apart
+  double spring_before = 0;   ///< at the end of the last step
   bool parts = false;         ///< its law knows no tie
   bool alone = false;         ///< its node has these two fields only
   double friction_work = 0;   ///< J, of this step

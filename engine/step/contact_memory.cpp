@@ -80,7 +80,7 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   }
   need.nodes = std::max(need.nodes, static_cast<double>(step.contact_list().nodes.size()));
   double of_node = sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + sizeof(ContactEntry<Dim>);
-  constexpr double kMemory = 8 * (Dim + 4), kGrowth = 1.25;  // lists grow by doubling
+  constexpr double kMemory = 8 * (Dim + 5), kGrowth = 1.25;  // lists grow by doubling
   if (scene.contact.hysteresis > 0 || scene.contact.warm_start || scene.contact.persistent)
     of_node += kMemory;
   const double ahead =

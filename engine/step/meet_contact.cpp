@@ -130,11 +130,26 @@ double Contact<Dim>::area(const State<Dim>& state, const ContactNode<Dim>& node,
 
 /// Does the pair stay in contact until a force pulls it apart? Held by its velocities, a surface drifts from
 /// where the particles' extents say that it is; to close such a gap δ against N would lose N δ, time and
-/// again.
+/// again. A gap that would not close if the pair were let go is none of this kind: that pair carries a load
+/// where bodies do not touch (beside a round contact, at the ends of a sliding block).
 template <int Dim>
 bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
-  constexpr double kDrift = 0.1;  // cells; with 0.3 the ends of a sliding block plough and hop
-  return one_set_ && entry.touched && entry.separation < kDrift * cell_;
+  constexpr double kLeast = 0.05, kMost = 0.3;  // cells
+  return one_set_ && entry.touched &&
+         entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
+}
+
+/// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),
+/// T the time in which a wave crosses a cell. That is 2 h ε between bodies that are strained by ε, a layer of
+/// h on each side. A mean over some ten steps.
+template <int Dim>
+double Contact<Dim>::spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                               const ContactEntry<Dim>& entry) const {
+  constexpr double kNew = 0.1;
+  const double reduced = meet(state, node, entry.a, together(state, node, entry.a, entry.b)).reduced;
+  const double pressed = std::max(0.0, -entry.second.dot(entry.normal));
+  const double now = 0.5 * pressed * crossing_ * crossing_ / (reduced * dt_);
+  return entry.touched ? entry.spring_before + kNew * (now - entry.spring_before) : now;
 }
 
 /// The approach that closes a gap by the end of the step, m/s: an impulse of the set leaves it.

@@ -51,14 +51,19 @@ const State<Dim>& Step<Dim>::seeded(const Scene& scene) {
 }
 
 template <int Dim>
-double Step<Dim>::stable_dt() const {
+double Step<Dim>::fastest() const {
   double fastest = std::max({fastest_, conditions_.fastest(), rigid_.fastest()});
   for (const auto& body : scene_->bodies) {
     double squared = 0;
     for (std::size_t d = 0; d < Dim; ++d) squared += body.velocity[d] * body.velocity[d];
     fastest = std::max(fastest, std::sqrt(squared));
   }
-  return std::min(scene_->time.max_step, scene_->time.cfl * scene_->grid.cell / fastest);
+  return fastest;
+}
+
+template <int Dim>
+double Step<Dim>::stable_dt() const {
+  return std::min(scene_->time.max_step, scene_->time.cfl * scene_->grid.cell / fastest());
 }
 
 template <int Dim>
@@ -182,6 +187,7 @@ void Step<Dim>::correct_contact(Correction correction, double dt) {
   if (!plan_.contact) return;
   if (correction == Correction::initial) {
     contact_.open_books(rigid_.pivots());
+    contact_.set_crossing(scene_->grid.cell / fastest());
     if (!plan_.first_correction) return;
   }
   clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, correction, dt); });

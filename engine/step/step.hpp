@@ -82,6 +82,8 @@ class Step {
   void visit(Archive& archive);
 
  private:
+  /// What crosses a cell first: waves in particles, and what is told to move, m/s.
+  double fastest() const;
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
   void project();

@@ -44,8 +44,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
-/// The next step asks the last one's entries for how they touch (bits: touching, stuck) and their planes
-/// alone (remember).
+/// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes and how
+/// they are pressed alone (remember).
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
@@ -53,18 +53,21 @@ void Contact<Dim>::visit(Archive& archive) {
   archive.list("contact/keys", keys_);
   list_.entries.resize(keys_.size());
   std::vector<std::uint8_t> touching(keys_.size());
-  std::vector<double> planes((Dim + 1) * keys_.size());
+  std::vector<double> planes((Dim + 1) * keys_.size()), springs(keys_.size());
   const auto for_each_entry = [&](const auto& f) {
     for (std::size_t k = 0; k < keys_.size(); ++k)
-      f(list_.entries[k], touching[k], planes.data() + (Dim + 1) * k);
+      f(list_.entries[k], touching[k], springs[k], planes.data() + (Dim + 1) * k);
   };
-  for_each_entry([](const auto& entry, std::uint8_t& touch, double* plane) {
+  for_each_entry([](const auto& entry, std::uint8_t& touch, double& spring, double* plane) {
+    spring = entry.spring;
     touch = static_cast<std::uint8_t>(entry.touching | entry.stuck << 1);
     std::copy(entry.plane, entry.plane + Dim + 1, plane);
   });
   archive.column("contact/touching", touching.data(), touching.size());
+  archive.column("contact/springs", springs.data(), springs.size());
   archive.column("contact/planes", planes.data(), planes.size());
-  for_each_entry([](auto& entry, std::uint8_t touch, const double* plane) {
+  for_each_entry([](auto& entry, std::uint8_t touch, double spring, const double* plane) {
+    entry.spring = spring;
     entry.touching = touch & 1;
     entry.stuck = touch & 2;
     std::copy(plane, plane + Dim + 1, entry.plane);

@@ -119,8 +119,8 @@ TEST_CASE("slow: incline: normals of widest margin meet every slope, with domain
     const char* basis;
     double turned, sticking;  ///< wanted 0.01
   };
-  for (const Reached& reached : {Reached{kDefault, "ugimp", 0, 0.02},     // measured 1.5 %
-                                 Reached{kDefault, "ugimp", 30, 0.09},    // -8.4 %
+  for (const Reached& reached : {Reached{kDefault, "ugimp", 0, 0.02},     // measured 1.8 %
+                                 Reached{kDefault, "ugimp", 30, 0.05},    // -4.6 %
                                  Reached{kMargin, "lcpdi", 0, 0.015},     // 1.3 %
                                  Reached{kMargin, "lcpdi", 30, 0.01},     // below 1 %
                                  Reached{kMargin, "ugimp", 0, 0.02},      // 1.7 %
@@ -197,7 +197,7 @@ TEST_CASE(
   for (const char* basis : {"ugimp", "lcpdi"}) {
     CAPTURE(std::string(basis));
     CHECK(std::abs(tilted_error(kDefault + method("flip", basis)) - kHalfStepAhead) <
-          0.0008);                                          // 0.02 and 0.065 %
+          0.0016);                                          // 0.13 and 0.065 %
     const Overrides midpoint{{"method.position", "grid"}};  // measured 0.04 and 0.065 %
     CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + midpoint)) < 0.0008);
     // The clouds at the block's ends: -13 and -2.8 %.

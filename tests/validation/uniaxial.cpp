@@ -92,8 +92,7 @@ TEST_CASE("uniaxial: LR with XPIC(5) is within 0.5 % of one field to 10 % strain
     const Outcome smoothed = uniaxial(overrides);
     CHECK(smoothed.failure == "");
     CHECK(strain_of(smoothed.summary.time) > 0.2);
-    CHECK(error(smoothed.history, one.history, 0.20) <
-          0.0013);  // paper 0.24 %; measured 0.12 %, mid-cell 0.089 %
+    CHECK(error(smoothed.history, one.history, 0.20) < 3e-4);  // paper 0.24 %; measured 0.012 %, mid-cell too
   }
 }
 
