@@ -81,6 +81,16 @@ TEST_CASE("grains pressed until many jam on a node keep their energy") {
   CHECK(std::abs(error("0")) < 0.015);    // -1.1 %; the other packings -0.1 to -1.1
 }
 
+TEST_CASE("what pairs lose as they part falls with the cell") {
+  CHECK(std::abs(energy_error("hard/incompressible.yaml", {{"grid.cell", "0.5 mm"}})) <
+        0.03);                                                                      // -2.1 %, -5.0 with 1 mm
+  CHECK(energy_error("hard/hundred_gaps.yaml", {{"grid.cell", "0.5 mm"}}) > -0.3);  // -19, -58 %
+}
+
+TEST_CASE("slow: rings on half the cell keep their energy within 0.5 %") {
+  CHECK(std::abs(energy_error("rings.yaml", {{"grid.cell", "0.625 mm"}})) < 0.005);  // -0.44, -0.86 %
+}
+
 TEST_CASE("slow: rings of uGIMP keep their energy") {
   CHECK(std::abs(energy_error("rings.yaml", {{"method.basis", "ugimp"}})) <
         0.008);  // wanted 0.5 %; measured -0.75 %; -20 %
