@@ -292,7 +292,7 @@ void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, Bounda
       if (stick[d].row[k] != 0)
         books.friction_work -= rubbed.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
   });
-  column.stuck = sticks && holds_;
+  column.stuck = sticks && holds_ && column.sideways != 0;
 }
 
 template <int Dim>
