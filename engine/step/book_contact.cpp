@@ -25,7 +25,7 @@ void Contact<Dim>::book(const State<Dim>& state) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       // In a lump, each touching pair is seen from both sides.
       const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-      if (node.rigid >= 0) book_rigid(state, node, entry);
+      if (node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid)) book_rigid(state, node, entry);
       if (!pairs_.empty()) book_pair(state, node, entry, share);
     }
 }

@@ -52,7 +52,7 @@ class Contact {
 
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
-  /// The time in which the fastest wave crosses a cell, s.
+  /// The time in which the fastest of all waves and motions crosses a cell, s.
   void set_crossing(double seconds) { crossing_ = seconds; }
 
   /// Adds the slots of nodes where surfaces meet that may part (not bonds).

@@ -140,13 +140,20 @@ bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
 }
 
 /// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),
-/// T the time in which a wave crosses a cell. That is 2 h ε between bodies that are strained by ε, a layer of
-/// h on each side. A mean over some ten steps.
+/// T the time in which the fastest of all waves and motions crosses a cell. That is 2 h ε between bodies that
+/// are strained by ε, a layer of h on each side. A mean over some ten steps.
 template <int Dim>
 double Contact<Dim>::spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
                                const ContactEntry<Dim>& entry) const {
   constexpr double kNew = 0.1;
-  const double reduced = meet(state, node, entry.a, together(state, node, entry.a, entry.b)).reduced;
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto mass_of = [&](int k) {
+    return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+  };
+  const double own = mass_of(entry.a);
+  const bool on_rigid = node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid);
+  const double other = entry.b >= 0 ? mass_of(entry.b) : together(state, node).mass - own;
+  const double reduced = on_rigid ? own : own * other / (own + other);
   const double pressed = std::max(0.0, -entry.second.dot(entry.normal));
   const double now = 0.5 * pressed * crossing_ * crossing_ / (reduced * dt_);
   return entry.touched ? entry.spring_before + kNew * (now - entry.spring_before) : now;

@@ -258,7 +258,22 @@ void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryBooks<Dim>
     if (column.touches)
       rub(state, dt, column, books);
     else
-      column.stuck = false;
+      let_go(state, dt, column, books);
+}
+
+/// What has stuck and parts: the grid was held before the forces, and what those do since is not strained.
+template <int Dim>
+void SurfaceWalls<Dim>::let_go(const State<Dim>& state, double dt, Column& column,
+                               BoundaryBooks<Dim>& books) {
+  const double* mass = state.nodes.column(Nodal::mass);
+  if (column.stuck && whole_)
+    for_each_sideways(column, [&](int d, const Rubbed& rubbed) {
+      const double* force = state.nodes.column(Nodal::force, d);
+      for (std::size_t k = 0; k < kRows; ++k)
+        if (const int slot = column.slot[k]; slot >= 0 && mass[slot] > 0)
+          books.friction_work += 0.5 * rubbed.first[k] * dt * force[slot] / mass[slot];
+    });
+  column.stuck = false;
 }
 
 /// Coulomb: the impulse that stops the slip at the plane, at most μ times the one along the normal.
@@ -272,7 +287,8 @@ void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, Bounda
     squared += stick[d].sum * stick[d].sum;
   });
   const double needed = std::sqrt(squared);
-  const bool sticks = std::isinf(wall.friction) || needed <= wall.friction * column.pushed;
+  const bool sticks =
+      std::isinf(wall.friction) || (needed <= wall.friction * column.pushed && column.pushed > 0);
   const double factor = sticks ? 1 : wall.friction * std::max(0.0, column.pushed) / needed;
   const double* mass = state.nodes.column(Nodal::mass);
   for_each_sideways(column, [&](int d, Rubbed& rubbed) {

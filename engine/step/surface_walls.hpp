@@ -148,6 +148,7 @@ class SurfaceWalls {
             BoundaryBooks<Dim>& books) const;
   void hold_slip(State<Dim>& state, const Column& column);
   void rub(State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books);
+  void let_go(const State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books);
   double rubbing_work(const State<Dim>& state, const Column& column, int axis, const Rubbed& rubbed) const;
   /// Calls f(axis, Rubbed) for every axis along which the wall may rub the column.
   template <class F>
@@ -161,7 +162,7 @@ class SurfaceWalls {
 
   const Scene* scene_;
   double share_;   ///< of −P v_s that particles take as a force
-  bool whole_;     ///< strains see both velocities, those before forces and those that particles take back
+  bool whole_;     ///< strains see what particles take back: the friction work is found from it
   bool holds_;     ///< what sticks
   double dt_ = 0;  ///< of this step
   bool stale_ = true;
@@ -172,7 +173,8 @@ class SurfaceWalls {
   std::vector<std::uint8_t> held_;       ///< by slot: see held_axes
   std::vector<Near> near_;
   std::vector<Rubbed> rubbed_;
-  std::vector<std::uint64_t> stuck_;  ///< keys of columns, in order: while the list is made anew
+  std::vector<std::uint64_t>
+      stuck_;  ///< keys of columns, in order: while the list is made anew, and from a checkpoint
 };
 
 extern template class SurfaceWalls<2>;

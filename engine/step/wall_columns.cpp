@@ -89,9 +89,14 @@ void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIn
     column.slot[static_cast<std::size_t>(k)] = free ? state.tiling.slot(row, field) : -1;
   }
   if (!(wall.friction > 0)) return;
+  const auto on_line_of_other = [&](int axis) {
+    return at_other(node, axis, 1) || std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
+             return other.axis == axis && other.cut < kThin && other.out * (node[axis] - other.row) >= -2;
+           });
+  };
   column.rubbed = static_cast<int>(rubbed_.size());
   for (int d = 0; d < Dim; ++d)
-    if (d != wall.axis && !prescribed(node, d) && !at_other(node, d, 1)) {
+    if (d != wall.axis && !prescribed(node, d) && !on_line_of_other(d)) {
       column.sideways |= 1u << d;
       rubbed_.emplace_back();
     }
