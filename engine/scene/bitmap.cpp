@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/load.hpp"
 
 namespace mpmfast {
 

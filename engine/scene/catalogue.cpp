@@ -2,9 +2,8 @@
 
 #include <utility>
 
-#include "engine/scene/schema/key_notes.hpp"
 #include "engine/scene/schema/known_keys.hpp"
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
@@ -18,8 +17,7 @@ std::vector<CatalogueEntry> words_of(const std::array<Word<E>, N>& words) {
 }
 
 std::string sentence_on(const std::string& pattern) {
-  const KeyNote* note = note_on(pattern);
-  std::string says = note ? note->says : "";
+  std::string says = known_at(pattern).says;
   if (!says.empty()) says.pop_back();  // the full stop
   return says;
 }

@@ -63,13 +63,7 @@ void Value::report(const std::string& message, const std::string& hint) const {
   if (!node_->faulty) problems_->add(node_->place, path_, message, hint);
 }
 
-bool Value::is_word(const std::string& word) const {
-  if (Recorder* recorder = problems_->recorder()) recorder->note_word(path_, word, "");
-  return has_text(word.c_str());
-}
-
 bool Value::is_list(int least, int most) const {
-  note({Form::Kind::list, Measure::number, kAny, least, most});
   return is(Node::Kind::list) && size() >= static_cast<std::size_t>(least) &&
          size() <= static_cast<std::size_t>(most);
 }
@@ -78,17 +72,11 @@ Value Value::item(std::size_t index) const {
   return Value(node_->items[index], join(path_, std::to_string(index)), *problems_);
 }
 
-Value Value::entry(std::size_t index, const std::string& word) const {
-  Value out(node_->items[index], join(path_, node_->keys[index].text), *problems_);
-  if (Recorder* recorder = problems_->recorder()) {
-    recorder->rename(out.path(), word);
-    recorder->note_key(path_, out.path(), false);
-  }
-  return out;
+Value Value::entry(std::size_t index) const {
+  return Value(node_->items[index], join(path_, node_->keys[index].text), *problems_);
 }
 
 std::optional<double> Value::quantity(Measure kind, const Limit& limit) const {
-  note({Form::Kind::quantity, kind, limit});
   if (!is(Node::Kind::scalar)) {
     complain(fmt::format("not a number ({})", expected_of(kind)));
     return std::nullopt;
@@ -107,7 +95,6 @@ std::optional<double> Value::quantity(Measure kind, const Limit& limit) const {
 }
 
 std::optional<int> Value::integer(int lowest, int highest) const {
-  note({Form::Kind::whole, Measure::number, kAny, lowest, highest});
   const auto refuse = [&] {
     complain(fmt::format("not a whole number from {} to {}", lowest, highest));
     return std::nullopt;
@@ -123,30 +110,25 @@ std::optional<int> Value::integer(int lowest, int highest) const {
 }
 
 std::optional<bool> Value::boolean() const {
-  note({Form::Kind::truth});
-  if (has_text("true")) return true;
-  if (has_text("false")) return false;
+  if (is_word("true")) return true;
+  if (is_word("false")) return false;
   complain("not true or false");  // yes, no, on and off are words like any other
   return std::nullopt;
 }
 
 std::optional<std::string> Value::text() const {
-  note({Form::Kind::text});
   if (is(Node::Kind::scalar)) return node_->scalar;
   complain("not text");
   return std::nullopt;
 }
 
 std::optional<std::string> Value::name() const {
-  note({Form::Kind::name});
   if (is(Node::Kind::scalar) && is_name(node_->scalar)) return node_->scalar;
   complain("not a name (letters, digits, '_' and '-')");
   return std::nullopt;
 }
 
 std::optional<Vec3> Value::vector(Measure kind, int count, const Limit& limit) const {
-  note({Form::Kind::vector, kind, limit, count, count});
-  const Silence within(problems_->recorder());
   if (!is(Node::Kind::list) || size() != static_cast<std::size_t>(count)) {
     complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)), vector_hint(kind, count));
     return std::nullopt;
@@ -174,20 +156,12 @@ std::string Value::vector_hint(Measure kind, int count) const {
   return fmt::format("Perhaps [{}]", fmt::join(parts, ", "));
 }
 
-int Value::word_index(std::span<const std::string> known) const {
-  if (Recorder* recorder = problems_->recorder()) {
-    for (const std::string& word : known) recorder->note_word(path_, word, "");
-  }
-  return index_among(known);
-}
-
 int Value::reference(std::span<const std::string> known) const {
-  note({Form::Kind::name});
   if (known.empty() && !problems_->empty()) return -1;  // they could not be read themselves
-  return index_among(known);
+  return word_index(known);
 }
 
-int Value::index_among(std::span<const std::string> known) const {
+int Value::word_index(std::span<const std::string> known) const {
   if (is(Node::Kind::scalar)) {
     for (std::size_t k = 0; k < known.size(); ++k) {
       if (known[k] == node_->scalar) return static_cast<int>(k);
@@ -258,8 +232,6 @@ std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
 }
 
 std::optional<TimeTable> Value::table(Measure kind) const {
-  note({Form::Kind::table, kind});
-  const Silence within(problems_->recorder());
   if (is(Node::Kind::map)) return table_of_columns(kind);
   if (is(Node::Kind::list)) return table_of_pairs(kind);
   const auto constant = quantity(kind);
@@ -269,14 +241,11 @@ std::optional<TimeTable> Value::table(Measure kind) const {
 
 MapReader::MapReader(const Value& value, const std::string& expected)
     : value_(value), valid_(value.is(Node::Kind::map)) {
-  if (Recorder* recorder = value_.problems().recorder()) recorder->note(value_.path(), {Form::Kind::map});
   if (!valid_) value_.complain("not " + expected);
 }
 
 std::optional<Value> MapReader::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
-  if (Recorder* recorder = value_.problems().recorder())
-    recorder->note_key(value_.path(), join(value_.path(), key), false);
   const int index = index_of(value_.node(), key);
   if (index < 0) return std::nullopt;
   return Value(value_.node().items[static_cast<std::size_t>(index)], join(value_.path(), key),
@@ -285,8 +254,6 @@ std::optional<Value> MapReader::find(const std::string& key) {
 
 std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {
   auto found = find(key);
-  if (Recorder* recorder = value_.problems().recorder())
-    recorder->note_key(value_.path(), join(value_.path(), key), true);
   if (!found && valid_) {
     value_.problems().add(value_.node().place, join(value_.path(), key),
                           fmt::format("missing ({})", expected));
@@ -294,45 +261,12 @@ std::optional<Value> MapReader::need(const std::string& key, const std::string& 
   return found;
 }
 
-void MapReader::quantity(const std::string& key, Measure kind, const Limit& limit, double& out) {
-  const auto found = find(key);
-  expects(key, {Form::Kind::quantity, kind, limit});
-  otherwise(key, out, kind);
-  if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
-}
-
-void MapReader::need_quantity(const std::string& key, Measure kind, const Limit& limit, double& out) {
-  const auto found = need(key, expected_of(kind));
-  expects(key, {Form::Kind::quantity, kind, limit});
-  if (const auto read = found ? found->quantity(kind, limit) : std::nullopt) out = *read;
-}
-
-void MapReader::integer(const std::string& key, int lowest, int highest, int& out) {
-  const auto found = find(key);
-  expects(key, {Form::Kind::whole, Measure::number, kAny, lowest, highest});
-  otherwise(key, out, Measure::number);
-  if (const auto read = found ? found->integer(lowest, highest) : std::nullopt) out = *read;
-}
-
 void MapReader::boolean(const std::string& key, bool& out) {
   const auto found = find(key);
-  expects(key, {Form::Kind::truth});
-  otherwise(key, out ? "true" : "false");
   if (const auto read = found ? found->boolean() : std::nullopt) out = *read;
 }
 
-bool MapReader::vector(const std::string& key, Measure kind, int count, const Limit& limit, Vec3& out) {
-  const auto found = find(key);
-  expects(key, {Form::Kind::vector, kind, limit, count, count});
-  otherwise(key, out, kind, count);
-  if (!found) return true;
-  const auto read = found->vector(kind, count, limit);
-  if (read) out = *read;
-  return read.has_value();
-}
-
 int MapReader::one_of(const KeyGroups& groups) {
-  if (Recorder* recorder = value_.problems().recorder()) recorder->note_groups(value_.path(), groups);
   int chosen = -1, touched = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto present = std::count_if(groups[g].begin(), groups[g].end(),
@@ -345,7 +279,6 @@ int MapReader::one_of(const KeyGroups& groups) {
 
 void MapReader::finish() {
   if (!valid_) return;
-  if (Recorder* recorder = value_.problems().recorder()) recorder->note_closed(value_.path());
   for (const Key& key : value_.node().keys) {
     if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
     const std::string meant = hint_for(key.text, known_, value_.problems());

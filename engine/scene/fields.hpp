@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/scene/known.hpp"
 #include "engine/scene/names.hpp"
 #include "engine/scene/problems.hpp"
 #include "engine/scene/quantity.hpp"
-#include "engine/scene/recorder.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/tree.hpp"
 
@@ -35,9 +35,9 @@ class Value {
   const std::string& path() const { return path_; }
   Problems& problems() const { return *problems_; }
   bool is(Node::Kind kind) const { return node_->kind == kind; }
-  /// Is this the word? It may be, the recorder hears.
-  bool is_word(const std::string& word) const;
-  /// Is this a list of so many entries? It may be, the recorder hears.
+  /// Is this the word?
+  bool is_word(const char* word) const { return is(Node::Kind::scalar) && node_->scalar == word; }
+  /// Is this a list of so many entries?
   bool is_list(int least = 0, int most = Form::kNoEnd) const;
 
   /// "message, got VALUE".
@@ -46,8 +46,8 @@ class Value {
   void report(const std::string& message, const std::string& hint = "") const;
 
   Value item(std::size_t index) const;
-  /// An entry of a map whose keys the user chooses; `word` stands for them in the schema: NAME.
-  Value entry(std::size_t index, const std::string& word) const;
+  /// The value of a map's key, by its place.
+  Value entry(std::size_t index) const;
   std::size_t size() const { return node_->items.size(); }
 
   std::optional<double> quantity(Measure kind, const Limit& limit = kAny) const;
@@ -75,32 +75,14 @@ class Value {
   int choice(const Entries& entries) const {
     std::vector<std::string> known;
     for (const auto& entry : entries) known.emplace_back(entry.name);
-    offers(entries);
-    return index_among(known);
+    return word_index(known);
   }
   /// Index of the word among `known`; −1 and a complaint when it is none of them.
   int word_index(std::span<const std::string> known) const;
   /// The same where the words are names that the scene itself gives, of materials or bodies.
   int reference(std::span<const std::string> known) const;
-  /// Tells the recorder that this is such a name.
-  void offers_name() const { note({Form::Kind::name}); }
-  /// Tells the recorder that this may be one of the words; the reader looks for itself. In words that end
-  /// with
-  /// "(m)", m is a whole number from `least` to `most`.
-  template <class Entries>
-  void offers(const Entries& entries, int least = 0, int most = Form::kNoEnd) const {
-    Recorder* recorder = problems_->recorder();
-    if (!recorder) return;
-    recorder->note(path_, {Form::Kind::word, Measure::number, kAny, least, most});
-    for (const auto& entry : entries) recorder->note_word(path_, entry.name, entry.says);
-  }
 
  private:
-  bool has_text(const char* text) const { return is(Node::Kind::scalar) && node_->scalar == text; }
-  int index_among(std::span<const std::string> known) const;
-  void note(const Form& form) const {
-    if (Recorder* recorder = problems_->recorder()) recorder->note(path_, form);
-  }
   bool increasing(const std::vector<double>& times) const;
   std::optional<TimeTable> table_of_columns(Measure kind) const;
   std::optional<TimeTable> table_of_pairs(Measure kind) const;
@@ -124,19 +106,10 @@ class MapReader {
   std::optional<Value> need(const std::string& key, const std::string& expected);
 
   /// Replaces `out` when the key is there and good.
-  void quantity(const std::string& key, Measure kind, const Limit& limit, double& out);
-  void need_quantity(const std::string& key, Measure kind, const Limit& limit, double& out);
-  void integer(const std::string& key, int lowest, int highest, int& out);
   void boolean(const std::string& key, bool& out);
-  /// `count` quantities; the rest of `out` becomes zero. False when they are there and wrong.
-  bool vector(const std::string& key, Measure kind, int count, const Limit& limit, Vec3& out);
   template <class E, std::size_t N>
   bool word(const std::string& key, const std::array<Word<E>, N>& words, E& out) {
     const auto found = find(key);
-    if (Recorder* recorder = value_.problems().recorder()) {
-      for (const Word<E>& one : words) recorder->note_word(join(value_.path(), key), one.name, one.says);
-    }
-    otherwise(key, name_of(words, out));
     const auto read = found ? found->word(words) : std::nullopt;
     if (read) out = *read;
     return read.has_value();
@@ -145,15 +118,6 @@ class MapReader {
   /// Which of these groups of keys is there, whole, and none of the other keys; −1 when it is not so.
   int one_of(const KeyGroups& groups);
 
-  /// Tells the recorder what the value of a key may be, also where the key is absent; those above do so
-  /// themselves.
-  void expects(const std::string& key, const Form& form) const;
-  /// Tells the recorder what is taken when the key is absent; those above that replace `out` do so
-  /// themselves.
-  void otherwise(const std::string& key, std::string_view text) const;
-  void otherwise(const std::string& key, double value, Measure kind) const;
-  void otherwise(const std::string& key, const Vec3& vector, Measure kind, int count) const;
-
   /// Reports every key that nobody asked for.
   void finish();
 
@@ -161,20 +125,6 @@ class MapReader {
   Value value_;
   bool valid_;
   std::vector<std::string> known_;
-};
-
-/// While it lives, the recorder takes what is asked of a map for keys that it has under a condition only:
-/// "bitmap" and "!bitmap" (this key is there, or not), "model=rigid", "3d". An empty one is none.
-class When {
- public:
-  When(const Value& map, const std::string& condition);
-  ~When();
-  When(const When&) = delete;
-  When& operator=(const When&) = delete;
-
- private:
-  Recorder* recorder_;
-  std::string path_;
 };
 
 }  // namespace mpmfast

@@ -2,7 +2,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/load.hpp"
 
 namespace mpmfast {
 

@@ -17,8 +17,6 @@ struct Place {
   int source = 0;
 };
 
-class Recorder;
-
 class Problems {
  public:
   /// @param sources names as messages show them: the file, then "--set path=value" of each override.
@@ -33,10 +31,6 @@ class Problems {
   bool empty() const { return found_.empty(); }
   std::size_t count() const { return found_.size(); }
 
-  /// Hears what the readers would accept; none in a run (recorder.hpp).
-  Recorder* recorder() const { return recorder_; }
-  void set_recorder(Recorder* recorder) { recorder_ = recorder; }
-
   /// In the order of the text, each once.
   std::vector<Diagnostic> sorted() const;
 
@@ -48,7 +42,6 @@ class Problems {
   std::vector<std::string> sources_;
   int overrides_;  ///< how many
   std::vector<Found> found_;
-  Recorder* recorder_ = nullptr;
 };
 
 }  // namespace mpmfast

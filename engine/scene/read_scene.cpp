@@ -10,8 +10,9 @@
 
 #include "engine/errors.hpp"
 #include "engine/scene/include.hpp"
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 #include "engine/scene/suggest.hpp"
+#include "engine/scene/suspicions.hpp"
 #include "engine/scene/variables.hpp"
 
 namespace mpmfast {
@@ -52,25 +53,7 @@ std::string read_text(const std::filesystem::path& file) {
   return text;
 }
 
-void read_head(MapReader& top, Scene& scene) {
-  scene.title = scene.file.stem().string();
-  if (const auto title = top.find("title")) scene.title = title->text().value_or("");
-  const auto space = top.need("space", "plane_strain, plane_stress, axisymmetric or 3d");
-  if (space && (space->node().scalar == "2d" || space->node().scalar == "2D"))  // no words that are known
-    space->complain("not known here (one of plane_strain, plane_stress, axisymmetric, 3d)",
-                    "plane_strain is the usual one of two dimensions");
-  else if (space)
-    scene.space = space->word(kSpaces).value_or(Space::plane_strain);
-  const bool solid = scene.dimension() == 3, turned = scene.space == Space::axisymmetric;
-  if (!solid && !turned) {
-    top.quantity("thickness", Measure::length, kPositive, scene.thickness);
-  } else if (const auto thickness = top.find("thickness")) {
-    thickness->report(solid ? "a 3-D scene has no thickness"
-                            : "an axisymmetric scene has no thickness: it is whole round its axis");
-  }
-}
-
-/// What the readers see: with included files merged in, overrides in place and expressions computed.
+/// What the sections see: with included files merged in, overrides in place and expressions computed.
 std::optional<Node> read_tree(const std::string& text, const std::filesystem::path& file,
                               const std::vector<Override>& overrides, Problems& problems) {
   std::optional<Node> root = parse_tree(text, 0, problems);
@@ -91,30 +74,12 @@ std::optional<Node> read_tree(const std::string& text, const std::filesystem::pa
 }
 
 void read_sections(const Node& root, Scene& scene, Problems& problems) {
-  MapReader top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
-  if (!top.valid()) return;
+  Keys top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
+  if (!top.reader().valid()) return;
   if (index_of(root, "scene") >= 0 && index_of(root, "bodies") < 0)
-    return top.value().report("this is a study, not a scene", "Run it with 'mpmfast study'");
-  {
-    const Silence early(problems.recorder());                        // the schema has them from elsewhere
-    for (const char* key : {"include", "variables"}) top.find(key);  // done with (read_tree)
-  }
-  read_head(top, scene);
-  const int dimension = scene.dimension();
-  const bool grid_known = read_grid(top, dimension, scene.grid);
-  read_time(top, scene.time);
-  const bool strain_stated = read_method(top, scene.method);
-  read_contact(top, dimension, strain_stated, scene.method.strain, scene.contact);
-  read_gravity(top, dimension, scene.gravity);
-  read_output(top, dimension, scene.output);
-  read_materials(top, scene.materials);
-  read_bodies(top, grid_known, scene);
-  read_contact_pairs(top, scene);
-  read_boundaries(top, grid_known, scene);
-  if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
-  if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
-  if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
-  top.finish();
+    return top.report("this is a study, not a scene", "Run it with 'mpmfast study'");
+  scene.title = scene.file.stem().string();
+  describe_scene(top, scene);
 }
 
 }  // namespace
@@ -122,14 +87,6 @@ void read_sections(const Node& root, Scene& scene, Problems& problems) {
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
                  std::vector<Diagnostic>* warnings) {
   return parse_scene(read_text(file), file, overrides, warnings);
-}
-
-void record_scene(const std::string& text, const std::string& file, Recorder& recorder) {
-  Problems problems({file});
-  problems.set_recorder(&recorder);
-  Scene scene;
-  scene.file = file;
-  if (const std::optional<Node> root = parse_tree(text, 0, problems)) read_sections(*root, scene, problems);
 }
 
 Scene parse_scene(const std::string& text, const std::filesystem::path& file,

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string_view>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/load.hpp"
 #include "engine/scene/surface.hpp"
 
 namespace mpmfast {

@@ -6,7 +6,9 @@
 #include <limits>
 #include <set>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {
 

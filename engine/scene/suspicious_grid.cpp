@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/suspicions.hpp"
 #include "engine/scene/time_table.hpp"
 
 namespace mpmfast {

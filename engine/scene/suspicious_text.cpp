@@ -5,7 +5,8 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/quantity.hpp"
+#include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {
 

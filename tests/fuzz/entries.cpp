@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/scene/geometry.hpp"
+#include "engine/scene/load.hpp"
 #include "engine/scene/read_scene.hpp"
-#include "engine/scene/sections.hpp"
 #include "engine/scene/surface.hpp"
 #include "tests/source_folder.hpp"
 

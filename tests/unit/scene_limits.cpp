@@ -2,9 +2,9 @@
 
 #include <doctest/doctest.h>
 
-#include <chrono>
+#include <ctime>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/load.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

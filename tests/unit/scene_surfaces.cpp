@@ -9,7 +9,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/load.hpp"
 #include "engine/scene/surface.hpp"
 #include "scene_helpers.hpp"
 

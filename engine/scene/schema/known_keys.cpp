@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 

@@ -1,11 +1,11 @@
 #pragma once
 
-/// @file What was recorded, in words: shared by the schema, the reference page and `mpmfast list`.
+/// @file What is known of the keys, in words: shared by the schema, the reference page and `mpmfast list`.
 
 #include <string>
 #include <vector>
 
-#include "engine/scene/recorder.hpp"
+#include "engine/scene/known.hpp"
 #include "engine/scene/scene.hpp"
 
 namespace mpmfast {

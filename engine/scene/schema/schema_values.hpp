@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/recorder.hpp"
+#include "engine/scene/known.hpp"
 
 namespace mpmfast {
 

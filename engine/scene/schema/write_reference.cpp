@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/scene/schema/key_notes.hpp"
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/schema/reference_parts.hpp"
 #include "engine/scene/schema/write_schema.hpp"
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
@@ -28,10 +27,7 @@ constexpr const char* kIntroduction =
     "line\n\n"
     "```\n# yaml-language-server: $schema=mpmfast-scene.schema.json\n```\n";
 
-std::string sentence_on(const std::string& pattern) {
-  const KeyNote* note = note_on(pattern);
-  return note ? note->says : "";
-}
+const std::string& sentence_on(const std::string& pattern) { return known_at(pattern).says; }
 
 /// The third column.
 std::string default_column(const KnownKey& key) {
@@ -54,10 +50,9 @@ class KeyRows {
     if (has_table(key.pattern)) return;
     for (const KnownKey& inner : all_keys(key.pattern)) add(inner, path + "." + inner.name);
   }
-  void add(const KeyNote& early) {
-    text_ +=
-        fmt::format("| `{}` | {} | | {} |\n", early.pattern,
-                    std::string(early.pattern) == "include" ? "text, or list of texts" : "map", early.says);
+  void add(const KnownWord& early) {
+    text_ += fmt::format("| `{}` | {} | | {} |\n", early.name,
+                         early.name == "include" ? "text, or list of texts" : "map", early.says);
   }
   std::string text() const {
     return "\n| key | form | default | meaning |\n|---|---|---|---|\n" + text_ + words_;
@@ -241,8 +236,8 @@ std::string table_text(const ReferencePart& part, const KeyTable& table) {
   for (const std::string_view name : table.keys) {
     for (const KnownKey& key : keys)
       if (key.name == name) rows.add(key, key.name);
-    for (const KeyNote& early : early_keys())
-      if (early.pattern == name) rows.add(early);
+    for (const KnownWord& early : early_keys())
+      if (early.name == name) rows.add(early);
   }
   if (table.keys.empty())
     for (const KnownKey& key : keys)

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/scene/schema/key_notes.hpp"
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/schema/schema_values.hpp"
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
@@ -18,9 +17,8 @@ Json required(const std::vector<std::string>& keys) { return {{"required", keys}
 
 /// What an editor shows beside a key: plain, and with the words as a list.
 void describe(const KnownKey& key, Json& schema) {
-  const KeyNote* note = note_on(key.pattern);
   const Known& known = known_at(key.pattern);
-  std::string text = note ? note->says : "";
+  std::string text = known.says;
   text += fmt::format("\n\nForm: {}.", form_text(key.pattern, true));
   const std::string standard = default_text(key.pattern);
   if (!standard.empty())
@@ -64,7 +62,7 @@ class SchemaWriter {
     const Json text{{"type", "string"}};
     Json out{{"variables", {{"type", "object"}, {"additionalProperties", {{"type", {"number", "string"}}}}}},
              {"include", {{"anyOf", {text, {{"type", "array"}, {"items", text}}}}}}};
-    for (const KeyNote& key : early_keys()) out[key.pattern]["description"] = key.says;
+    for (const KnownWord& key : early_keys()) out[key.name]["description"] = key.says;
     return out;
   }
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/sections.hpp"
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/sections/describe.hpp"
 #include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
@@ -50,7 +51,10 @@ std::optional<double> time_of_meeting(const WallSpec& lower, const WallSpec& upp
 
 }  // namespace
 
-void check_walls(MapReader& boundaries, const Scene& scene) {
+void check_walls(MapReader& top, const Scene& scene) {
+  const auto section = top.find("boundaries");
+  if (!section || !section->problems().empty()) return;
+  MapReader boundaries(*section);
   for (const BoundarySpec& boundary : scene.boundaries) {
     const WallSpec* wall = wall_of(boundary);
     const auto value = boundaries.find(boundary.name);

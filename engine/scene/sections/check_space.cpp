@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "engine/scene/names.hpp"
-#include "engine/scene/sections.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/scene/load.hpp"
+#include "engine/scene/sections/describe.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr int kLevels = 256;
+
+/// The path as written; made absolute from the folder of the scene.
+void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) {
+  std::string text = file.string();
+  if (slot.take(text, Text{}) && slot.reads())
+    file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
+}
+
+std::array<bool, kLevels> levels_of(const GreyImage& image) {
+  std::array<bool, kLevels> present{};
+  for (const unsigned char grey : image.pixel) present[grey] = true;
+  return present;
+}
+
+/// A grey level that heads a material, as a value.
+std::optional<int> read_level(const Slot& material, const Key& key,
+                              const std::array<bool, kLevels>& present) {
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.place = key.place;
+  node.scalar = key.text;
+  const Value level(node, material.value()->path(), material.value()->problems());
+  const auto number = level.integer(0, kLevels - 1);
+  if (number && !present[static_cast<std::size_t>(*number)])
+    level.report("the image has no such grey level, or it is skipped");
+  return number;
+}
+
+void describe_materials(Keys& map, const std::vector<std::string>& names,
+                        const std::array<bool, kLevels>& present, BitmapEntry& entry) {
+  map.leave_open();
+  const std::size_t count = map.count(entry.materials.size());
+  entry.materials.resize(map.reads() ? 0 : count);
+  for (std::size_t k = 0; k < count; ++k) {
+    std::pair<std::string, int> one = map.reads() ? std::pair<std::string, int>{} : entry.materials[k];
+    std::optional<int> level = 0;
+    const bool good = map.entry(k, "GREY", "The material of this grey level.", one.first, [&](Slot& slot) {
+      if (slot.reads()) level = read_level(slot, map.reader().value().node().keys[k], present);
+      slot.reference(one.second, names);
+    });
+    if (!map.reads() || !level) continue;
+    if (!good) one.second = -1;
+    entry.materials.push_back(one);
+  }
+}
+
+}  // namespace
+
+void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
+  std::filesystem::path& file = entry.shape.file;
+  constexpr const char* kSays = "Path, counted from the folder of the scene.";
+  const bool map = slot.is_map(false, [&](Keys& keys) {
+    keys.need_at("file", kSays, "an 8-bit grey PNG file",
+                 [&](Slot& inner) { describe_file(inner, scene, file); });
+  });
+  if (!map && slot.reads() && !slot.value()->is(Node::Kind::scalar))
+    return slot.complain("not a file name (an 8-bit grey PNG)");
+  if (!map) describe_file(slot, scene, file);
+  if (!slot.reads() || !slot.good()) return;
+  std::string why_not;
+  entry.shape.image = load_grey_png(file, why_not);
+  if (!entry.shape.image) slot.complain(fmt::format("cannot read the image {}: {}", file.string(), why_not));
+}
+
+void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,
+                          BitmapEntry& entry) {
+  Vec3 extent = entry.extent;
+  body.derived_at("origin", "Lower left corner of the picture; that of the grid if not given.",
+                  [&](Slot& slot) {
+                    slot.take(entry.shape.lower, Vector{Measure::length, 2});
+                  });
+  if (body.reads() && !body.stated("origin")) entry.shape.lower = scene.grid.origin;
+  body.need("extent", "Width and height that the picture is stretched over.", extent,
+            Vector{Measure::length, 2, kPositive});
+  entry.extent = extent;
+  body.at("skip", "Grey levels that are empty, such as 255.", [&](Slot& slot) {
+    std::size_t count = entry.skip.size();
+    slot.list("a list of grey levels", 0, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
+      int level = item.writes() ? entry.skip[k] : 0;
+      if (item.take(level, Whole{0, kLevels - 1}) && item.reads()) entry.skip.push_back(level);
+    });
+  });
+  std::array<bool, kLevels> present{};
+  present.fill(true);  // when the image is unknown, so is what it lacks
+  if (entry.shape.image) present = levels_of(*entry.shape.image);
+  for (const int level : entry.skip) present[static_cast<std::size_t>(level)] = false;
+  for (int level = 0; body.reads() && entry.shape.image && level < kLevels; ++level)
+    if (present[static_cast<std::size_t>(level)]) entry.levels.push_back(level);
+  body.section("materials", "Materials of single grey levels.", "a map {GREY: NAME}",
+               [&](Keys& map) { describe_materials(map, material_names, present, entry); });
+}
+
+}  // namespace mpmfast

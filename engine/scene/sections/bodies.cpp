@@ -1,0 +1,327 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/sections/describe.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// What one entry of `bodies` says: one body, or one for each grey level of a bitmap.
+struct BodyEntry {
+  BodySpec body;
+  BitmapEntry bitmap;
+  bool shaped = false, made = false;  ///< has it a good shape, and a material?
+};
+
+const std::vector<std::string>& shape_names() {
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names;
+    for (const ShapeKind& kind : shape_kinds()) names.emplace_back(kind.name);
+    return names;
+  }();
+  return kNames;
+}
+
+/// A body has one of them.
+const KeyGroups& shape_keys() {
+  static const KeyGroups kKeys = [] {
+    KeyGroups groups;
+    for (const std::string& name : shape_names()) groups.push_back({name});
+    return groups;
+  }();
+  return kKeys;
+}
+
+/// The same shape's name in the other dimension.
+std::string counterpart(const std::string& name) {
+  static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},       {"sphere", "disk"},
+                                                         {"ellipse", "ellipsoid"}, {"ellipsoid", "ellipse"},
+                                                         {"ring", "tube"},         {"tube", "ring"}};
+  const auto found = kPairs.find(name);
+  return found == kPairs.end() ? "" : fmt::format("Did you mean '{}'?", found->second);
+}
+
+bool fits(const ShapeKind& kind, int dimension) { return kind.dimension == 0 || kind.dimension == dimension; }
+
+/// The kind that a shape is written as.
+int written_kind(const Shape& shape, int dimension) {
+  const auto& kinds = shape_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const ShapeKind& kind) {
+    return kind.written && fits(kind, dimension) && kind.holds == shape.index();
+  });
+  return static_cast<int>(found - kinds.begin());
+}
+
+/// A body with no shape, or with several.
+void report_shapes(Keys& map) {
+  std::vector<std::string> chosen;
+  for (const std::string& name : shape_names())
+    if (map.stated(name)) chosen.push_back(name);
+  if (chosen.empty())
+    map.report(fmt::format("a body needs a shape (one of {})", fmt::join(shape_names(), ", ")));
+  else
+    map.check(chosen[1], [&](Slot& slot) {
+      slot.report(fmt::format("a body has one shape, and it is already a {}", chosen[0]));
+    });
+}
+
+void describe_shape(Slot& slot, const ShapeKind& kind, const Scene& scene, BodyEntry& entry) {
+  if (slot.reads() && !fits(kind, scene.dimension())) {
+    const bool vowel = kind.name[0] == 'e' || std::string_view(kind.name) == "stl";
+    slot.report(fmt::format("{} {} exists in {}-D only", vowel ? "an" : "a", kind.name, kind.dimension),
+                counterpart(kind.name));
+    return;
+  }
+  if (!kind.describe)
+    describe_bitmap(slot, scene, entry.bitmap);
+  else
+    kind.describe(slot, entry.body.shape, scene);
+  entry.shaped = slot.good();
+}
+
+/// How many particles lie along a cell's side: alike in all directions, or for each.
+void describe_counts(Slot& slot, int dimension, std::array<int, 3>& counts) {
+  constexpr Whole kCount{1, 8};
+  const auto last = counts.begin() + dimension;
+  const bool alike = std::all_of(counts.begin(), last, [&](int count) { return count == counts[0]; });
+  std::size_t size = static_cast<std::size_t>(dimension);
+  const std::string expected =
+      fmt::format("a whole number or a list of {} (particles along a cell's side)", dimension);
+  if (slot.is_list(!alike, expected, dimension, dimension, size,
+                   [&](Slot& item, std::size_t k) { item.take(counts[k], kCount); }))
+    return;
+  if (slot.take(counts[0], kCount)) std::fill(counts.begin(), last, counts[0]);
+}
+
+void describe_seeding(Slot& slot, SeedingSpec& seeding) {
+  if (slot.is_word(kSeedings[0].name, !seeding.turned(), kSeedings[0].says)) return;
+  if (slot.is_word(kSeedings[1].name, seeding.rings, kSeedings[1].says)) {
+    seeding.rings = true;
+    return;
+  }
+  const bool map = slot.is_map(true, [&](Keys& keys) {
+    keys.need("angle", "Of the lattice, about z: along the edges of a body that lies across the grid.",
+              seeding.angle, Number{Measure::angle});
+  });
+  if (!map) slot.complain("not lattice, rings or {angle: …}");
+}
+
+void describe_velocity(Slot& slot, int dimension, BodySpec& body) {
+  const std::string expected = fmt::format("a list of {} (velocities: m/s, mm/s, km/s)", dimension);
+  if (slot.reads() && !slot.value()->is_list(dimension, dimension))
+    return slot.complain("not " + expected, slot.value()->vector_hint(Measure::velocity, dimension));
+  std::size_t size = static_cast<std::size_t>(dimension);
+  slot.list(expected, dimension, dimension, size, [&](Slot& item, std::size_t k) {
+    TimeTable table = body.rigid_velocity[k].value_or(TimeTable{{0}, {body.velocity[k]}});
+    if (!item.take(table, Table{Measure::velocity}) || !item.reads()) return;
+    body.velocity[k] = table.value.front();
+    if (table.time.size() > 1) body.rigid_velocity[k] = table;  // one point is a constant
+  });
+}
+
+void describe_rotation(Slot& slot, int dimension, BodySpec& body) {
+  if (slot.writes() && !body.rotation) return;
+  RotationSpec rotation = body.rotation.value_or(RotationSpec{{}, {0, 0, 1}, {{0}, {0}}});
+  slot.map(dimension == 2 ? "a map {about, speed}" : "a map {about, axis, speed}", [&](Keys& map) {
+    map.need_at("about", "A point of the axis at time 0; it moves with the body's velocity.", "a point",
+                [&](Slot& about) {
+                  about.take(rotation.about, Vector{Measure::length, dimension});
+                });
+    map.under("3d", dimension == 3, [&] {
+      map.need_at("axis", "Direction of the axis; in the plane it is z.", "x, y, z or a vector",
+                  [&](Slot& axis) { describe_direction(axis, 3, true, rotation.axis); });
+    });
+    map.key("speed", "Right-handed about the axis.", rotation.speed, Table{Measure::angular_velocity});
+  });
+  if (slot.reads() && slot.value()->is(Node::Kind::map)) body.rotation = rotation;
+}
+
+/// The shape and the material, with what a bitmap has beside it.
+void describe_substance(Keys& map, const Scene& scene, const std::vector<std::string>& materials,
+                        BodyEntry& entry) {
+  constexpr const char* kMaterial =
+      "One of `materials`; of a bitmap, of every level that its `materials` leave out.";
+  const auto& kinds = shape_kinds();
+  const int written = written_kind(entry.body.shape, scene.dimension());
+  const auto choice = map.one_of(shape_keys(), written);
+  if (choice.none()) report_shapes(map);
+  bool bitmap = false;
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    if (!choice.takes(static_cast<int>(k)) || (map.tells() && !fits(kinds[k], scene.dimension()))) continue;
+    map.need_at(kinds[k].name, kinds[k].note, "",
+                [&](Slot& slot) { describe_shape(slot, kinds[k], scene, entry); });
+    bitmap = !kinds[k].describe && fits(kinds[k], scene.dimension());
+  }
+  const auto material = [&](Slot& slot) { entry.made = slot.reference(entry.body.material, materials); };
+  map.under("bitmap", bitmap, [&] {
+    describe_bitmap_keys(map, scene, materials, entry.bitmap);
+    map.at("material", kMaterial, [&](Slot& slot) {
+      if (!slot.writes()) material(slot);
+    });
+  });
+  map.under("!bitmap", !bitmap,
+            [&] { map.need_at("material", kMaterial, "the name of a material", material); });
+  if (map.reads() && !bitmap && map.stated("bitmap"))  // these keys are known, whatever else is wrong
+    for (const char* key : {"extent", "origin", "skip", "materials"}) map.stated(key);
+}
+
+void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string>& materials,
+                   BodyEntry& entry) {
+  BodySpec& body = entry.body;
+  const int dimension = scene.dimension();
+  slot.map("a map {box | disk | …, material, …}", [&](Keys& map) {
+    map.derived("name", "Heads its columns in history.csv; body1, body2, … if not given.", body.name, Name{});
+    describe_substance(map, scene, materials, entry);
+    map.derived("field", "Bodies that name one velocity field share it: they move as one and do not touch.",
+                body.field, Name{});
+    map.at("particles_per_cell", "Particles along the side of a cell, for all directions or for each.",
+           [&](Slot& counts) { describe_counts(counts, dimension, body.particles_per_cell); });
+    map.at("seeding", "How the particles lie; a map turns their lattice.",
+           [&](Slot& seeding) { describe_seeding(seeding, body.seeding); });
+    map.at("velocity", "At the start; of a rigid body always, and each component may be a table in time.",
+           [&](Slot& velocity) { describe_velocity(velocity, dimension, body); });
+    map.at("rotation", "Turns a rigid body; of one that deforms, its spin at the start.",
+           [&](Slot& rotation) { describe_rotation(rotation, dimension, body); });
+  });
+}
+
+void add(BodySpec body, const BodyPlace& place, Scene& scene, std::vector<BodyPlace>& places) {
+  if (body.field.empty()) body.field = body.name;
+  check_tables(place.entry, scene, body);
+  scene.bodies.push_back(std::move(body));
+  places.push_back(place);
+}
+
+/// The bodies of a bitmap.
+void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
+                std::vector<BodyPlace>& places) {
+  const BitmapEntry& bitmap = entry.bitmap;
+  MapReader map(place.entry);
+  if (bitmap.levels.empty() && bitmap.shape.image)
+    map.find("bitmap")->report("every grey level of the image is skipped");
+  if (!bitmap.shape.image || bitmap.extent == Vec3{}) return;
+  for (const int level : bitmap.levels) {
+    BodySpec body = entry.body;
+    BitmapShape shape = bitmap.shape;
+    shape.lower[2] = 0;
+    shape.upper = {shape.lower[0] + bitmap.extent[0], shape.lower[1] + bitmap.extent[1], 0};
+    shape.grey = level;
+    body.shape = shape;
+    body.name = fmt::format("{}_{}", entry.body.name, level);
+    const auto own = std::find_if(bitmap.materials.begin(), bitmap.materials.end(),
+                                  [&](const auto& one) { return one.first == std::to_string(level); });
+    const bool has_own = own != bitmap.materials.end();
+    if (!has_own && !map.find("material")) {
+      place.entry.report(fmt::format(
+          "no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})", level));
+      continue;
+    }
+    if (has_own) body.material = own->second;
+    if (has_own ? own->second >= 0 : entry.made) add(body, place, scene, places);
+  }
+}
+
+/// The extent that, added to `lower`, rounds to `upper` again.
+double extent_between(double lower, double upper) {
+  const double extent = upper - lower;
+  double more = extent, less = extent;
+  for (int tries = 0; tries < 8; ++tries) {
+    if (lower + more == upper) return more;
+    if (lower + less == upper) return less;
+    more = std::nextafter(more, kInfinity);
+    less = std::nextafter(less, 0.0);
+  }
+  return extent;
+}
+
+/// The entry of the bodies first … last − 1, the grey levels of one bitmap.
+BodyEntry bitmap_entry(const Scene& scene, std::size_t first, std::size_t last) {
+  BodyEntry entry;
+  entry.body = scene.bodies[first];
+  BodySpec& body = entry.body;
+  entry.bitmap.shape = std::get<BitmapShape>(body.shape);
+  const BitmapShape& shape = entry.bitmap.shape;
+  const std::string suffix = fmt::format("_{}", shape.grey);
+  if (body.field == body.name) body.field.clear();
+  body.name.erase(body.name.size() - suffix.size());
+  entry.bitmap.extent = {extent_between(shape.lower[0], shape.upper[0]),
+                         extent_between(shape.lower[1], shape.upper[1]), 0};
+  std::array<bool, 256> skipped{};
+  for (const unsigned char grey : shape.image->pixel) skipped[grey] = true;
+  for (std::size_t b = first; b < last; ++b) {
+    const int grey = std::get<BitmapShape>(scene.bodies[b].shape).grey;
+    skipped[static_cast<std::size_t>(grey)] = false;
+    entry.bitmap.materials.emplace_back(std::to_string(grey), scene.bodies[b].material);
+  }
+  for (int grey = 0; grey < 256; ++grey)
+    if (skipped[static_cast<std::size_t>(grey)]) entry.bitmap.skip.push_back(grey);
+  return entry;
+}
+
+/// The bodies as the entries that they came from.
+std::vector<BodyEntry> entries_of(const Scene& scene) {
+  std::vector<BodyEntry> out;
+  for (std::size_t first = 0, last = 0; first < scene.bodies.size(); first = last) {
+    const auto* bitmap = std::get_if<BitmapShape>(&scene.bodies[first].shape);
+    last = first + 1;
+    if (!bitmap) {
+      out.push_back({scene.bodies[first], {}, true, true});
+      continue;
+    }
+    for (; last < scene.bodies.size(); ++last) {
+      const auto* next = std::get_if<BitmapShape>(&scene.bodies[last].shape);
+      if (!next || next->image != bitmap->image) break;
+    }
+    out.push_back(bitmap_entry(scene, first, last));
+  }
+  return out;
+}
+
+/// For those who name the bodies by keys, or forgot the dashes.
+std::string list_hint(const Node& bodies) {
+  if (bodies.kind != Node::Kind::map || bodies.keys.empty()) return "";
+  const bool names = index_of(bodies.items[0], "material") >= 0;
+  return names ? fmt::format("A body begins with '- name: {}'", bodies.keys[0].text)
+               : fmt::format("A body begins with a dash, '- {}: …'", bodies.keys[0].text);
+}
+
+void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
+  constexpr const char* kExpected = "a list of maps {box | disk | …, material, …}";
+  if (slot.reads() && !slot.value()->is(Node::Kind::list))
+    return slot.complain(std::string("not ") + kExpected, list_hint(slot.value()->node()));
+  if (slot.reads() && slot.value()->size() == 0) return slot.report("no bodies");
+  std::vector<std::string> materials;
+  for (const MaterialSpec& material : scene.materials) materials.push_back(material.name);
+  const std::vector<BodyEntry> entries = entries_of(scene);  // none when it is read
+  std::size_t count = entries.size();
+  slot.list(kExpected, 1, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
+    BodyEntry entry = item.writes() ? entries[k] : BodyEntry{};
+    if (item.reads()) entry.body.name = fmt::format("body{}", k + 1);
+    if (scene.dimension() == 2) entry.body.particles_per_cell[2] = 1;
+    describe_body(item, scene, materials, entry);
+    if (!item.reads() || !entry.shaped) return;
+    const Value& value = *item.value();
+    const BodyPlace place{value, MapReader(value).find("name").value_or(value)};
+    if (entry.bitmap.shape.image)
+      add_levels(entry, place, scene, places);
+    else if (entry.made)
+      add(entry.body, place, scene, places);
+  });
+}
+
+}  // namespace
+
+void describe_bodies(Keys& top, Scene& scene, std::vector<BodyPlace>& places) {
+  top.need_at("bodies", "The bodies, each a shape of one material with a velocity field of its own.",
+              "a list of maps {box | disk | …, material, …}",
+              [&](Slot& slot) { describe_list(slot, scene, places); });
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,130 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "engine/scene/geometry.hpp"
+#include "engine/scene/sections/describe.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Particles may only lie in the grid. A shape across the axis of an axisymmetric scene is its right half; a
+/// box can begin there.
+void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  const Bounds box = bounds(body.shape);
+  const double slack = 1e-6 * scene.grid.cell;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
+    const bool halved = k == 0 && scene.space == Space::axisymmetric && scene.grid.origin[0] == 0 &&
+                        !std::holds_alternative<BoxShape>(body.shape);
+    const double below = halved ? 0 : scene.grid.origin[k] - box.lower[k];
+    const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
+    const auto report = [&](double by, const char* where) {
+      const double size = scene.grid.size[k];
+      place.entry.report(
+          fmt::format("body '{}' lies {:.6g} m outside the grid, {} in {} (the body is at {:.6g} to "
+                      "{:.6g} m, the grid at {:.6g} to {:.6g} m)",
+                      body.name, by, where, "xyz"[k], box.lower[k], box.upper[k], scene.grid.origin[k],
+                      scene.grid.origin[k] + size),
+          by > 10 * size ? "A bare number is in metres" : "");
+    };
+    if (below > slack) report(below, "below");
+    if (above > slack) report(above, "above");
+  }
+}
+
+/// A round shape in the plane: a disk, or a ring.
+bool is_round(const Scene& scene, const Shape& shape) {
+  if (scene.dimension() != 2) return false;
+  const auto* ellipse = std::get_if<EllipsoidShape>(&shape);
+  return std::holds_alternative<RingShape>(shape) || (ellipse && ellipse->radii[0] == ellipse->radii[1]);
+}
+
+/// Where particles cannot lie as `seeding` says.
+void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  if (!body.seeding.turned()) return;
+  const auto refuse = [&](const char* why) {
+    if (const auto seeding = MapReader(place.entry).find("seeding")) seeding->complain(why);
+  };
+  const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
+  if (std::holds_alternative<LinearElasticSpec>(model))
+    refuse("linear_elastic takes turned particles for strained ones (neo_hookean does not)");
+  if (std::holds_alternative<BitmapShape>(body.shape))
+    refuse("the levels of a bitmap share the grid's lattice");
+  if (scene.space == Space::axisymmetric)
+    refuse("the particles of an axisymmetric scene lie along the radius");
+  if (body.seeding.rings && !is_round(scene, body.shape))
+    refuse("rings are for disks and rings in the plane");
+}
+
+/// Particles have indices of 32 bits, and nobody means a billion of them.
+void check_count(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+  constexpr double kMost = 1e9;
+  const Bounds box = bounds(body.shape);
+  double count = 1;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
+    count *= (box.upper[k] - box.lower[k]) / scene.grid.cell * body.particles_per_cell[k];
+  }
+  if (count > kMost)
+    place.entry.report(fmt::format("body '{}' would have about {:.2g} particles", body.name, count));
+}
+
+/// A rigid body's velocity is given, so nothing may move in one velocity field with it.
+void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
+  std::map<std::string, int> sharers;
+  for (const BodySpec& body : scene.bodies) ++sharers[body.field];
+  std::size_t rigid = 0;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySpec& body = scene.bodies[b];
+    if (!is_rigid(scene, body)) continue;
+    ++rigid;
+    const bool shared = scene.contact.active ? sharers[body.field] > 1 : scene.bodies.size() > 1;
+    if (!shared) continue;
+    places[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}",
+                                       body.name, scene.contact.active ? "" : ", because of contact: none"));
+  }
+  const bool all_read = !places.empty() && places[0].entry.problems().empty();
+  if (all_read && rigid == scene.bodies.size())
+    places[0].entry.report("every body is rigid: there is nothing to compute");
+}
+
+}  // namespace
+
+void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known) {
+  std::set<std::string> names, fields;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySpec& body = scene.bodies[b];
+    if (!names.insert(body.name).second)
+      places[b].name.report(fmt::format("another body is called '{}'", body.name));
+    if (body.name == "all")
+      places[b].name.report("history.csv calls the means over all bodies 'all': they would share columns",
+                            "Give the body another name");
+    fields.insert(body.field);
+    check_seeding(scene, body, places[b]);
+    if (!grid_known) continue;
+    check_inside(scene, body, places[b]);
+    check_count(scene, body, places[b]);
+  }
+  if (names.size() == scene.bodies.size()) check_rigid(scene, places);  // two of one name share a field too
+  constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
+  if (scene.bodies.size() > kMostBodies) {
+    places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));
+  }
+}
+
+void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {
+  if (is_rigid(scene, body)) return;
+  const auto refuse = [&](const char* key, const char* what) {
+    const int index = index_of(entry.node(), key);
+    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), key), entry.problems())
+        .report(fmt::format("{} is for rigid bodies only", what));
+  };
+  const auto& tables = body.rigid_velocity;
+  if (std::any_of(tables.begin(), tables.end(), [](const auto& table) { return table.has_value(); }))
+    refuse("velocity", "a table of velocities");
+  if (body.rotation && body.rotation->speed.time.size() > 1) refuse("rotation", "a table of rotations");
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "engine/scene/sections/describe.hpp"
+#include "engine/scene/sections/pairs.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+bool is_gradient(NormalKind normal) {
+  return normal == NormalKind::average_gradient || normal == NormalKind::max_gradient ||
+         normal == NormalKind::max_volume || normal == NormalKind::own_gradient;
+}
+
+bool is_ours(NormalKind normal) {
+  return normal == NormalKind::max_margin || normal == NormalKind::smoothed_max_margin ||
+         normal == NormalKind::smoothed_logistic_regression;
+}
+
+bool is_of_grid(SeparationKind separation) {
+  return separation == SeparationKind::displacement || separation == SeparationKind::position_offset ||
+         separation == SeparationKind::position_power || separation == SeparationKind::position_piecewise;
+}
+
+/// The default first_correction_share: with one set of touching pairs nothing has to be drained
+/// (tools/manual/theory.md, "The energy of a contact").
+double share_of(StrainKind strain, const ContactSpec& contact) {
+  const bool seen =
+      strain == StrainKind::last_re_extrapolated || strain == StrainKind::average_re_extrapolated;
+  return seen || !is_ours(contact.normal) ? 0 : ContactSpec::kDrained;
+}
+
+/// What follows from the choice of normals, before the scene's other words: the published methods are as
+/// published, ours with all that makes them robust.
+void set_defaults(ContactSpec& contact) {
+  const bool ours = is_ours(contact.normal);
+  contact.advance_separation = contact.warm_start = contact.persistent = ours;
+  contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
+  if (is_gradient(contact.normal)) contact.separation = SeparationKind::position_offset;
+}
+
+void describe_normal(Keys& map, int dimension, ContactSpec& contact) {
+  constexpr const char* kSays = "The normal, from the body listed first to the other, or into a rigid one.";
+  map.at("specified_normal", kSays, [&](Slot& slot) {
+    if (slot.writes() && contact.specified_normal == Vec3{}) return;
+    if (!slot.take(contact.specified_normal, Vector{Measure::number, dimension}) || !slot.reads()) return;
+    const auto unit = unit_vector(contact.specified_normal);
+    if (!unit) slot.report("the zero vector has no direction");
+    contact.specified_normal = unit.value_or(Vec3{});
+  });
+  map.under("normal=specified", contact.normal == NormalKind::specified,
+            [&] { map.need_at("specified_normal", kSays, "a vector", [](Slot&) {}); });
+}
+
+void describe_regression(Keys& map, ContactSpec& contact) {
+  constexpr Limit kTolerance{"in (0, 1)", 0, 1, true, true};
+  map.key("penalty", "Regression: holds the plane back, in units of the cell.", contact.penalty,
+          Number{Measure::number, kNotNegative});
+  map.key("offset_penalty", "The same for the plane's offset.", contact.offset_penalty,
+          Number{Measure::number, kNotNegative});
+  map.key("tolerance", "Regression: it stops when the normal turns less (1 - n·n').", contact.tolerance,
+          Number{Measure::number, kTolerance});
+  map.key("max_iterations", "Regression: at most so many passes.", contact.max_iterations, Whole{1, 1000});
+  map.key("warm_start", "A regression starts from the plane of the last step.", contact.warm_start);
+}
+
+/// Which nodes and pairs touch.
+void describe_touching(Keys& map, ContactSpec& contact) {
+  constexpr Limit kShare{"in [0, 0.5)", 0, 0.5, false, true};
+  map.key("rigid_bias",
+          "A rigid body gives the normal unless its gradient is smaller by this factor; 10 or more: also in "
+          "place of a regression; 0: off.",
+          contact.rigid_bias, Number{Measure::number, kNotNegative});
+  map.key("advance_separation", "The gap is judged where the bodies will be at the end of the step.",
+          contact.advance_separation);
+  map.key("persistent",
+          "One set of touching pairs a step, for both corrections and the strain: keeps energy.",
+          contact.persistent);
+  map.key("hysteresis", "Cells: what touches goes on touching up to this gap.", contact.hysteresis,
+          Number{Measure::number, kNotNegative});
+  map.key("mass_screen", "Nodes where a body has less than this share of the mass have no contact.",
+          contact.mass_screen, Number{Measure::number, kShare});
+  map.key("volume_screen", "Nodes with less material than this share of a cell have no contact.",
+          contact.volume_screen, Number{Measure::number, kNotNegative});
+}
+
+void check_fields(Slot& fields, const ContactSpec& contact) {
+  const bool of_particles = !is_gradient(contact.normal) && contact.normal != NormalKind::specified &&
+                            !is_of_grid(contact.separation);
+  if (fields.reads() && contact.fields == ManyFields::pairs && !of_particles)
+    fields.report(
+        "explicit pairs are found from the particles of each pair (normal: a regression or a margin, "
+        "separation: ellipsoid)");
+}
+
+void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
+  constexpr Limit kWhole{"in [0, 1]", 0, 1};
+  ContactSpec& contact = scene.contact;
+  StrainKind& strain = scene.method.strain;
+  map.key("normal", "Where the normal of contact comes from.", contact.normal, kNormals);
+  if (!map.writes()) set_defaults(contact);
+  describe_normal(map, scene.dimension(), contact);
+  map.key("separation", "How the gap between two bodies is measured.", contact.separation, kSeparations);
+  map.key("position_offset", "Cells that position_offset takes off the gap.", contact.position_offset,
+          Number{Measure::number, kNotNegative});
+  map.key("piecewise_particles", "Particles along a cell's side that position_piecewise is made for.",
+          contact.piecewise_particles, Whole{1, 2});
+  map.key("detection", "What makes two bodies touch.", contact.detection, kDetections);
+  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact);
+  describe_regression(map, contact);
+  describe_touching(map, contact);
+  map.key("corrections", "Contact corrections a step; 1: only after the forces have acted.",
+          contact.corrections, Whole{1, 2});
+  if (map.reads() && !strain_stated && !contact.decides_once()) strain = StrainKind::average;
+  if (!map.writes()) contact.first_correction_share = share_of(strain, contact);
+  map.key("first_correction_share", "flip: share of the first correction that particles take too.",
+          contact.first_correction_share, Number{Measure::number, kWhole});
+  map.key("area", "How the area of contact is found, for bonds and films.", contact.area, kAreas);
+  map.at("fields", "What is done where three or more bodies meet.", [&](Slot& slot) {
+    slot.take(contact.fields, kManyFields);
+    check_fields(slot, contact);
+  });
+  describe_pairs(map, top, scene);
+}
+
+}  // namespace
+
+void describe_contact(Keys& top, bool strain_stated, Scene& scene) {
+  ContactSpec& contact = scene.contact;
+  if (!top.writes()) contact.first_correction_share = share_of(scene.method.strain, contact);
+  top.at("contact", "How bodies touch; none: all share one velocity field and stick together.",
+         [&](Slot& slot) {
+           if (slot.is_word("none", !contact.active))
+             contact.active = false;
+           else
+             slot.map("none or a map {law, friction, normal, separation, …}",
+                      [&](Keys& map) { describe_map(map, strain_stated, scene, top); });
+         });
+}
+
+const std::vector<LawParameter>& law_parameters() {
+  using enum LawKind;
+  static const std::vector<LawParameter> kParameters{
+      {"friction",
+       "Coefficient of friction while sliding; may stand beside any law.",
+       {Measure::number, kNotNegative},
+       &LawSpec::friction,
+       {coulomb, adhesion, velocity_friction},
+       false},
+      {"static_friction",
+       "Coefficient up to which surfaces at rest stick; 0: as `friction`.",
+       {Measure::number, kNotNegative},
+       &LawSpec::static_friction,
+       {coulomb, velocity_friction},
+       false},
+      {"decay_speed",
+       "Speed over which friction falls from static to sliding.",
+       {Measure::velocity, kPositive},
+       &LawSpec::decay_speed,
+       {velocity_friction},
+       true},
+      {"normal_strength",
+       "Tension at which a bond breaks.",
+       {Measure::pressure, kPositive},
+       &LawSpec::normal_strength,
+       {adhesion},
+       true},
+      {"shear_strength",
+       "Shear at which a bond breaks.",
+       {Measure::pressure, kPositive},
+       &LawSpec::shear_strength,
+       {adhesion},
+       true},
+      {"reach",
+       "Cells: a bond acts up to this gap.",
+       {Measure::number, kNotNegative},
+       &LawSpec::reach,
+       {adhesion},
+       false},
+      {"viscosity",
+       "Of the film between the surfaces.",
+       {Measure::viscosity, kNotNegative},
+       &LawSpec::viscosity,
+       {viscous},
+       true},
+      {"film", "Thickness of the film.", {Measure::length, kPositive}, &LawSpec::film, {viscous}, true},
+  };
+  return kParameters;
+}
+
+bool has_parameter(LawKind law, const LawParameter& parameter) {
+  return std::find(parameter.laws.begin(), parameter.laws.end(), law) != parameter.laws.end();
+}
+
+/// Friction may stand beside any law, so that --set can choose another; the other parameters may not.
+void describe_law(Keys& map, const char* says, LawSpec& law) {
+  const LawKind inherited = law.law;
+  map.key("law", says, law.law, kLaws);
+  for (const LawParameter& parameter : law_parameters()) {
+    const bool owns = has_parameter(law.law, parameter), anywhere = parameter.value == &LawSpec::friction;
+    if (map.writes() && !owns && !anywhere) continue;
+    const auto take = [&](Slot& slot) {
+      if (slot.reads() && !owns && !anywhere)
+        return slot.report(fmt::format("the law '{}' has no {}", name_of(kLaws, law.law), parameter.name));
+      slot.take(law.*parameter.value, parameter.form);
+    };
+    if (map.reads() && owns && parameter.needed && law.law != inherited)
+      map.need_at(parameter.name, parameter.says, expected_of(parameter.form), take);
+    else if (parameter.needed)
+      map.derived_at(parameter.name, parameter.says, take);
+    else
+      map.at(parameter.name, parameter.says, take);
+  }
+  const bool has_both = law.law == LawKind::coulomb || law.law == LawKind::velocity_friction;
+  if (!map.reads() || !has_both || law.static_friction == 0 || law.static_friction >= law.friction) return;
+  const std::string fault =
+      fmt::format("static friction {} is less than sliding friction {}", law.static_friction, law.friction);
+  if (map.stated("static_friction"))
+    map.check("static_friction", [&](Slot& slot) { slot.report(fault); });
+  else
+    map.report(fault);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,118 @@
+#pragma once
+
+/// @file The sections of a scene: each is described once, and read, written and told of by its description
+/// (keys.hpp). What follows from several sections is checked after they are read.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/scene/keys.hpp"
+
+namespace mpmfast {
+
+/// The whole scene.
+void describe_scene(Keys& top, Scene& scene);
+/// The scene with every default, in the format that is read.
+std::string write_scene(const Scene& scene);
+
+/// False when there is no grid to check positions against.
+bool describe_grid(Keys& top, int dimension, GridSpec& grid);
+void describe_time(Keys& top, TimeSpec& time);
+void describe_gravity(Keys& top, int dimension, GravitySpec& gravity);
+void describe_output(Keys& top, int dimension, OutputSpec& output);
+/// @return whether the strain is stated
+bool describe_method(Keys& top, MethodSpec& method);
+/// Chooses the strain that suits the contact where the scene states none. Needs the bodies.
+void describe_contact(Keys& top, bool strain_stated, Scene& scene);
+/// `law` and its parameters; what is absent keeps its value.
+void describe_law(Keys& map, const char* says, LawSpec& law);
+/// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
+void describe_materials(Keys& top, std::vector<MaterialSpec>& materials);
+/// Where a body was written, for checks that come later.
+struct BodyPlace {
+  Value entry, name;
+};
+/// Needs grid and materials.
+/// @param places  of the bodies that are read
+void describe_bodies(Keys& top, Scene& scene, std::vector<BodyPlace>& places);
+/// Needs the grid and the bodies.
+void describe_boundaries(Keys& top, bool grid_known, Scene& scene);
+
+/// A direction: x, +x, -x, left, up, out … or (when `any`) a vector, made a unit vector.
+void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction);
+/// The vector with length 1; one that has it to round-off is kept as it is, so that reading what was written
+/// changes nothing. Nothing for a zero vector.
+std::optional<Vec3> unit_vector(const Vec3& vector);
+
+// Checks of a scene that was read.
+
+/// Refuses walls with bodies behind them, and pistons that would go through the wall on the other side.
+void check_walls(MapReader& top, const Scene& scene);
+/// `grid.leaving: wall`: a wall on each face that `boundaries` says nothing of. Needs everything else.
+void close_faces(MapReader& top, Scene& scene);
+/// Refuses laws that plane stress cannot have.
+void check_plane_stress(MapReader& top, const Scene& scene);
+/// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.
+void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene);
+
+/// What a body must not be, beside others, in this grid, of this material.
+void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known);
+/// Tables make sense only where the body obeys them.
+void check_tables(const Value& entry, const Scene& scene, const BodySpec& body);
+
+// What there is to choose from.
+
+/// A kind of body: the key that names it in a scene.
+struct ShapeKind {
+  const char* name;
+  int dimension;                                                   ///< 2, 3, or 0 for both
+  const char* says;                                                ///< a line for `mpmfast list`
+  const char* note;                                                ///< what the key means
+  void (*describe)(Slot& slot, Shape& shape, const Scene& scene);  ///< none for a bitmap, which is several
+  std::size_t holds;                                               ///< index in Shape
+  bool written;                                                    ///< shapes of this index have this name
+};
+const std::vector<ShapeKind>& shape_kinds();
+
+/// A bitmap and the keys beside it: one body for each grey level that is not skipped.
+struct BitmapEntry {
+  BitmapShape shape;  ///< its lower corner and image
+  Vec3 extent{};
+  std::vector<int> skip;
+  std::vector<int> levels;                             ///< that are read and not skipped
+  std::vector<std::pair<std::string, int>> materials;  ///< grey level, index of its material; −1: unknown
+};
+/// `bitmap` itself, and what stands beside it.
+void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry);
+void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,
+                          BitmapEntry& entry);
+
+struct MaterialKind {
+  const char* name;
+  const char* says;
+  decltype(MaterialSpec::model) standard;  ///< of this model, with the defaults
+  void (*describe)(Keys& map, decltype(MaterialSpec::model)& model);
+};
+const std::vector<MaterialKind>& material_kinds();
+/// Which of them a material is.
+std::size_t kind_index(const decltype(MaterialSpec::model)& model);
+
+/// A number that some laws have.
+struct LawParameter {
+  const char* name;
+  const char* says;
+  Number form;
+  double LawSpec::*value;
+  std::vector<LawKind> laws;
+  bool needed;  ///< has no default
+};
+const std::vector<LawParameter>& law_parameters();
+bool has_parameter(LawKind law, const LawParameter& parameter);
+
+/// Keys that are done with before the sections are read: their name and what they mean.
+const std::vector<KnownWord>& early_keys();
+
+}  // namespace mpmfast

@@ -1,0 +1,96 @@
+#include "engine/scene/sections/describe.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+void describe_head(Keys& top, Scene& scene) {
+  top.key("title", "Name of the scene; that of its file if not given.", scene.title, Text{});
+  top.need_at(
+      "space", "Whether the scene lies in a plane, turns about an axis or is solid.", expected_of(kSpaces),
+      [&](Slot& slot) {
+        if (slot.reads() && (slot.value()->node().scalar == "2d" || slot.value()->node().scalar == "2D"))
+          return slot.complain("not known here (one of plane_strain, plane_stress, axisymmetric, 3d)",
+                               "plane_strain is the usual one of two dimensions");
+        slot.take(scene.space, kSpaces);
+      });
+  const bool solid = scene.dimension() == 3, turned = scene.space == Space::axisymmetric;
+  if (!solid && !turned)
+    top.key("thickness", "Planes only: masses, forces and energies are those of this depth.", scene.thickness,
+            Number{Measure::length, kPositive});
+  else
+    top.check("thickness", [&](Slot& slot) {
+      slot.report(solid ? "a 3-D scene has no thickness"
+                        : "an axisymmetric scene has no thickness: it is whole round its axis");
+    });
+}
+
+/// What follows from several sections.
+void check_scene(MapReader& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
+  check_bodies(scene, places, grid_known);
+  if (grid_known) check_walls(top, scene);
+  if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
+  if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
+  if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
+}
+
+}  // namespace
+
+void describe_scene(Keys& top, Scene& scene) {
+  for (const KnownWord& early : early_keys()) top.stated(early.name);  // done with
+  describe_head(top, scene);
+  const bool grid_known = describe_grid(top, scene.dimension(), scene.grid);
+  describe_time(top, scene.time);
+  const bool strain_stated = describe_method(top, scene.method);
+  describe_materials(top, scene.materials);
+  std::vector<BodyPlace> places;
+  describe_bodies(top, scene, places);
+  describe_boundaries(top, grid_known, scene);
+  describe_gravity(top, scene.dimension(), scene.gravity);
+  describe_contact(top, strain_stated, scene);
+  describe_output(top, scene.dimension(), scene.output);
+  if (top.reads()) check_scene(top.reader(), grid_known, places, scene);
+  top.close();
+}
+
+const std::vector<KnownWord>& early_keys() {
+  static const std::vector<KnownWord> kEarly{
+      {"variables", "Numbers and quantities by name, for expressions `${…}` anywhere in the scene."},
+      {"include", "A scene that this one starts from, or several: paths counted from its folder."},
+  };
+  return kEarly;
+}
+
+const std::map<std::string, Known>& known_values() {
+  static const Knowledge kKnowledge = [] {
+    Knowledge knowledge;
+    const auto tell = [&](Scene scene) {
+      Keys top(knowledge, "");
+      describe_scene(top, scene);
+    };
+    Scene scene;
+    for (const Word<Space>& space : kSpaces) {
+      scene.space = space.value;
+      tell(scene);
+    }
+    // Choices on which defaults of other keys depend: those are told to vary.
+    knowledge.choose({"contact.normal", "contact.law", "method.update", "method.strain"});
+    scene.contact.normal = NormalKind::specified;
+    scene.contact.law = LawKind::adhesion;
+    scene.method.update = UpdateKind::apic;
+    scene.method.strain = StrainKind::first;
+    tell(scene);
+    return knowledge;
+  }();
+  return kKnowledge.found();
+}
+
+std::string write_scene(const Scene& scene) {
+  Written out;
+  Keys top(out);
+  Scene copy = scene;  // descriptions serve readers too, and do not know that they only write
+  describe_scene(top, copy);
+  return layout(out);
+}
+
+}  // namespace mpmfast
