@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/contact/laws.hpp"
+#include "kernels/contact/resolve_pair.hpp"
 
 namespace {
 

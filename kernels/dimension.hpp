@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "kernels/tensor.hpp"
+
 namespace mpmfast {
 
 template <int Dim>
@@ -13,16 +15,6 @@ template <int Dim>
 using Mat = Eigen::Matrix<double, Dim, Dim>;
 template <int Dim>
 using NodeIndex = Eigen::Matrix<int, Dim, 1>;  ///< integer node coordinates, any sign
-
-/// Components of a symmetric tensor, in the order xx, yy, zz, xy (plane strain carries zz), then yz, xz in
-/// 3-D.
-template <int Dim>
-inline constexpr int kSymmetric = Dim == 2 ? 4 : 6;
-
-/// What the stretch along the normal of a plane does: nothing (plane strain; three dimensions), what leaves
-/// no stress there (plane stress), or what a circle about the axis x = 0 does (axisymmetry: x is the radius,
-/// y runs along the axis, z round it).
-enum class Depth { held, relaxed, hoop };
 
 inline constexpr double kFullTurn = 6.283185307179586477;  ///< 2π
 

@@ -119,16 +119,6 @@ FieldValues values_of_all(const Particles<Dim>& particles, const Scene& scene, c
       fmt::format("unknown field '{}' (one of {})", field, fmt::join(field_names(Dim), ", ")));
 }
 
-/// A modulus of the material, Pa; 0 where nothing deforms.
-struct Stiffness {
-  double operator()(const LinearElasticSpec& m) const { return m.young; }
-  double operator()(const RigidSpec&) const { return 0; }
-  template <class Model>
-  double operator()(const Model& m) const {
-    return m.shear;
-  }
-};
-
 /// Stresses that are but round-off of the material's modulus, each body's own, become zero.
 template <int Dim>
 void clear_round_off(const Particles<Dim>& particles, const Scene& scene, std::vector<double>& stress) {
@@ -136,7 +126,8 @@ void clear_round_off(const Particles<Dim>& particles, const Scene& scene, std::v
   std::vector<double> least;
   for (const BodySpec& body : scene.bodies)
     least.push_back(kRoundOff *
-                    std::visit(Stiffness{}, scene.materials[static_cast<std::size_t>(body.material)].model));
+                    std::visit([](const auto& law) { return law.modulus(); },
+                               scene.materials[static_cast<std::size_t>(body.material)].model));
   for (std::size_t p = 0; p < particles.size(); ++p)
     if (std::abs(stress[p]) < least[particles.body()[p]]) stress[p] = 0;
 }

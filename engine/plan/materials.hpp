@@ -13,9 +13,6 @@ namespace mpmfast {
 /// @param cell  edge of a grid cell, m: the length of artificial viscosity
 Material make_material(const MaterialSpec& spec, double cell);
 
-/// Density of the undeformed material, kg/m³.
-double density_of(const MaterialSpec& spec);
-
 /// Columns of evolving state that the materials of a scene need.
 std::vector<Quantity> state_columns(const std::vector<MaterialSpec>& materials);
 

@@ -89,7 +89,7 @@ void plan_contact_columns(const ContactSpec& contact, Plan& plan) {
 void plan_areas(const Scene& scene, Plan& plan) {
   if (!plan.contact) return;
   const auto need = [&](Nodal q) { need_column(q, plan); };
-  if (any_law(scene.contact, uses_area))
+  if (any_law(scene.contact, [](const auto& law) { return law.uses_area; }))
     need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
   if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
 }
@@ -179,10 +179,11 @@ Plan make_plan(const Scene& scene) {
   plan_method(scene.method, plan);
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
-  const auto acts = [](const LawSpec& law) { return law.law != LawKind::ignore; };
+  const auto acts = [](const auto& law) { return law.scope != LawScope::nowhere; };
+  const auto ties = [](const auto& law) { return law.scope == LawScope::everywhere; };
   plan.contact = plan.fields.size() > 1 && any_law(scene.contact, acts);
-  plan.contact_geometry = any_law(scene.contact, uses_geometry);
-  plan.exact_fields = any_law(scene.contact, [](const LawSpec& law) { return law.law == LawKind::perfect; });
+  plan.contact_geometry = any_law(scene.contact, [&](const auto& law) { return acts(law) && !ties(law); });
+  plan.exact_fields = any_law(scene.contact, ties);
   plan.first_correction = scene.contact.corrections == 2;
   plan.one_set = plan.re_extrapolate && scene.contact.decides_once();
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&

@@ -34,7 +34,7 @@ std::vector<CatalogueEntry> kinds_of(const std::vector<Kind>& kinds, const std::
 /// A law with its parameters.
 std::vector<CatalogueEntry> laws() {
   std::vector<CatalogueEntry> out;
-  for (const Word<LawKind>& law : kLaws) out.push_back({law.name, law_keys_text(law.value), law.says});
+  for (const ContactLawKind& law : contact_laws()) out.push_back({law.name, law_keys_text(law), law.says});
   return out;
 }
 

@@ -240,20 +240,28 @@ bool Keys::need_at(const std::string& name, const char* says, const std::string&
 }
 
 void Keys::describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
-  const bool has_default = presence == Presence::optional;
+  if (tells()) return tell(name, says, presence, body);
   Written value;
-  Slot writing(value);
-  if (writes() || has_default) body(writing);
-  if (writes()) {
-    if (value.kind != Written::Kind::nothing) out_->add(name, std::move(value));
-    return;
-  }
+  Slot slot(value);
+  body(slot);
+  if (value.kind != Written::Kind::nothing) out_->add(name, std::move(value));
+}
+
+void Keys::tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
+  const bool itself = outside_ && name == condition_;  // its presence is the condition: the map may have it
+  const std::string map = itself ? *outside_ : pattern_, pattern = join(map, name);
   const bool alternative =
-      std::find(alternatives_.begin(), alternatives_.end(), child(name)) != alternatives_.end();
-  knowledge_->key(pattern_, child(name), presence == Presence::needed && !alternative, says);
-  if (const auto standard = has_default ? default_text(value) : std::nullopt)
-    knowledge_->standard(child(name), *standard);
-  Slot telling(*knowledge_, child(name));
+      std::find(alternatives_.begin(), alternatives_.end(), pattern) != alternatives_.end();
+  const bool needed = presence == Presence::needed && !alternative && !itself;
+  if (!itself && outside_ && knowledge_->tells(*outside_, name, needed)) return;
+  knowledge_->key(map, pattern, needed, says);
+  if (presence == Presence::optional) {
+    Written value;
+    Slot writing(value);
+    body(writing);
+    if (const auto standard = default_text(value)) knowledge_->standard(pattern, *standard);
+  }
+  Slot telling(*knowledge_, pattern);
   body(telling);
 }
 
@@ -279,11 +287,12 @@ Keys::Choice Keys::one_of(const KeyGroups& groups, int written) {
   choice.given_ = reads() ? reader_->one_of(groups) : written;
   choice.all_ = tells();
   if (!tells()) return choice;
-  knowledge_->groups(pattern_, groups);
+  const bool told = outside_ && knowledge_->has_groups(*outside_, groups);
+  if (!told) knowledge_->groups(pattern_, groups);
   for (const auto& group : groups)
     for (const std::string& name : group) {
       alternatives_.push_back(child(name));
-      knowledge_->key(pattern_, child(name), false, "");
+      if (!told) knowledge_->key(pattern_, child(name), false, "");
     }
   return choice;
 }
@@ -293,10 +302,15 @@ void Keys::under(const std::string& condition, bool holds, const std::function<v
     if (holds) body();
     return;
   }
-  const std::string outside = pattern_;
+  const std::string pattern = pattern_, before = condition_;
+  const std::optional<std::string> outside = outside_;
   pattern_ += "<" + condition + ">";
+  outside_ = pattern;
+  condition_ = condition;
   body();
-  pattern_ = outside;
+  pattern_ = pattern;
+  outside_ = outside;
+  condition_ = before;
 }
 
 std::optional<Value> Keys::stated(const std::string& name) {

@@ -19,12 +19,9 @@
 
 namespace mpmfast {
 
-// Forms of values, as descriptions state them. Words are an array of Word (names.hpp).
+// Forms of values, as descriptions state them; of one number see kernels/measure.hpp. Words are an array of
+// Word (names.hpp).
 
-struct Number {
-  Measure measure = Measure::number;
-  Limit limit = kAny;
-};
 struct Whole {
   int least = 0, most = Form::kNoEnd;
 };
@@ -212,7 +209,8 @@ class Keys {
   Choice one_of(const KeyGroups& groups, int written = 0);
 
   /// Keys that the map has under a condition: "bitmap" and "!bitmap" (this key is there, or not),
-  /// "model=rigid", "3d". They are described where it holds, and told of always.
+  /// "model=rigid", "3d". They are described where it holds, and told of always. Told is what the map does
+  /// not have anyway; a key of the condition's own name is one that it may have.
   void under(const std::string& condition, bool holds, const std::function<void()>& body);
 
   /// What stands under a key that is read.
@@ -235,11 +233,13 @@ class Keys {
   enum class Presence { optional, derived, needed, chosen };  ///< the last: its name is the user's choice
   bool read(const std::string& name, const Slot::Body& body);
   void describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
+  void tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
 
   std::optional<MapReader> reader_;
   Written* out_ = nullptr;
   Knowledge* knowledge_ = nullptr;
-  std::string pattern_;
+  std::string pattern_, condition_;      ///< the innermost
+  std::optional<std::string> outside_;   ///< the pattern without it
   std::vector<std::string> alternatives_;  ///< patterns of one_of's keys: none is needed by itself
   bool good_ = true, open_ = false, closed_ = false;
 };

@@ -62,6 +62,19 @@ void Knowledge::standard(const std::string& pattern, const std::string& text) {
   if (!known.standard) known.standard = text;
 }
 
+bool Knowledge::tells(const std::string& map, const std::string& key, bool needed) const {
+  const auto holder = found_.find(map), value = found_.find(map + "." + key);
+  if (holder == found_.end() || value == found_.end()) return false;
+  const auto& keys = holder->second.keys;
+  const bool there = std::find(keys.begin(), keys.end(), key) != keys.end();
+  return there && (value->second.needed || !needed);
+}
+
+bool Knowledge::has_groups(const std::string& map, const KeyGroups& groups) const {
+  const auto holder = found_.find(map);
+  return holder != found_.end() && holder->second.one_of == groups;
+}
+
 std::string unconditional(const std::string& pattern) {
   std::string out;
   bool inside = false;

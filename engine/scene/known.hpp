@@ -63,6 +63,10 @@ class Knowledge {
   void closed(const std::string& map) { found_[map].closed = true; }
   void groups(const std::string& map, const KeyGroups& groups) { found_[map].one_of = groups; }
 
+  /// Has the map this key, needed if that is asked?
+  bool tells(const std::string& map, const std::string& key, bool needed) const;
+  bool has_groups(const std::string& map, const KeyGroups& groups) const;
+
   /// By pattern.
   const std::map<std::string, Known>& found() const { return found_; }
 

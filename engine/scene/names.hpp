@@ -128,19 +128,6 @@ inline constexpr std::array<Word<DetectionKind>, 3> kDetections{{
     {DetectionKind::separation, "separation", "surfaces that overlap, also where they part: they stick"},
 }};
 
-/// Their keys are in law_parameters (sections.hpp).
-inline constexpr std::array<Word<LawKind>, 8> kLaws{{
-    {LawKind::coulomb, "coulomb", "slides when friction × normal force is reached (default, friction 0)"},
-    {LawKind::frictionless, "frictionless", "slides freely"},
-    {LawKind::stick, "stick", "never slides while in contact"},
-    {LawKind::perfect, "perfect", "always tied, also in tension"},
-    {LawKind::ignore, "ignore", "bodies pass through each other"},
-    {LawKind::adhesion, "adhesion", "bonded up to a tensile and a shear strength, then coulomb"},
-    {LawKind::velocity_friction, "velocity_friction",
-     "friction + (static_friction - friction) exp(-v/decay_speed)"},
-    {LawKind::viscous, "viscous", "a liquid film: shear traction viscosity × v/film, no dry friction"},
-}};
-
 inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
     {ManyFields::lump, "lump",
      "each field against all others of the node together (default of published normals)"},

@@ -4,33 +4,15 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-namespace mpmfast {
+#include "kernels/measure.hpp"
 
-/// What a number of the scene measures.
-enum class Measure {
-  number,
-  length,
-  time,
-  mass,
-  velocity,
-  acceleration,
-  density,
-  pressure,
-  angle,
-  angular_velocity,
-  viscosity,
-  temperature,
-  heat_capacity,
-  rate
-};
-inline constexpr int kMeasures = 14;
+namespace mpmfast {
 
 /// Exponents of metre, kilogram, second, radian and kelvin.
 using Dimensions = std::array<int, 5>;
@@ -49,27 +31,6 @@ struct Unit {
   double multiplier = 1, divisor = 1;
   Dimensions dimensions{};
 };
-
-/// The interval a number must lie in, and its name in messages.
-struct Limit {
-  const char* says;  ///< "positive"
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = std::numeric_limits<double>::infinity();
-  bool lower_open = false, upper_open = false;
-  bool moves = false;  ///< the bounds follow from another key
-
-  bool holds(double value) const {
-    return (lower_open ? value > lower : value >= lower) && (upper_open ? value < upper : value <= upper);
-  }
-  bool same(const Limit& other) const {
-    return lower == other.lower && upper == other.upper && lower_open == other.lower_open &&
-           upper_open == other.upper_open;
-  }
-};
-inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr Limit kAny{"finite"};
-inline constexpr Limit kPositive{"positive", 0, kInfinity, true};
-inline constexpr Limit kNotNegative{"zero or more", 0};
 
 struct QuantityError {
   std::string message;  ///< without the value, which the caller shows

@@ -13,6 +13,9 @@
 #include <variant>
 #include <vector>
 
+#include "kernels/contact/laws.hpp"
+#include "kernels/materials/laws.hpp"
+
 namespace mpmfast {
 
 using Vec3 = std::array<double, 3>;
@@ -51,7 +54,6 @@ enum class SeparationKind {
 };
 /// What makes two fields of a node touch: both their approach and their separation, or one alone.
 enum class DetectionKind { both, velocity, separation };
-enum class LawKind { coulomb, frictionless, stick, perfect, ignore, adhesion, velocity_friction, viscous };
 /// How the contact area of a node is found, for the laws that need it.
 enum class AreaKind { volume_gradient, nodal_volume };
 /// Nodes of three or more fields: each against the lump of the others, pair by pair where one or two touch
@@ -99,49 +101,10 @@ struct MethodSpec {
   static constexpr int kInverse = -1;  ///< (I − Δt ∇v)⁻¹
 };
 
-/// N20 Eq. 18.
-struct NeoHookeanSpec {
-  double density = 0, bulk = 0, shear = 0;  ///< kg/m³, Pa, Pa
-};
-/// Infinitesimal isotropic elasticity, ε = sym(F) − I.
-struct LinearElasticSpec {
-  double density = 0, young = 0, poisson = 0;  ///< kg/m³, Pa, –
-};
-/// K24 Eq. 46.
-struct LogarithmicNeoHookeanSpec {
-  double density = 0, lambda = 0, shear = 0;  ///< kg/m³, Pa, Pa
-};
-/// N20 Eq. 51, 52.
-struct EquationOfStateSpec {
-  double gruneisen = 0, hugoniot_slope = 0;              ///< γ0, S1
-  double linear_viscosity = 0, quadratic_viscosity = 0;  ///< A1, A2
-};
-struct LinearHardeningSpec {
-  double yield = 0, hardening = 0;  ///< Pa
-};
-/// (A + B αⁿ)(1 + C ln(rate/reference_rate))(1 − T*ᵐ).
-struct JohnsonCookSpec {
-  double yield = 0, hardening = 0, exponent = 0;    ///< A, B (Pa), n
-  double rate_factor = 0, reference_rate = 1;       ///< C, 1/s
-  double softening = 1, reference = 293, melt = 0;  ///< m, K, K
-};
-/// Finite strains of a metal: an elastic or Mie–Grüneisen volume, an elastic or plastic shear.
-struct MetalSpec {
-  double density = 0, bulk = 0, shear = 0;  ///< kg/m³, Pa, Pa
-  std::optional<EquationOfStateSpec> equation_of_state;
-  std::variant<std::monostate, LinearHardeningSpec, JohnsonCookSpec> strength;
-  double heat_capacity = 0;     ///< J/(kg K); 0 where no temperature is followed
-  double taylor_quinney = 0.9;  ///< share of plastic work that heats
-  double temperature = 293;     ///< K, at the start
-};
-/// Particles that move as their body says and never deform.
-struct RigidSpec {
-  double density = 1000;  ///< kg/m³, only weighs the nodal mean of several rigid particles
-};
-
+/// A law of kernels/materials, with its parameters.
 struct MaterialSpec {
   std::string name;
-  std::variant<NeoHookeanSpec, LinearElasticSpec, RigidSpec, LogarithmicNeoHookeanSpec, MetalSpec> model;
+  MaterialModel model;
 };
 
 struct BoxShape {
@@ -243,29 +206,22 @@ struct GravitySpec {
   double ramp = 0;             ///< s, linear from 0 to full
 };
 
-/// The law of a pair of surfaces, with the parameters that it has.
-struct LawSpec {
-  LawKind law = LawKind::coulomb;
-  double friction = 0;         ///< coefficient of friction while sliding
-  double static_friction = 0;  ///< before sliding; 0: as `friction`
-  double decay_speed = 1;      ///< m/s, over which friction falls from static to sliding
-  double normal_strength = 0;  ///< Pa, of adhesion
-  double shear_strength = 0;   ///< Pa, of adhesion
-  double reach = 0.05;         ///< cells: adhesion acts up to this gap
-  double viscosity = 0;        ///< Pa s, of a film between the surfaces
-  double film = 1;             ///< m, its thickness
+/// What surfaces do that touch.
+struct SurfaceLaw {
+  AnyLaw acts;          ///< with its parameters
+  double friction = 0;  ///< as stated, also beside a law that has none: another may take its place
 };
 
 /// A pair of bodies (that is, of their velocity fields) or of materials with a law of its own.
 struct ContactPair {
   bool materials = false;  ///< `between` counts Scene::materials; else Scene::bodies
   std::array<int, 2> between{0, 0};
-  LawSpec law;
+  SurfaceLaw law;
 };
 
-/// The law is that of all pairs but those in `pairs`.
-struct ContactSpec : LawSpec {
+struct ContactSpec {
   bool active = true;  ///< false: every body shares one velocity field
+  SurfaceLaw law;      ///< of all pairs but those in `pairs`
   NormalKind normal = NormalKind::smoothed_max_margin;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;
@@ -346,9 +302,14 @@ inline double cell_volume(const Scene& scene) {
   return scene.dimension() == 3 ? h * h * h : h * h * scene.thickness;
 }
 
+/// Density of the undeformed material, kg/m³.
+inline double density_of(const MaterialSpec& material) {
+  return std::visit([](const auto& law) { return law.density; }, material.model);
+}
+
 /// Is the body made of a rigid material?
 inline bool is_rigid(const Scene& scene, const BodySpec& body) {
-  return std::holds_alternative<RigidSpec>(scene.materials[static_cast<std::size_t>(body.material)].model);
+  return std::holds_alternative<Rigid>(scene.materials[static_cast<std::size_t>(body.material)].model);
 }
 
 }  // namespace mpmfast

@@ -15,23 +15,8 @@ namespace mpmfast {
 namespace {
 
 /// Of waves of pressure in the material as it lies there, m/s; 0 where nothing deforms.
-struct WaveSpeed {
-  double operator()(const NeoHookeanSpec& m) const { return of(m.bulk + 4 * m.shear / 3, m.density); }
-  double operator()(const LinearElasticSpec& m) const {
-    return of(m.young * (1 - m.poisson) / ((1 + m.poisson) * (1 - 2 * m.poisson)), m.density);
-  }
-  double operator()(const LogarithmicNeoHookeanSpec& m) const {
-    return of(m.lambda + 2 * m.shear, m.density);
-  }
-  double operator()(const MetalSpec& m) const { return of(m.bulk + 4 * m.shear / 3, m.density); }
-  double operator()(const RigidSpec&) const { return 0; }
-
- private:
-  static double of(double modulus, double density) { return std::sqrt(modulus / density); }
-};
-
-double density_of(const MaterialSpec& material) {
-  return std::visit([](const auto& model) { return model.density; }, material.model);
+double wave_speed(const MaterialSpec& material) {
+  return std::visit([](const auto& law) { return std::sqrt(law.modulus() / law.density); }, material.model);
 }
 
 /// What makes a reader of the scene raise an eyebrow: unit mistakes above all.
@@ -40,7 +25,7 @@ class Suspicions {
   Suspicions(const Node& root, const Scene& scene, Problems& found)
       : root_(root), scene_(scene), found_(found) {
     for (const MaterialSpec& material : scene.materials)
-      speed_.push_back(std::visit(WaveSpeed{}, material.model));
+      speed_.push_back(wave_speed(material));
   }
 
   void all() {
@@ -48,9 +33,9 @@ class Suspicions {
     bodies();
     if (!doubtful_) times();
     find_idle_cells(place_of("grid.size"), scene_, found_);
-    friction(scene_.contact.friction, "contact.friction");
+    friction(scene_.contact.law.friction, "contact.friction");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
-      if (scene_.contact.pairs[k].law.friction != scene_.contact.friction)
+      if (scene_.contact.pairs[k].law.friction != scene_.contact.law.friction)
         friction(scene_.contact.pairs[k].law.friction, fmt::format("contact.pairs.{}.friction", k));
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));

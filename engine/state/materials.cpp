@@ -4,8 +4,8 @@ namespace mpmfast {
 
 #define MPMFAST_DEFINE(Law)       \
   MPMFAST_STRAIN_CHUNK(, 2, Law); \
-  MPMFAST_STRAIN_CHUNK(, 3, Law)
-MPMFAST_LAWS(MPMFAST_DEFINE);
+  MPMFAST_STRAIN_CHUNK(, 3, Law);
+MPMFAST_LAWS(MPMFAST_DEFINE)
 #undef MPMFAST_DEFINE
 
 }  // namespace mpmfast

@@ -10,7 +10,7 @@
 #include "engine/state/state.hpp"
 #include "engine/step/contact_list.hpp"
 #include "engine/step/passes.hpp"
-#include "kernels/contact/laws.hpp"
+#include "kernels/contact/resolve_pair.hpp"
 #include "kernels/contact/together.hpp"
 
 namespace mpmfast {

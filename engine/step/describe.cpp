@@ -70,8 +70,9 @@ std::string grid_text(const GridSpec& grid, int dimension) {
 
 std::string contact_text(const ContactSpec& contact) {
   if (!contact.active) return "none: all bodies share one velocity field";
-  std::string law(name_of(kLaws, contact.law));
-  if (contact.law == LawKind::coulomb) law += fmt::format(", friction {:g}", contact.friction);
+  std::string law = std::visit([](const auto& one) { return std::string(one.kWord); }, contact.law.acts);
+  if (std::holds_alternative<Coulomb>(contact.law.acts))
+    law += fmt::format(", friction {:g}", contact.law.friction);
   std::string pairs;
   if (!contact.pairs.empty())
     pairs = fmt::format(", and {} pair{} with laws of their own", contact.pairs.size(),

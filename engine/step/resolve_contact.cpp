@@ -52,8 +52,8 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       geometry_(plan.contact_geometry),
       exact_fields_(plan.exact_fields) {
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  laws_.push_back(make_law(spec_, cell_));
-  for (const ContactPair& pair : spec_.pairs) laws_.push_back(make_law(pair.law, cell_));
+  laws_.push_back(law_on(spec_.law, cell_));
+  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, cell_));
 }
 
 template <int Dim>
@@ -173,7 +173,7 @@ Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const M
   const Vec<Dim> tangential = meeting.stick - along * entry.normal;
   const double needed = tangential.norm();
   if constexpr (Law::scope == LawScope::bonded)
-    if (entry.separation < law.reach && law.holds({-along, needed, meeting.reduced, area_time}))
+    if (entry.separation < law.longest_gap() && law.holds({-along, needed, meeting.reduced, area_time}))
       return {meeting.stick, Hinders::slip};
   const bool last = lasts(entry), closes = separation < 0 || last;
   if (correction == Correction::initial ? !closes

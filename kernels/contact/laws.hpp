@@ -2,17 +2,17 @@
 
 /// @file Contact laws of a pair of fields on a node (N20 §2.2, Eq. 8 to 10). A law says how much of the
 /// tangential momentum change that sticking would need the surfaces carry; resolve_pair does the rest. None
-/// of them has a memory: what happens on a node follows from this step's momenta, separation and area. To add
-/// one: a struct like those below, a place in AnyLaw, and a line in make_law (engine/plan/contact_law.hpp).
+/// of them has a memory: what happens on a node follows from this step's momenta, separation and area. Its
+/// parameters are what a scene may say of it (`describe`, as of a material: kernels/materials/parameters.hpp).
+/// To add one: a struct like those below, and a place in AnyLaw.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 #include <variant>
 
-#include "kernels/dimension.hpp"
+#include "kernels/measure.hpp"
 
 namespace mpmfast {
 
@@ -30,50 +30,72 @@ struct Sliding {
 
 inline constexpr double kSticks = std::numeric_limits<double>::infinity();
 
+inline constexpr Number kCoefficient{Measure::number, kNotNegative};
+inline constexpr const char *kFrictionSays = "Coefficient of friction while sliding; may stand beside any law.",
+                            *kStaticSays = "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
+
 /// S = μN; before sliding up to μ_s N, where a scene gives that. Contact area and Δt cancel.
 struct Coulomb {
-  static constexpr std::string_view name = "coulomb",
-                                    description = "friction proportional to the normal force";
+  static constexpr const char *kWord = "coulomb",
+                              *kSays = "slides when friction × normal force is reached (default, friction 0)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
   double friction = 0, static_friction = 0;
 
+  template <class Keys>
+  void describe(Keys& map) {
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+  }
   double operator()(const Sliding& s) const {
     return s.stick <= static_friction * s.normal ? kSticks : friction * s.normal;
   }
 };
 
 struct Frictionless {
-  static constexpr std::string_view name = "frictionless",
-                                    description = "surfaces slide freely and do not attract";
+  static constexpr const char *kWord = "frictionless",
+                              *kSays = "slides freely";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
+
+  template <class Keys>
+  void describe(Keys&) {}
 
   double operator()(const Sliding&) const { return 0; }
 };
 
 struct Stick {
-  static constexpr std::string_view name = "stick",
-                                    description = "no sliding while in contact; surfaces may part";
+  static constexpr const char *kWord = "stick",
+                              *kSays = "never slides while in contact";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
+
+  template <class Keys>
+  void describe(Keys&) {}
 
   double operator()(const Sliding&) const { return kSticks; }
 };
 
 struct Perfect {
-  static constexpr std::string_view name = "perfect", description = "tied for good: fields move as one";
+  static constexpr const char *kWord = "perfect",
+                              *kSays = "always tied, also in tension";
   static constexpr LawScope scope = LawScope::everywhere;
   static constexpr bool uses_area = false;
+
+  template <class Keys>
+  void describe(Keys&) {}
 
   double operator()(const Sliding&) const { return kSticks; }
 };
 
 struct Ignore {
-  static constexpr std::string_view name = "ignore",
-                                    description = "no contact: fields pass through each other";
+  static constexpr const char *kWord = "ignore",
+                              *kSays = "bodies pass through each other";
   static constexpr LawScope scope = LawScope::nowhere;
   static constexpr bool uses_area = false;
+
+  template <class Keys>
+  void describe(Keys&) {}
 
   double operator()(const Sliding&) const { return 0; }
 };
@@ -83,12 +105,24 @@ struct Ignore {
 /// broken while the gap is beyond `reach` or the shear that would stop the sliding is beyond the strength;
 /// surfaces that come to rest in touch bond again.
 struct Adhesion {
-  static constexpr std::string_view name = "adhesion",
-                                    description = "a bond with tensile and shear strength, then friction";
+  static constexpr const char *kWord = "adhesion",
+                              *kSays = "bonded up to a tensile and a shear strength, then coulomb";
   static constexpr LawScope scope = LawScope::bonded;
   static constexpr bool uses_area = true;
   double friction = 0, normal_strength = 0, shear_strength = 0;  ///< –, Pa, Pa
-  double reach = 0;                                              ///< m
+  double reach = 0.05, cell = 1;                                 ///< cells; m, of the grid
+
+  template <class Keys>
+  void describe(Keys& map) {
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.need("normal_strength", "Tension at which a bond breaks.", normal_strength,
+             Number{Measure::pressure, kPositive});
+    map.need("shear_strength", "Shear at which a bond breaks.", shear_strength,
+             Number{Measure::pressure, kPositive});
+    map.key("reach", "Cells: a bond acts up to this gap.", reach, kCoefficient);
+  }
+  void set_cell(double edge) { cell = edge; }
+  double longest_gap() const { return reach * cell; }  ///< m
 
   bool holds(const Sliding& s) const {
     if (s.normal >= 0) return s.stick <= shear_strength * s.area_time + friction * s.normal;
@@ -103,17 +137,25 @@ struct Adhesion {
 /// g(v) = m_red v + μ(v) N − |Δp_t(0)| = 0 is convex, g(0) < 0 once μ_s N is exceeded, and g ≥ 0 at the slip
 /// v_0 that μ_d would leave: Newton from v_0 runs down to the only root.
 struct VelocityFriction {
-  static constexpr std::string_view name = "velocity_friction",
-                                    description = "friction that falls with the speed of sliding";
+  static constexpr const char *kWord = "velocity_friction",
+                              *kSays = "friction + (static_friction - friction) exp(-v/decay_speed)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
   double friction = 0, static_friction = 0, decay_speed = 1;  ///< –, –, m/s
 
+  template <class Keys>
+  void describe(Keys& map) {
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.need("decay_speed", "Speed over which friction falls from static to sliding.", decay_speed,
+             Number{Measure::velocity, kPositive});
+  }
   double operator()(const Sliding& s) const {
-    if (s.stick <= static_friction * s.normal) return kSticks;
+    const double at_rest = std::max(friction, static_friction);  // zero: as `friction`
+    if (s.stick <= at_rest * s.normal) return kSticks;
     double speed = (s.stick - friction * s.normal) / s.reduced;
     for (int k = 0; k < 50; ++k) {
-      const double falling = (static_friction - friction) * s.normal * std::exp(-speed / decay_speed);
+      const double falling = (at_rest - friction) * s.normal * std::exp(-speed / decay_speed);
       const double excess = s.reduced * speed + friction * s.normal + falling - s.stick;
       const double step = excess / (s.reduced - falling / decay_speed);
       speed -= step;
@@ -126,42 +168,26 @@ struct VelocityFriction {
 /// S = η v/h, v the slip speed that remains, of a film between touching surfaces.
 /// m_red v = |Δp_t(0)| − S A_c Δt gives S A_c Δt = |Δp_t(0)| c/(m_red + c) with c = (η/h) A_c Δt.
 struct Viscous {
-  static constexpr std::string_view name = "viscous",
-                                    description = "shear of a liquid film between touching surfaces";
+  static constexpr const char *kWord = "viscous",
+                              *kSays = "a liquid film: shear traction viscosity × v/film, no dry friction";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = true;
-  double resistance = 0;  ///< η/h, Pa s/m
+  double viscosity = 0, film = 1;  ///< η, Pa s; h, m
 
+  template <class Keys>
+  void describe(Keys& map) {
+    map.need("viscosity", "Of the film between the surfaces.", viscosity,
+             Number{Measure::viscosity, kNotNegative});
+    map.need("film", "Thickness of the film.", film, Number{Measure::length, kPositive});
+  }
   double operator()(const Sliding& s) const {
-    const double c = resistance * s.area_time;
+    const double c = viscosity / film * s.area_time;
     return s.stick * c / (s.reduced + c);
   }
 };
 
+/// In the order in which they are listed.
 using AnyLaw =
     std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction, Viscous>;
-
-/// Momentum change Δp_a of field a against the rest of the node, which takes −Δp_a (theory §4).
-///
-/// In contact ⇔ Δp_a(0)·n < 0 and separation < 0. Then the normal part is kept whole, so that the surfaces do
-/// not approach; the tangential part is kept (stick) or cut to what the law carries (slide).
-/// @param stick  Δp_a(0) = (m_a/m) p − p_a, which gives both sides one velocity
-/// @param normal unit, from a to b
-template <int Dim, class Law>
-inline Vec<Dim> resolve_pair(const Vec<Dim>& stick, const Vec<Dim>& normal, double separation, const Law& law,
-                             double reduced = 0, double area_time = 0) {
-  if constexpr (Law::scope == LawScope::nowhere) return Vec<Dim>::Zero();
-  if constexpr (Law::scope == LawScope::everywhere) return stick;
-  const double along = stick.dot(normal);
-  if constexpr (Law::scope == LawScope::bonded) {
-    const double shear = (stick - along * normal).norm();
-    if (separation < law.reach && law.holds({-along, shear, reduced, area_time})) return stick;
-  }
-  if (!(along < 0 && separation < 0)) return Vec<Dim>::Zero();
-  const Vec<Dim> tangential = stick - along * normal;
-  const double needed = tangential.norm(), limit = law({-along, needed, reduced, area_time});
-  if (!(needed > limit)) return stick;
-  return along * normal + (limit / needed) * tangential;
-}
 
 }  // namespace mpmfast

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/contact/laws.hpp"
+#include "kernels/contact/resolve_pair.hpp"
 
 namespace mpmfast {
 

@@ -2,8 +2,9 @@
 
 /// @file Infinitesimal isotropic elasticity (K24's 'linear elastic').
 
-#include "kernels/dimension.hpp"
+#include "kernels/tensor.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/parameters.hpp"
 #include "kernels/simd/lanes.hpp"
 
 namespace mpmfast {
@@ -12,18 +13,31 @@ namespace mpmfast {
 /// strained). The first Piola–Kirchhoff stress of W(ε) is σ itself and the force integral is Σ V0 P·∇0 S; at
 /// this order τ = σ.
 struct LinearElastic {
+  static constexpr const char *kModel = "linear_elastic", *kSays = "infinitesimal strains and turns only";
   double density = 0;  ///< kg/m³
-  double lambda = 0;   ///< Lamé's first constant, Pa
-  double shear = 0;    ///< G, Pa
+  double young = 0;    ///< E, Pa
+  double poisson = 0;  ///< ν
+
+  template <class Keys>
+  void describe(Keys& map) {
+    describe_density(map, density);
+    map.need("young", kYoungSays, young, kModulus);
+    map.need("poisson", kPoissonSays, poisson, kPoisson);
+  }
+  double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  ///< Pa
+  double shear() const { return young / (2 * (1 + poisson)); }                             ///< G, Pa
+  /// Of a longitudinal wave, Pa.
+  double modulus() const { return lambda() + 2 * shear(); }
 
   template <int Dim, class V>
   void stress(const V (&f)[Dim * Dim], V (&tau)[kSymmetric<Dim>], V& wave_speed_squared) const {
+    const double g = shear();
     V strain[kSymmetric<Dim>];
     small_strain<Dim>(f, strain);
-    const V pressure_part = lambda * (strain[0] + strain[1] + strain[2]);
-    for (int c = 0; c < 3; ++c) tau[c] = pressure_part + 2.0 * shear * strain[c];
-    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = 2.0 * shear * strain[c];
-    wave_speed_squared = broadcast<V>((lambda + 2.0 * shear) / density);
+    const V pressure_part = lambda() * (strain[0] + strain[1] + strain[2]);
+    for (int c = 0; c < 3; ++c) tau[c] = pressure_part + 2.0 * g * strain[c];
+    for (int c = 3; c < kSymmetric<Dim>; ++c) tau[c] = 2.0 * g * strain[c];
+    wave_speed_squared = broadcast<V>((lambda() + 2.0 * g) / density);
   }
 
   /// Stored energy per volume, J/m³: ½λ tr(ε)² + G ε:ε.
@@ -34,20 +48,19 @@ struct LinearElastic {
     const V trace = e[0] + e[1] + e[2];
     V squares = e[0] * e[0] + e[1] * e[1] + e[2] * e[2];
     for (int c = 3; c < kSymmetric<Dim>; ++c) squares += 2.0 * e[c] * e[c];
-    return 0.5 * lambda * trace * trace + shear * squares;
+    return 0.5 * lambda() * trace * trace + shear() * squares;
   }
 
   /// ε_zz = −λ/(λ + 2G) (ε_xx + ε_yy).
   template <class V>
   V relaxed_stretch(const V (&f)[4], V) const {
-    return 1.0 - lambda / (lambda + 2.0 * shear) * (f[0] + f[3] - 2.0);
+    return 1.0 - lambda() / modulus() * (f[0] + f[3] - 2.0);
   }
 
   /// λ + 2G − λ²/(λ + 2G) = E/(1 − ν²).
   template <class V>
   V plate_wave_speed_squared(const V (&)[4], V) const {
-    const double modulus = lambda + 2.0 * shear;
-    return broadcast<V>((modulus - lambda * lambda / modulus) / density);
+    return broadcast<V>((modulus() - lambda() * lambda() / modulus()) / density);
   }
 };
 

@@ -2,17 +2,28 @@
 
 /// @file Compressible neo-Hookean solid of K24 Eq. 46.
 
-#include "kernels/dimension.hpp"
+#include "kernels/tensor.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
 
 /// W = ½μ(I1 − 3) − μ ln J + ½λ (ln J)², so that τ = Jσ = μ(B − I) + λ ln J I  (K24 Eq. 46).
 struct LogarithmicNeoHookean {
+  static constexpr const char *kModel = "logarithmic_neo_hookean",
+                              *kSays = "large elastic strains, pressure by ln J";
   double density = 0;  ///< kg/m³, undeformed
   double lambda = 0;   ///< Lamé's first constant, Pa
   double shear = 0;    ///< μ, Pa
+
+  template <class Keys>
+  void describe(Keys& map) {
+    describe_density(map, density);
+    describe_lambda_and_shear(map, lambda, shear);
+  }
+  /// Of a longitudinal wave at rest, Pa.
+  double modulus() const { return lambda + 2 * shear; }
 
   /// Wave speed: δL = n⊗n gives ρ0 c² = δτ_nn − τ_nn = μ(B_nn + 1) + λ(1 − ln J), largest where B_nn is;
   /// shear waves have μ B_nn, which remains where ln J > 1 makes the first fall below it.

@@ -14,30 +14,67 @@ namespace mpmfast {
 /// returned radially to the von Mises surface √(3/2)|dev τ| = σ_y.
 template <class Volume, class Yield>
 struct Metal {
+  static constexpr const char *kModel = Yield::kModel, *kSays = Yield::kSays;
+  /// The key that asks for this law, where others have the same word.
+  static constexpr const char* kWith = Volume::kHeats && Yield::kPlastic ? "equation_of_state" : "";
   static constexpr StateColumns kColumns{Volume::kHeats || Yield::kPlastic, Volume::kHeats, Yield::kPlastic,
                                          Volume::kHeats || Yield::kThermal, Yield::kPlastic};
   double density = 0;  ///< kg/m³, undeformed
   double shear = 0;    ///< G, Pa
   Volume volume{};
   Yield yield{};
-  double heat_capacity = 1;        ///< ρ0 c_v, J/(m³ K)
+  double heat_capacity = 1;        ///< c_v, J/(kg K)
   double heat_share = 0.9;         ///< of plastic work that becomes heat (Taylor and Quinney)
   double start_temperature = 293;  ///< K
+
+  template <class Keys>
+  void describe(Keys& map) {
+    constexpr Number kShare{Measure::number, {"in [0, 1]", 0, 1}};
+    describe_density(map, density);
+    if constexpr (Yield::kPlastic) {
+      describe_bulk_and_shear(map, volume.bulk, shear);
+      if constexpr (Volume::kHeats)
+        map.need_section("equation_of_state",
+                         "Pressure by Mie and Grüneisen in place of the bulk modulus alone.",
+                         "a map {gruneisen, hugoniot_slope, linear_viscosity, quadratic_viscosity}",
+                         [&](Keys& keys) { volume.describe(keys); });
+      map.key("taylor_quinney", "Share of the plastic work that heats.", heat_share, kShare);
+    } else {
+      map.need("bulk", kBulkSays, volume.bulk, kModulus);
+      map.key("shear", kShearSays, shear, kStrength);
+      volume.describe(map);
+    }
+    if constexpr (kColumns.temperature) {
+      map.need("heat_capacity", "Heat per mass and temperature, at constant volume.", heat_capacity,
+               Number{Measure::heat_capacity, kPositive});
+      map.key("temperature", "At the start.", start_temperature, kTemperature);
+    }
+    if constexpr (Yield::kPlastic) yield.describe(map, start_temperature);
+  }
+  /// Of a longitudinal wave at rest, Pa.
+  double modulus() const { return volume.bulk + 4 * shear / 3; }
+  /// What the law takes from the grid.
+  void set_cell(double cell)
+    requires Volume::kHeats
+  {
+    volume.cell = cell;
+  }
 
   template <int Dim, class V>
   void advance(const StrainStep<Dim, V>& step, MaterialState<Dim, V>& state, V (&tau)[kSymmetric<Dim>],
                V& wave_speed_squared) const {
     V b[kSymmetric<Dim>];
     V work = broadcast<V>(0.0);
+    const double capacity = density * heat_capacity;  // ρ0 c_v, J/(m³ K)
     isochoric_strain(step, state, b);
     if constexpr (Yield::kPlastic) {
       work = flow<Dim>(step.dt, state, b);
       for (int c = 0; c < kSymmetric<Dim>; ++c) state.elastic_strain[c] = b[c];
       state.dissipated += work;
       if constexpr (Yield::kThermal && !Volume::kHeats)
-        state.temperature += heat_share / heat_capacity * work;
+        state.temperature += heat_share / capacity * work;
     }
-    const auto response = volume.respond(step, density, heat_capacity, work, V(heat_share * work), state);
+    const auto response = volume.respond(step, density, capacity, work, V(heat_share * work), state);
     const V trace = b[0] + b[1] + b[2];
     V dev[kSymmetric<Dim>];
     deviator<Dim>(b, dev);

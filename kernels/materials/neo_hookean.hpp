@@ -2,8 +2,9 @@
 
 /// @file Compressible neo-Hookean solid of N20 Eq. 18.
 
-#include "kernels/dimension.hpp"
+#include "kernels/tensor.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
@@ -12,9 +13,18 @@ namespace mpmfast {
 /// τ = Jσ = G J^{−2/3} dev(B) + ½K(J² − 1) I  (N20 Eq. 18). I1 and dev are of the 3-D tensor; plane strain
 /// has B_zz = 1.
 struct NeoHookean {
+  static constexpr const char *kModel = "neo_hookean", *kSays = "large elastic strains";
   double density = 0;  ///< kg/m³, undeformed
   double bulk = 0;     ///< K, Pa
   double shear = 0;    ///< G, Pa
+
+  template <class Keys>
+  void describe(Keys& map) {
+    describe_density(map, density);
+    describe_bulk_and_shear(map, bulk, shear);
+  }
+  /// Of a longitudinal wave at rest, Pa.
+  double modulus() const { return bulk + 4 * shear / 3; }
 
   /// Kirchhoff stress (components as kSymmetric) and squared longitudinal wave speed of the deformed solid.
   ///

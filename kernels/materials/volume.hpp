@@ -4,6 +4,7 @@
 /// artificial viscosity.
 
 #include "kernels/materials/evolving.hpp"
+#include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
@@ -49,7 +50,17 @@ struct GruneisenVolume {
   double slope = 0;                ///< S1
   double linear_viscosity = 0;     ///< A1
   double quadratic_viscosity = 0;  ///< A2
-  double cell = 0;                 ///< Δx, m
+  double cell = 0;                 ///< Δx, m; of the grid, not of the material
+
+  template <class Keys>
+  void describe(Keys& map) {
+    map.need("gruneisen", "Grüneisen's gamma: pressure that heat adds.", gamma, kFactor);
+    map.need("hugoniot_slope", "Slope of shock speed over particle speed.", slope, kFactor);
+    map.key("linear_viscosity", "Artificial viscosity against ringing behind a shock, linear in the rate.",
+            linear_viscosity, kFactor);
+    map.key("quadratic_viscosity", "The same, quadratic in the rate: spreads the shock over a few cells.",
+            quadratic_viscosity, kFactor);
+  }
 
   /// A and dA/dη. Towards the pole 1/S1, where no shock can reach, A goes on along its tangent.
   template <class V>

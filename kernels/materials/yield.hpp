@@ -5,20 +5,37 @@
 /// with q the von Mises measure of the trial Kirchhoff stress.
 
 #include "kernels/materials/evolving.hpp"
+#include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
 
+inline constexpr const char* kYieldSays = "Stress at which it first yields (A of Johnson and Cook).";
+inline constexpr const char* kHardeningSays =
+    "How the yield stress grows with plastic strain (B of Johnson and Cook).";
+
 /// No yield: the shear response is elastic.
 struct NoYield {
+  static constexpr const char *kModel = "mie_gruneisen",
+                              *kSays = "shocks: equation of state, elastic shear, artificial viscosity";
   static constexpr bool kPlastic = false, kThermal = false;
 };
 
 /// σ_y = Y + H α.
 struct LinearHardening {
+  static constexpr const char *kModel = "j2_plasticity",
+                              *kSays =
+                                  "metal with linear hardening at large strains; with heat_capacity under an "
+                                  "equation of state";
   static constexpr bool kPlastic = true, kThermal = false;
   double yield = 0;      ///< Y, Pa
   double hardening = 0;  ///< H, Pa
+
+  template <class Keys>
+  void describe(Keys& map, double) {
+    map.need("yield", kYieldSays, yield, kModulus);
+    map.key("hardening", kHardeningSays, hardening, kStrength);
+  }
 
   template <class V>
   V strength(V plastic_strain, V, V) const {
@@ -33,10 +50,30 @@ struct LinearHardening {
 /// Johnson and Cook (1983): σ_y = (A + B αⁿ)(1 + C ln max(α̇/ε̇0, 1))(1 − T*ᵐ), T* = (T − T0)/(T_m − T0) in
 /// [0, 1].
 struct JohnsonCook {
+  static constexpr const char *kModel = "johnson_cook",
+                              *kSays = "metal whose strength depends on strain, rate and heat";
   static constexpr bool kPlastic = true, kThermal = true;
-  double yield = 0, hardening = 0, exponent = 1;  ///< A, B (Pa), n
-  double rate_factor = 0, reference_rate = 1;     ///< C, ε̇0 (1/s)
-  double softening = 1, reference = 0, melt = 1;  ///< m, T0, T_m (K)
+  double yield = 0, hardening = 0, exponent = 1;       ///< A, B (Pa), n
+  double rate_factor = 0, reference_rate = 1;          ///< C, ε̇0 (1/s)
+  double softening = 1, reference = 293, melt = 1000;  ///< m, T0, T_m (K)
+
+  /// @param temperature  at the start, K
+  template <class Keys>
+  void describe(Keys& map, double temperature) {
+    if (!map.writes()) reference = temperature;
+    map.need("yield", kYieldSays, yield, kModulus);
+    map.need("hardening", kHardeningSays, hardening, kStrength);
+    map.need("exponent", "Exponent of the plastic strain, n.", exponent, kExponent);
+    map.key("rate_factor", "Factor of the logarithm of the strain rate, C.", rate_factor, kFactor);
+    map.key("reference_rate", "Strain rate at which that logarithm is zero.", reference_rate,
+            Number{Measure::rate, kPositive});
+    map.key("softening", "Exponent of the homologous temperature, m.", softening, kExponent);
+    map.key("reference", "Temperature at which softening begins; that at the start if not given.", reference,
+            kTemperature);
+    const Limit hotter{"above the reference temperature", reference, kInfinity, true, false, true};
+    map.need("melt", "Temperature at which no strength is left.", melt,
+             Number{Measure::temperature, hotter});
+  }
 
   template <class V>
   V thermal_share(V temperature) const {

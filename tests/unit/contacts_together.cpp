@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/contact/laws.hpp"
+#include "kernels/contact/resolve_pair.hpp"
 
 namespace {
 

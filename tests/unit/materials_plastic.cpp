@@ -8,9 +8,9 @@ using namespace mpmfast::test;
 namespace {
 
 // Copper-like and nickel-like numbers; the tests need no particular metal.
-constexpr ElasticPlastic kSteel{7800, 80e9, {160e9}, {400e6, 1e9}, 7800 * 470.0, 0.9, 293};
+constexpr ElasticPlastic kSteel{7800, 80e9, {160e9}, {400e6, 1e9}, 470, 0.9, 293};
 constexpr JohnsonCook kCookStrength{90e6, 292e6, 0.31, 0.025, 1, 1.09, 293, 1356};
-constexpr ElasticJohnsonCook kCook{8960, 46e9, {140e9}, kCookStrength, 8960 * 383.0, 0.9, 293};
+constexpr ElasticJohnsonCook kCook{8960, 46e9, {140e9}, kCookStrength, 383, 0.9, 293};
 
 template <int Dim>
 Mat<Dim> shear(double rate) {
@@ -193,7 +193,7 @@ TEST_CASE("Johnson-Cook: the strength of the formula, rate and heat included") {
   }
   CHECK(fast.von_mises() > 1.15 * slow.von_mises());
   CHECK(fast.state.temperature - 293 ==
-        doctest::Approx(0.9 * fast.state.dissipated / kCook.heat_capacity).epsilon(1e-9));
+        doctest::Approx(0.9 * fast.state.dissipated / (kCook.density * kCook.heat_capacity)).epsilon(1e-9));
 }
 
 TEST_CASE("Johnson-Cook: above the melting point nothing holds shear") {

@@ -8,7 +8,7 @@ using namespace mpmfast::test;
 namespace {
 
 constexpr GruneisenVolume kNickelVolume{188e9, 2, 1.44, 0, 0, 0.25e-3};
-constexpr MieGruneisen kNickel{8870, 0, kNickelVolume, {}, 8870 * 444.0, 0.9, 293};
+constexpr MieGruneisen kNickel{8870, 0, kNickelVolume, {}, 444, 0.9, 293};
 
 }  // namespace
 
@@ -69,5 +69,5 @@ TEST_CASE("artificial viscosity acts in compression only: q, its heat and its bo
   CHECK(std::sqrt(closing.c2) ==
         doctest::Approx(viscous + std::sqrt(viscous * viscous + plain.c2)).epsilon(0.003));
   CHECK(closing.state.temperature - plain.state.temperature ==
-        doctest::Approx(closing.state.dissipated / kNickel.heat_capacity).epsilon(1e-6));
+        doctest::Approx(closing.state.dissipated / (kNickel.density * kNickel.heat_capacity)).epsilon(1e-6));
 }

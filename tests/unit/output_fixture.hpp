@@ -52,7 +52,7 @@ inline Scene small_scene(Space space) {
   scene.title = "A small scene";
   scene.space = space;
   scene.grid = {{0, 0, 0}, {1, 1, 1}, 0.1};
-  scene.materials = {{"soft", NeoHookeanSpec{1000, 1e6, 1e5}}, {"tool", RigidSpec{}}};
+  scene.materials = {{"soft", NeoHookean{1000, 1e6, 1e5}}, {"tool", Rigid{}}};
   for (const char* name : {"left", "right", "punch"}) {
     BodySpec body;
     body.name = name;

@@ -58,8 +58,8 @@ TEST_CASE("an included file gives what the scene leaves out, key by key, and the
   folder.write("scene.yaml", without_materials("lib/steel.yaml") + "materials: {lead: {density: 2}}\n");
   const Scene scene = folder.read("scene.yaml");
   REQUIRE(scene.materials.size() == 2);
-  CHECK(std::get<LinearElasticSpec>(scene.materials[0].model).young == 210e9);
-  CHECK(std::get<RigidSpec>(scene.materials[1].model).density == 2);
+  CHECK(std::get<LinearElastic>(scene.materials[0].model).young == 210e9);
+  CHECK(std::get<Rigid>(scene.materials[1].model).density == 2);
   CHECK(scene.time.end == 1e-6);
   CHECK(scene.time.cfl == 0.3);
   CHECK_FALSE(holds(scene.resolved_yaml, "include"));

@@ -11,8 +11,9 @@ const char* const kElastic = "{model: linear_elastic, density: 7.85 g/cm^3, youn
 
 std::string with(const std::string& material) { return replaced(plain_scene(), kElastic, material); }
 
-MetalSpec metal(const std::string& material) {
-  return std::get<MetalSpec>(parse(with(material)).materials[0].model);
+template <class Law>
+Law law(const std::string& material) {
+  return std::get<Law>(parse(with(material)).materials[0].model);
 }
 
 const char* const kNickel =
@@ -28,30 +29,24 @@ const char* const kCopper =
 }  // namespace
 
 TEST_CASE("metals are read with their defaults") {
-  const MetalSpec nickel = metal(kNickel);
+  const auto nickel = law<MieGruneisen>(kNickel);
   CHECK(nickel.shear == 0);
   CHECK(nickel.heat_capacity == doctest::Approx(444).epsilon(1e-14));
-  CHECK(nickel.temperature == 293);
-  REQUIRE(nickel.equation_of_state);
-  CHECK(nickel.equation_of_state->hugoniot_slope == 1.44);
-  CHECK(nickel.equation_of_state->quadratic_viscosity == 4);
-  const MetalSpec copper = metal(kCopper);
-  CHECK(copper.bulk == doctest::Approx(124e9 / 0.96).epsilon(1e-12));
-  CHECK(copper.taylor_quinney == 0.9);
-  REQUIRE(copper.equation_of_state);
-  CHECK(copper.equation_of_state->linear_viscosity == 0);
-  const auto& cook = std::get<JohnsonCookSpec>(copper.strength);
-  CHECK(cook.reference == 300);  // the starting temperature
-  CHECK(cook.reference_rate == 1);
-  CHECK(cook.melt == 1356);
-  const MetalSpec steel =
-      metal("{model: j2_plasticity, density: 7.85 g/cm^3, bulk: 160 GPa, shear: 80 GPa, yield: 400 MPa}");
-  CHECK(std::get<LinearHardeningSpec>(steel.strength).hardening == 0);
-  CHECK_FALSE(steel.equation_of_state);
-  const auto rubber = std::get<LogarithmicNeoHookeanSpec>(
-      parse(with("{model: logarithmic_neo_hookean, density: 1010 kg/m^3, young: 73 MPa, poisson: 0.4}"))
-          .materials[0]
-          .model);
+  CHECK(nickel.start_temperature == 293);
+  CHECK(nickel.volume.slope == 1.44);
+  CHECK(nickel.volume.quadratic_viscosity == 4);
+  const auto copper = law<MieGruneisenJohnsonCook>(kCopper);
+  CHECK(copper.volume.bulk == doctest::Approx(124e9 / 0.96).epsilon(1e-12));
+  CHECK(copper.heat_share == 0.9);
+  CHECK(copper.volume.linear_viscosity == 0);
+  CHECK(copper.yield.reference == 300);  // the starting temperature
+  CHECK(copper.yield.reference_rate == 1);
+  CHECK(copper.yield.melt == 1356);
+  const auto steel = law<ElasticPlastic>(
+      "{model: j2_plasticity, density: 7.85 g/cm^3, bulk: 160 GPa, shear: 80 GPa, yield: 400 MPa}");
+  CHECK(steel.yield.hardening == 0);
+  const auto rubber = law<LogarithmicNeoHookean>(
+      "{model: logarithmic_neo_hookean, density: 1010 kg/m^3, young: 73 MPa, poisson: 0.4}");
   CHECK(rubber.shear == doctest::Approx(73e6 / 2.8).epsilon(1e-13));
   CHECK(rubber.lambda == doctest::Approx(4 * rubber.shear).epsilon(1e-13));
 }

@@ -127,7 +127,7 @@ TEST_CASE("the defaults of contact follow the normal") {
 
 TEST_CASE("elastic constants convert: E = 9KG/(3K + G), and both pairs at once are an error") {
   const std::string neo = replaced(plain_scene(), "linear_elastic", "neo_hookean");
-  const auto model = std::get<NeoHookeanSpec>(parse(neo).materials[0].model);
+  const auto model = std::get<NeoHookean>(parse(neo).materials[0].model);
   CHECK(9 * model.bulk * model.shear / (3 * model.bulk + model.shear) ==
         doctest::Approx(210e9).epsilon(1e-12));
   CHECK(model.bulk == doctest::Approx(175e9).epsilon(1e-12));

@@ -195,7 +195,7 @@ TEST_CASE("a volume gradient is that of the section: nothing inside a body") {
 }
 
 TEST_CASE("a law with a history answers about an axis as in three dimensions") {
-  const ElasticPlastic steel{7800, 80e9, {160e9}, {400e6, 1e9}, 7800 * 470.0, 0.9, 293};
+  const ElasticPlastic steel{7800, 80e9, {160e9}, {400e6, 1e9}, 470, 0.9, 293};
   Sample<3, ElasticPlastic> solid(steel);
   Lanes l[4], f[4], tau[4], c2, s = broadcast<Lanes>(1.0), rate = broadcast<Lanes>(2.0);
   const double gradient[4] = {3, 1, -0.5, -4};

@@ -163,10 +163,9 @@ std::string keys_text(const std::string& map) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string law_keys_text(LawKind law) {
+std::string law_keys_text(const ContactLawKind& law) {
   std::vector<std::string> parts;
-  for (const LawParameter& parameter : law_parameters()) {
-    if (!has_parameter(law, parameter)) continue;
+  for (const LawParameter& parameter : law.parameters) {
     parts.push_back(parameter.name);
     if (!parameter.needed) parts.back() += " = " + default_text(child("contact", parameter.name));
   }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/scene/known.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
@@ -35,6 +35,6 @@ std::string default_text(const std::string& pattern);
 /// The keys of a map, each with its default: "density, bulk, shear (or young, poisson), hardening = 0 Pa".
 std::string keys_text(const std::string& map);
 /// The same for the parameters of a law.
-std::string law_keys_text(LawKind law);
+std::string law_keys_text(const ContactLawKind& law);
 
 }  // namespace mpmfast

@@ -166,8 +166,8 @@ std::string kinds(const char* head, const std::vector<Kind>& all, const std::str
 
 std::string laws() {
   std::string out = "\n| law | its keys | |\n|---|---|---|\n";
-  for (const Word<LawKind>& law : kLaws) {
-    out += fmt::format("| `{}` | {} | {} |\n", law.name, law_keys_text(law.value), law.says);
+  for (const ContactLawKind& law : contact_laws()) {
+    out += fmt::format("| `{}` | {} | {} |\n", law.name, law_keys_text(law), law.says);
   }
   return out;
 }

@@ -210,13 +210,15 @@ class SchemaWriter {
 
   /// A law has its own parameters; those of a pair may be the ones of `contact`.
   static void add_law_rules(bool complete, Json& rules) {
-    for (const Word<LawKind>& law : kLaws) {
+    for (const ContactLawKind& law : contact_laws()) {
       Json then{{"properties", Json::object()}};
       std::vector<std::string> needed;
-      for (const LawParameter& parameter : law_parameters()) {
-        const bool owns = has_parameter(law.value, parameter);
-        if (owns && parameter.needed && complete) needed.push_back(parameter.name);
-        if (!owns && parameter.value != &LawSpec::friction) then["properties"][parameter.name] = false;
+      for (const std::string& name : contact_parameters()) {
+        const auto own = std::find_if(law.parameters.begin(), law.parameters.end(),
+                                      [&](const LawParameter& parameter) { return parameter.name == name; });
+        const bool owns = own != law.parameters.end();
+        if (owns && own->needed && complete) needed.push_back(name);
+        if (!owns && name != "friction") then["properties"][name] = false;
       }
       if (!needed.empty()) then["required"] = needed;
       rules.push_back({{"if", {{"properties", {{"law", {{"const", law.name}}}}}, {"required", {"law"}}}},

@@ -49,7 +49,7 @@ void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& pl
     if (const auto seeding = MapReader(place.entry).find("seeding")) seeding->complain(why);
   };
   const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
-  if (std::holds_alternative<LinearElasticSpec>(model))
+  if (std::holds_alternative<LinearElastic>(model))
     refuse("linear_elastic takes turned particles for strained ones (neo_hookean does not)");
   if (std::holds_alternative<BitmapShape>(body.shape))
     refuse("the levels of a bitmap share the grid's lattice");

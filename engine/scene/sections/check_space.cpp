@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <type_traits>
+
 #include "engine/scene/names.hpp"
 #include "engine/scene/sections/describe.hpp"
+#include "kernels/materials/depth.hpp"
 
 namespace mpmfast {
 
@@ -13,14 +16,19 @@ std::optional<Value> inside(const std::optional<Value>& map, const std::string& 
   return MapReader(*map).find(key);
 }
 
+/// Can it be asked for its stress where nothing presses along z?
+bool relaxes(const MaterialModel& model) {
+  return std::visit([]<class Law>(const Law&) { return Relaxes<Law> || std::is_same_v<Law, Rigid>; }, model);
+}
+
 /// Contact areas are found in the plane, not on the surface that turns about the axis.
 void refuse_areas(MapReader& top, const ContactSpec& contact) {
-  const auto refuse = [](const std::optional<Value>& value, const LawSpec& law) {
-    if (value && (law.law == LawKind::adhesion || law.law == LawKind::viscous))
+  const auto refuse = [](const std::optional<Value>& value, const SurfaceLaw& law) {
+    if (value && std::visit([](const auto& one) { return one.uses_area; }, law.acts))
       value->complain("needs contact areas, which an axisymmetric scene does not have");
   };
   const auto section = top.find("contact");
-  refuse(inside(section, "law"), contact);
+  refuse(inside(section, "law"), contact.law);
   const auto pairs = inside(section, "pairs");
   if (!pairs || !pairs->is(Node::Kind::list)) return;
   for (std::size_t k = 0; k < pairs->size() && k < contact.pairs.size(); ++k)
@@ -48,11 +56,14 @@ void make_axis(MapReader& top, Scene& scene) {
 
 void check_plane_stress(MapReader& top, const Scene& scene) {
   const auto section = top.find("materials");
+  std::string relaxing;
+  for (const MaterialKind& kind : material_kinds())
+    if (relaxes(kind.laws[0].standard) && !std::holds_alternative<Rigid>(kind.laws[0].standard))
+      relaxing += (relaxing.empty() ? "" : ", ") + std::string(kind.name);
   for (const MaterialSpec& material : scene.materials) {
-    if (!std::holds_alternative<MetalSpec>(material.model)) continue;
+    if (relaxes(material.model)) continue;
     if (const auto model = inside(inside(section, material.name), "model"))
-      model->complain(
-          "plane_stress takes elastic laws (neo_hookean, logarithmic_neo_hookean, linear_elastic)");
+      model->complain(fmt::format("plane_stress takes elastic laws ({})", relaxing));
   }
 }
 

@@ -108,7 +108,7 @@ void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   map.key("piecewise_particles", "Particles along a cell's side that position_piecewise is made for.",
           contact.piecewise_particles, Whole{1, 2});
   map.key("detection", "What makes two bodies touch.", contact.detection, kDetections);
-  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact);
+  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact.law);
   describe_regression(map, contact);
   describe_touching(map, contact);
   map.key("corrections", "Contact corrections a step; 1: only after the forces have acted.",
@@ -138,89 +138,6 @@ void describe_contact(Keys& top, bool strain_stated, Scene& scene) {
              slot.map("none or a map {law, friction, normal, separation, …}",
                       [&](Keys& map) { describe_map(map, strain_stated, scene, top); });
          });
-}
-
-const std::vector<LawParameter>& law_parameters() {
-  using enum LawKind;
-  static const std::vector<LawParameter> kParameters{
-      {"friction",
-       "Coefficient of friction while sliding; may stand beside any law.",
-       {Measure::number, kNotNegative},
-       &LawSpec::friction,
-       {coulomb, adhesion, velocity_friction},
-       false},
-      {"static_friction",
-       "Coefficient up to which surfaces at rest stick; 0: as `friction`.",
-       {Measure::number, kNotNegative},
-       &LawSpec::static_friction,
-       {coulomb, velocity_friction},
-       false},
-      {"decay_speed",
-       "Speed over which friction falls from static to sliding.",
-       {Measure::velocity, kPositive},
-       &LawSpec::decay_speed,
-       {velocity_friction},
-       true},
-      {"normal_strength",
-       "Tension at which a bond breaks.",
-       {Measure::pressure, kPositive},
-       &LawSpec::normal_strength,
-       {adhesion},
-       true},
-      {"shear_strength",
-       "Shear at which a bond breaks.",
-       {Measure::pressure, kPositive},
-       &LawSpec::shear_strength,
-       {adhesion},
-       true},
-      {"reach",
-       "Cells: a bond acts up to this gap.",
-       {Measure::number, kNotNegative},
-       &LawSpec::reach,
-       {adhesion},
-       false},
-      {"viscosity",
-       "Of the film between the surfaces.",
-       {Measure::viscosity, kNotNegative},
-       &LawSpec::viscosity,
-       {viscous},
-       true},
-      {"film", "Thickness of the film.", {Measure::length, kPositive}, &LawSpec::film, {viscous}, true},
-  };
-  return kParameters;
-}
-
-bool has_parameter(LawKind law, const LawParameter& parameter) {
-  return std::find(parameter.laws.begin(), parameter.laws.end(), law) != parameter.laws.end();
-}
-
-/// Friction may stand beside any law, so that --set can choose another; the other parameters may not.
-void describe_law(Keys& map, const char* says, LawSpec& law) {
-  const LawKind inherited = law.law;
-  map.key("law", says, law.law, kLaws);
-  for (const LawParameter& parameter : law_parameters()) {
-    const bool owns = has_parameter(law.law, parameter), anywhere = parameter.value == &LawSpec::friction;
-    if (map.writes() && !owns && !anywhere) continue;
-    const auto take = [&](Slot& slot) {
-      if (slot.reads() && !owns && !anywhere)
-        return slot.report(fmt::format("the law '{}' has no {}", name_of(kLaws, law.law), parameter.name));
-      slot.take(law.*parameter.value, parameter.form);
-    };
-    if (map.reads() && owns && parameter.needed && law.law != inherited)
-      map.need_at(parameter.name, parameter.says, expected_of(parameter.form), take);
-    else if (parameter.needed)
-      map.derived_at(parameter.name, parameter.says, take);
-    else
-      map.at(parameter.name, parameter.says, take);
-  }
-  const bool has_both = law.law == LawKind::coulomb || law.law == LawKind::velocity_friction;
-  if (!map.reads() || !has_both || law.static_friction == 0 || law.static_friction >= law.friction) return;
-  const std::string fault =
-      fmt::format("static friction {} is less than sliding friction {}", law.static_friction, law.friction);
-  if (map.stated("static_friction"))
-    map.check("static_friction", [&](Slot& slot) { slot.report(fault); });
-  else
-    map.report(fault);
 }
 
 }  // namespace mpmfast

@@ -27,8 +27,8 @@ void describe_output(Keys& top, int dimension, OutputSpec& output);
 bool describe_method(Keys& top, MethodSpec& method);
 /// Chooses the strain that suits the contact where the scene states none. Needs the bodies.
 void describe_contact(Keys& top, bool strain_stated, Scene& scene);
-/// `law` and its parameters; what is absent keeps its value.
-void describe_law(Keys& map, const char* says, LawSpec& law);
+/// `law` and its parameters; what is absent keeps its value, also where another law has it.
+void describe_law(Keys& map, const char* says, SurfaceLaw& law);
 /// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
 void describe_materials(Keys& top, std::vector<MaterialSpec>& materials);
 /// Where a body was written, for checks that come later.
@@ -90,27 +90,35 @@ void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry);
 void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,
                           BitmapEntry& entry);
 
+/// A law that a model may be.
+struct LawChoice {
+  const char* with;        ///< the key that asks for it, where the model has several; else empty
+  MaterialModel standard;  ///< the law with its defaults
+  void (*describe)(Keys& map, MaterialModel& model);
+};
 struct MaterialKind {
   const char* name;
   const char* says;
-  decltype(MaterialSpec::model) standard;  ///< of this model, with the defaults
-  void (*describe)(Keys& map, decltype(MaterialSpec::model)& model);
+  std::vector<LawChoice> laws;  ///< that which needs no key first
 };
+/// Every model that a scene may name, from kernels/materials/laws.hpp.
 const std::vector<MaterialKind>& material_kinds();
-/// Which of them a material is.
-std::size_t kind_index(const decltype(MaterialSpec::model)& model);
 
-/// A number that some laws have.
+/// A parameter of a contact law.
 struct LawParameter {
-  const char* name;
-  const char* says;
-  Number form;
-  double LawSpec::*value;
-  std::vector<LawKind> laws;
+  std::string name;
   bool needed;  ///< has no default
 };
-const std::vector<LawParameter>& law_parameters();
-bool has_parameter(LawKind law, const LawParameter& parameter);
+struct ContactLawKind {
+  const char* name;
+  const char* says;
+  AnyLaw standard;
+  std::vector<LawParameter> parameters;
+};
+/// Every contact law, from kernels/contact/laws.hpp.
+const std::vector<ContactLawKind>& contact_laws();
+/// The parameters that any of them has.
+std::vector<std::string> contact_parameters();
 
 /// Keys that are done with before the sections are read: their name and what they mean.
 const std::vector<KnownWord>& early_keys();

@@ -1,11 +1,26 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
+#include "engine/scene/moduli.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
 namespace {
+
+/// Adds a law to the model whose word it has.
+template <class Law>
+void add(std::vector<MaterialKind>& kinds) {
+  const char* with = "";
+  if constexpr (requires { Law::kWith; }) with = Law::kWith;
+  const auto describe = [](Keys& map, MaterialModel& model) { std::get<Law>(model).describe(map); };
+  const auto same = [](const MaterialKind& kind) { return std::string_view(kind.name) == Law::kModel; };
+  auto kind = std::find_if(kinds.begin(), kinds.end(), same);
+  if (kind == kinds.end()) kind = kinds.insert(kind, {Law::kModel, Law::kSays, {}});
+  kind->laws.push_back({with, Law{}, describe});
+}
 
 std::vector<std::string> names_of(const std::vector<MaterialKind>& kinds) {
   std::vector<std::string> names;
@@ -13,25 +28,70 @@ std::vector<std::string> names_of(const std::vector<MaterialKind>& kinds) {
   return names;
 }
 
+/// The kind of a material that is written.
+std::size_t kind_of(const MaterialModel& model) {
+  const auto& kinds = material_kinds();
+  const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const MaterialKind& kind) {
+    return std::any_of(kind.laws.begin(), kind.laws.end(),
+                       [&](const LawChoice& law) { return law.standard.index() == model.index(); });
+  });
+  return static_cast<std::size_t>(found - kinds.begin());
+}
+
+/// The law among those of a model that is there.
+const LawChoice& law_of(Keys& map, const MaterialKind& kind, const MaterialModel& model) {
+  const LawChoice* chosen = &kind.laws[0];
+  for (const LawChoice& law : kind.laws) {
+    const bool there = map.reads() ? *law.with && map.stated(law.with) : law.standard.index() == model.index();
+    if (there) chosen = &law;
+  }
+  return *chosen;
+}
+
+void describe_model(Keys& map, const MaterialKind& kind, MaterialModel& model) {
+  const LawChoice& chosen = law_of(map, kind, model);
+  for (const LawChoice& law : kind.laws) {
+    if (!map.tells() && &law != &chosen) continue;
+    const auto body = [&] {
+      if (!map.writes()) model = law.standard;
+      law.describe(map, model);
+    };
+    if (*law.with)
+      map.under(law.with, true, body);
+    else
+      body();
+  }
+  map.close();
+}
+
 void describe_material(Slot& slot, MaterialSpec& material) {
   const std::vector<MaterialKind>& kinds = material_kinds();
   if (slot.reads() && !is_name(material.name)) slot.report("not a name (letters, digits, '_' and '-')");
   slot.map("a map {model, density, …}", [&](Keys& map) {
     map.leave_open();  // until it has a model
-    std::size_t index = slot.writes() ? kind_index(material.model) : 0;
+    std::size_t index = slot.writes() ? kind_of(material.model) : 0;
     const bool known = map.need_at("model", "The law that the material obeys.",
                                    fmt::format("one of {}", fmt::join(names_of(kinds), ", ")),
                                    [&](Slot& model) { model.choose(index, kinds); });
     for (const MaterialKind& kind : kinds)
-      map.under(fmt::format("model={}", kind.name), known && &kind == &kinds[index], [&] {
-        if (!map.writes()) material.model = kind.standard;
-        kind.describe(map, material.model);
-        map.close();
-      });
+      map.under(fmt::format("model={}", kind.name), known && &kind == &kinds[index],
+                [&] { describe_model(map, kind, material.model); });
   });
 }
 
 }  // namespace
+
+const std::vector<MaterialKind>& material_kinds() {
+  static const std::vector<MaterialKind> kKinds = [] {
+    std::vector<MaterialKind> kinds;
+#define MPMFAST_ADD(law) add<law>(kinds);
+    MPMFAST_LAWS(MPMFAST_ADD)
+#undef MPMFAST_ADD
+    add<Rigid>(kinds);
+    return kinds;
+  }();
+  return kKinds;
+}
 
 void describe_materials(Keys& top, std::vector<MaterialSpec>& materials) {
   constexpr const char* kExpected = "a map of names, each {model: …}";
@@ -40,7 +100,7 @@ void describe_materials(Keys& top, std::vector<MaterialSpec>& materials) {
       map.leave_open();
       const std::size_t count = map.count(materials.size());
       for (std::size_t k = 0; k < count; ++k) {
-        MaterialSpec material = map.writes() ? materials[k] : MaterialSpec{"", material_kinds()[0].standard};
+        MaterialSpec material = map.writes() ? materials[k] : MaterialSpec{};
         map.entry(k, "NAME", "A material: its model, and what that needs.", material.name,
                   [&](Slot& entry) { describe_material(entry, material); });
         if (map.reads()) materials.push_back(std::move(material));

@@ -76,7 +76,7 @@ const std::map<std::string, Known>& known_values() {
     // Choices on which defaults of other keys depend: those are told to vary.
     knowledge.choose({"contact.normal", "contact.law", "method.update", "method.strain"});
     scene.contact.normal = NormalKind::specified;
-    scene.contact.law = LawKind::adhesion;
+    scene.contact.law.acts = Adhesion{};
     scene.method.update = UpdateKind::apic;
     scene.method.strain = StrainKind::first;
     tell(scene);
