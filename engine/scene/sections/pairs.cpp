@@ -58,8 +58,10 @@ class PairEntries {
       named = map.good();
       describe_law(map, "The law of this pair; what it leaves out is that of `contact`.", pair.law);
       if (!map.reads() || !named) return;
-      map.check(pair.materials ? "materials" : "between", [&](Slot& who) { check(who, pair); });
-      named = map.good();
+      map.check(pair.materials ? "materials" : "between", [&](Slot& who) {
+        check(who, pair);
+        named = who.good();
+      });
     });
     if (entry.reads() && named) scene_.contact.pairs.push_back(pair);
   }
