@@ -125,9 +125,8 @@ void clear_round_off(const Particles<Dim>& particles, const Scene& scene, std::v
   constexpr double kRoundOff = 1e-12;
   std::vector<double> least;
   for (const BodySpec& body : scene.bodies)
-    least.push_back(kRoundOff *
-                    std::visit([](const auto& law) { return law.modulus(); },
-                               scene.materials[static_cast<std::size_t>(body.material)].model));
+    least.push_back(kRoundOff * std::visit([](const auto& law) { return law.modulus(); },
+                                           scene.materials[static_cast<std::size_t>(body.material)].model));
   for (std::size_t p = 0; p < particles.size(); ++p)
     if (std::abs(stress[p]) < least[particles.body()[p]]) stress[p] = 0;
 }

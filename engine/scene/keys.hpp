@@ -238,8 +238,8 @@ class Keys {
   std::optional<MapReader> reader_;
   Written* out_ = nullptr;
   Knowledge* knowledge_ = nullptr;
-  std::string pattern_, condition_;      ///< the innermost
-  std::optional<std::string> outside_;   ///< the pattern without it
+  std::string pattern_, condition_;        ///< the innermost
+  std::optional<std::string> outside_;     ///< the pattern without it
   std::vector<std::string> alternatives_;  ///< patterns of one_of's keys: none is needed by itself
   bool good_ = true, open_ = false, closed_ = false;
 };

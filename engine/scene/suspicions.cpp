@@ -24,8 +24,7 @@ class Suspicions {
  public:
   Suspicions(const Node& root, const Scene& scene, Problems& found)
       : root_(root), scene_(scene), found_(found) {
-    for (const MaterialSpec& material : scene.materials)
-      speed_.push_back(wave_speed(material));
+    for (const MaterialSpec& material : scene.materials) speed_.push_back(wave_speed(material));
   }
 
   void all() {

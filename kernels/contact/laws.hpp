@@ -3,8 +3,8 @@
 /// @file Contact laws of a pair of fields on a node (N20 §2.2, Eq. 8 to 10). A law says how much of the
 /// tangential momentum change that sticking would need the surfaces carry; resolve_pair does the rest. None
 /// of them has a memory: what happens on a node follows from this step's momenta, separation and area. Its
-/// parameters are what a scene may say of it (`describe`, as of a material: kernels/materials/parameters.hpp).
-/// To add one: a struct like those below, and a place in AnyLaw.
+/// parameters are what a scene may say of it (`describe`, as of a material:
+/// kernels/materials/parameters.hpp). To add one: a struct like those below, and a place in AnyLaw.
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,10 @@ struct Sliding {
 inline constexpr double kSticks = std::numeric_limits<double>::infinity();
 
 inline constexpr Number kCoefficient{Measure::number, kNotNegative};
-inline constexpr const char *kFrictionSays = "Coefficient of friction while sliding; may stand beside any law.",
-                            *kStaticSays = "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
+inline constexpr const char *kFrictionSays =
+                                "Coefficient of friction while sliding; may stand beside any law.",
+                            *kStaticSays =
+                                "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
 
 /// S = μN; before sliding up to μ_s N, where a scene gives that. Contact area and Δt cancel.
 struct Coulomb {
@@ -53,8 +55,7 @@ struct Coulomb {
 };
 
 struct Frictionless {
-  static constexpr const char *kWord = "frictionless",
-                              *kSays = "slides freely";
+  static constexpr const char *kWord = "frictionless", *kSays = "slides freely";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
 
@@ -65,8 +66,7 @@ struct Frictionless {
 };
 
 struct Stick {
-  static constexpr const char *kWord = "stick",
-                              *kSays = "never slides while in contact";
+  static constexpr const char *kWord = "stick", *kSays = "never slides while in contact";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
 
@@ -77,8 +77,7 @@ struct Stick {
 };
 
 struct Perfect {
-  static constexpr const char *kWord = "perfect",
-                              *kSays = "always tied, also in tension";
+  static constexpr const char *kWord = "perfect", *kSays = "always tied, also in tension";
   static constexpr LawScope scope = LawScope::everywhere;
   static constexpr bool uses_area = false;
 
@@ -89,8 +88,7 @@ struct Perfect {
 };
 
 struct Ignore {
-  static constexpr const char *kWord = "ignore",
-                              *kSays = "bodies pass through each other";
+  static constexpr const char *kWord = "ignore", *kSays = "bodies pass through each other";
   static constexpr LawScope scope = LawScope::nowhere;
   static constexpr bool uses_area = false;
 

@@ -5,8 +5,8 @@
 /// `advance(step, state, τ, c²)` and `energy(F, state)`; transfer/strain_chunk.hpp loads and stores the
 /// columns that it names and no others.
 
-#include "kernels/tensor.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/tensor.hpp"
 
 namespace mpmfast {
 

@@ -3,9 +3,9 @@
 /// @file Strain measures from the row-major deformation gradient, for a double or for Lanes. In 2-D, plane
 /// strain: F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
 
-#include "kernels/tensor.hpp"
 #include "kernels/materials/matrix_exponential.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/tensor.hpp"
 
 namespace mpmfast {
 

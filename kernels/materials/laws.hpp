@@ -12,15 +12,9 @@
 #include "kernels/materials/rigid.hpp"
 
 /// In the order in which they are listed; laws of one word stand together, that which needs no key first.
-#define MPMFAST_LAWS(law)    \
-  law(NeoHookean)            \
-  law(LinearElastic)         \
-  law(LogarithmicNeoHookean) \
-  law(MieGruneisen)          \
-  law(ElasticPlastic)        \
-  law(MieGruneisenPlastic)   \
-  law(ElasticJohnsonCook)    \
-  law(MieGruneisenJohnsonCook)
+#define MPMFAST_LAWS(law)                                                                             \
+  law(NeoHookean) law(LinearElastic) law(LogarithmicNeoHookean) law(MieGruneisen) law(ElasticPlastic) \
+      law(MieGruneisenPlastic) law(ElasticJohnsonCook) law(MieGruneisenJohnsonCook)
 
 namespace mpmfast {
 

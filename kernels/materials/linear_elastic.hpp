@@ -2,10 +2,10 @@
 
 /// @file Infinitesimal isotropic elasticity (K24's 'linear elastic').
 
-#include "kernels/tensor.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/lanes.hpp"
+#include "kernels/tensor.hpp"
 
 namespace mpmfast {
 

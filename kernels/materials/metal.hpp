@@ -54,11 +54,7 @@ struct Metal {
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return volume.bulk + 4 * shear / 3; }
   /// What the law takes from the grid.
-  void set_cell(double cell)
-    requires Volume::kHeats
-  {
-    volume.cell = cell;
-  }
+  void set_cell(double cell) requires Volume::kHeats { volume.cell = cell; }
 
   template <int Dim, class V>
   void advance(const StrainStep<Dim, V>& step, MaterialState<Dim, V>& state, V (&tau)[kSymmetric<Dim>],
@@ -71,8 +67,7 @@ struct Metal {
       work = flow<Dim>(step.dt, state, b);
       for (int c = 0; c < kSymmetric<Dim>; ++c) state.elastic_strain[c] = b[c];
       state.dissipated += work;
-      if constexpr (Yield::kThermal && !Volume::kHeats)
-        state.temperature += heat_share / capacity * work;
+      if constexpr (Yield::kThermal && !Volume::kHeats) state.temperature += heat_share / capacity * work;
     }
     const auto response = volume.respond(step, density, capacity, work, V(heat_share * work), state);
     const V trace = b[0] + b[1] + b[2];

@@ -2,10 +2,10 @@
 
 /// @file Compressible neo-Hookean solid of N20 Eq. 18.
 
-#include "kernels/tensor.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
+#include "kernels/tensor.hpp"
 
 namespace mpmfast {
 

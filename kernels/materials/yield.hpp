@@ -71,8 +71,7 @@ struct JohnsonCook {
     map.key("reference", "Temperature at which softening begins; that at the start if not given.", reference,
             kTemperature);
     const Limit hotter{"above the reference temperature", reference, kInfinity, true, false, true};
-    map.need("melt", "Temperature at which no strength is left.", melt,
-             Number{Measure::temperature, hotter});
+    map.need("melt", "Temperature at which no strength is left.", melt, Number{Measure::temperature, hotter});
   }
 
   template <class V>

@@ -178,8 +178,7 @@ TEST_CASE("every law has a word of its own and says what it is") {
     CHECK(words.insert(Law::kWord).second);
     CHECK(!std::string(Law::kSays).empty());
   };
-  [&]<std::size_t... K>(std::index_sequence<K...>) {
-    (check(std::variant_alternative_t<K, AnyLaw>{}), ...);
-  }(std::make_index_sequence<std::variant_size_v<AnyLaw>>());
+  [&]<std::size_t... K>(std::index_sequence<K...>) { (check(std::variant_alternative_t<K, AnyLaw>{}), ...); }
+  (std::make_index_sequence<std::variant_size_v<AnyLaw>>());
   CHECK(words.size() == 8);
 }

@@ -69,9 +69,8 @@ bool has(const ContactLawKind& kind, const std::string& name) {
 void refuse_others(Keys& map, const ContactLawKind& kind) {
   for (const std::string& name : contact_parameters())
     if (name != "friction" && !has(kind, name))
-      map.check(name, [&](Slot& slot) {
-        slot.report(fmt::format("the law '{}' has no {}", kind.name, name));
-      });
+      map.check(name,
+                [&](Slot& slot) { slot.report(fmt::format("the law '{}' has no {}", kind.name, name)); });
 }
 
 void check_friction(Keys& map, const AnyLaw& law) {

@@ -42,7 +42,8 @@ std::size_t kind_of(const MaterialModel& model) {
 const LawChoice& law_of(Keys& map, const MaterialKind& kind, const MaterialModel& model) {
   const LawChoice* chosen = &kind.laws[0];
   for (const LawChoice& law : kind.laws) {
-    const bool there = map.reads() ? *law.with && map.stated(law.with) : law.standard.index() == model.index();
+    const bool there =
+        map.reads() ? *law.with && map.stated(law.with) : law.standard.index() == model.index();
     if (there) chosen = &law;
   }
   return *chosen;

@@ -163,8 +163,8 @@ void describe_pairs(Keys& contact, Keys& top, Scene& scene) {
     if (slot.writes() && count == 0) return;
     PairEntries entries(scene, unread_bodies(top, scene));
     slot.list("a list of maps {between: …, law: …}", 0, Form::kNoEnd, count, [&](Slot& entry, std::size_t k) {
-      entries.describe(entry,
-                       entry.writes() ? scene.contact.pairs[k] : ContactPair{false, {0, 0}, scene.contact.law});
+      entries.describe(
+          entry, entry.writes() ? scene.contact.pairs[k] : ContactPair{false, {0, 0}, scene.contact.law});
     });
   });
 }
