@@ -5,6 +5,7 @@
 
 #include <variant>
 
+#include "kernels/materials/drucker_prager.hpp"
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/logarithmic_neo_hookean.hpp"
 #include "kernels/materials/metal.hpp"
@@ -14,7 +15,7 @@
 /// In the order in which they are listed; laws of one word stand together, that which needs no key first.
 #define MPMFAST_LAWS(law)                                                                             \
   law(NeoHookean) law(LinearElastic) law(LogarithmicNeoHookean) law(MieGruneisen) law(ElasticPlastic) \
-      law(MieGruneisenPlastic) law(ElasticJohnsonCook) law(MieGruneisenJohnsonCook)
+      law(MieGruneisenPlastic) law(ElasticJohnsonCook) law(MieGruneisenJohnsonCook) law(DruckerPrager)
 
 namespace mpmfast {
 

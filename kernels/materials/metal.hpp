@@ -4,6 +4,7 @@
 /// Eq. 18.
 
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/radial_return.hpp"
 #include "kernels/materials/volume.hpp"
 #include "kernels/materials/yield.hpp"
 
@@ -113,34 +114,14 @@ struct Metal {
     for (int c = 0; c < kSymmetric<Dim>; ++c) b[c] *= scale;
   }
 
-  /// Radial return: dev b̄ shrinks by σ_y/q along its direction, x of equivalent plastic strain with
-  /// q − 3Ḡx = σ_y, Ḡ = G tr(b̄)/3. The mean m of b̄ then follows from det(d + m I) = 1,
-  /// m³ − ½(d:d) m + det d = 1 (d = dev b̄): Newton's method from the trial's mean, above the root, where the
-  /// cubic is convex; five rounds reach round-off from any trial below tr b̄ = 6.
-  /// @return plastic work, J/m³: the elastic energy 3/2 G dm that the return takes out, by its rate at the
-  /// end, (3m² − ½d:d) dm = ½ m d(d:d) − d(det d). (The difference over the return counts the trial's
-  /// overshoot twice: it misses by the first order of the step.) To the order of the elastic strain it is σ_y
-  /// x. The shear energy that sudden melting lets go, a thousandth of the plastic work before it, is not
-  /// seen.
+  /// Radial return to the strength.
+  /// @return plastic work, J/m³
   template <int Dim, class V>
   V flow(double dt, MaterialState<Dim, V>& state, V (&b)[kSymmetric<Dim>]) const {
-    constexpr int kRounds = 5;
-    const V zero = broadcast<V>(0.0);
-    const V mean = (b[0] + b[1] + b[2]) * (1.0 / 3.0);
-    V d[kSymmetric<Dim>];
-    for (int c = 0; c < kSymmetric<Dim>; ++c) d[c] = c < 3 ? b[c] - mean : b[c];
-    const V trial = shear * square_root(1.5 * contraction<Dim>(d)), slope = 3.0 * shear * mean;
-    const V x = yield.increment(trial, slope, state.plastic_strain, state.temperature, dt);
-    const auto flows = x > zero;
-    const V scale = flows ? 1.0 - slope * x / trial : broadcast<V>(1.0);
-    const V trial_half = 0.5 * contraction<Dim>(d), trial_third = symmetric_determinant<Dim>(d);
-    const V half = scale * scale * trial_half, third = scale * scale * scale * trial_third - 1.0;
-    V m = mean;
-    for (int k = 0; k < kRounds; ++k) m -= ((m * m - half) * m + third) / (3.0 * m * m - half);
-    for (int c = 0; c < kSymmetric<Dim>; ++c) b[c] = flows ? (c < 3 ? scale * d[c] + m : scale * d[c]) : b[c];
+    const Shear<Dim, V> trial(b, shear);
+    const V x = yield.increment(trial.measure, trial.slope, state.plastic_strain, state.temperature, dt);
     state.plastic_strain += x;
-    const V share = scale * (1.0 - scale);
-    return 1.5 * shear * share * (2.0 * m * trial_half - 3.0 * scale * trial_third) / (3.0 * m * m - half);
+    return trial.flow(x, b);
   }
 };
 

@@ -1,0 +1,142 @@
+#pragma once
+
+/// @file Soil and sand: the cone of Drucker and Prager with dilation and a tension cut-off.
+
+#include <cmath>
+
+#include "kernels/materials/evolving.hpp"
+#include "kernels/materials/parameters.hpp"
+#include "kernels/materials/radial_return.hpp"
+
+namespace mpmfast {
+
+/// τ = G dev(b̄) − p I over the elastic left Cauchy–Green tensor b = J_e^{2/3} b̄ that the step carries,
+/// b' = f b fᵀ with f = I + a, p = ½K(1 − J_e²) as in N20 Eq. 18; of Kirchhoff stresses
+///   q = √(3/2)|dev τ| ≤ M p + k,  p ≥ −T.
+/// The cone goes through Mohr's and Coulomb's strength in triaxial compression,
+///   M = 6 sin φ/(3 − sin φ),  k = 6 c cos φ/(3 − sin φ);
+/// flow by an equivalent plastic strain x dilates by η x, η = 6 sin ψ/(3 − sin ψ), which takes ln J_e.
+/// Beyond the cut-off J_e goes on with the volume, while p stays −T and q ≤ k − M T: a gap that opens is
+/// closed again before anything presses, and no volume is gained by it. At T = k/M that is the apex.
+struct DruckerPrager {
+  static constexpr const char *kModel = "drucker_prager",
+                              *kSays = "soil and sand: cohesion, friction, dilation, no or little tension";
+  static constexpr StateColumns kColumns{true, false, true, false, true};
+  static constexpr double start_temperature = 293;  ///< K, of no account
+  double density = 0;                               ///< kg/m³, undeformed
+  double bulk = 0, shear = 0;                       ///< K, G, Pa
+  double friction_angle = 0, dilation_angle = 0;    ///< φ, ψ, rad
+  double cohesion = 0;                              ///< c, Pa
+  double tension = 0;                               ///< T, Pa
+
+  template <class Keys>
+  void describe(Keys& map) {
+    constexpr Number kAngle{Measure::angle, {"above 0 and below 90 deg", 0, 1.5707963, true, true}};
+    describe_density(map, density);
+    describe_bulk_and_shear(map, bulk, shear);
+    map.need("friction_angle", "Of Mohr and Coulomb, met in triaxial compression.", friction_angle, kAngle);
+    const Limit less{
+        "from 0 to the angle of friction", 0, map.tells() ? kInfinity : friction_angle, false, false, true};
+    map.key("dilation_angle", "How much volume shear makes, as an angle.", dilation_angle,
+            Number{Measure::angle, less});
+    map.key("cohesion", "Shear strength where nothing presses.", cohesion, kStrength);
+    if (!map.writes()) tension = apex();
+    const Limit cut{"from 0 to the apex of the cone, cohesion/tan(friction_angle)",
+                    0,
+                    map.tells() ? kInfinity : apex(),
+                    false,
+                    false,
+                    true};
+    map.derived("tension", "Largest mean tension; that of the cone's apex if not given.", tension,
+                Number{Measure::pressure, cut});
+  }
+  /// Of a longitudinal wave at rest, Pa.
+  double modulus() const { return bulk + 4 * shear / 3; }
+
+  static double slope(double angle) { return 6 * std::sin(angle) / (3 - std::sin(angle)); }
+  double offset() const { return 6 * cohesion * std::cos(friction_angle) / (3 - std::sin(friction_angle)); }
+  double apex() const { return friction_angle > 0 ? cohesion / std::tan(friction_angle) : 0; }  ///< k/M, Pa
+
+  template <int Dim, class V>
+  void advance(const StrainStep<Dim, V>& step, MaterialState<Dim, V>& state, V (&tau)[kSymmetric<Dim>],
+               V& wave_speed_squared) const {
+    V b[kSymmetric<Dim>];
+    push_forward<Dim>(step.increment, state.elastic_strain, b);
+    V volume = square_root(symmetric_determinant<Dim>(b));  // J_e
+    const V isochoric = isochoric_factor(volume);
+    for (int c = 0; c < kSymmetric<Dim>; ++c) b[c] *= isochoric;
+
+    const Shear<Dim, V> trial(b, shear);
+    const V x = increment(trial.measure, trial.slope, volume);
+    const V deviatoric = trial.flow(x, b);
+    const double eta = slope(dilation_angle);
+    if (eta > 0) volume *= exponential(-eta * x);
+    const V p = pressure(volume);
+    state.plastic_strain += x;
+    state.dissipated += deviatoric - eta * p * x;
+
+    V dev[kSymmetric<Dim>];
+    deviator<Dim>(b, dev);
+    for (int c = 0; c < kSymmetric<Dim>; ++c) tau[c] = c < 3 ? shear * dev[c] - p : shear * dev[c];
+    // As in metal.hpp. Where the volume is open, the bound is that of the closed one.
+    const V trace = b[0] + b[1] + b[2], closed = smaller(volume, broadcast<V>(1.0));
+    const V smallest = smallest_stretch_squared<Dim>(b, broadcast<V>(1.0));
+    const V stiffness =
+        0.5 * bulk * (closed * closed + 1.0) + shear * (trace * (5.0 / 9.0) - smallest * (1.0 / 3.0));
+    wave_speed_squared = stiffness * (1.0 / density);
+
+    const V grown = 1.0 / isochoric_factor(volume);
+    for (int c = 0; c < kSymmetric<Dim>; ++c) state.elastic_strain[c] = b[c] * grown;
+  }
+
+  /// Recoverable energy per undeformed volume, J/m³: of an open volume ∫ T d ln J_e beyond the cut-off.
+  template <int Dim, class V>
+  V energy(const V (&)[Dim * Dim], const MaterialState<Dim, V>& state) const {
+    const V volume = square_root(symmetric_determinant<Dim>(state.elastic_strain));
+    const V trace = state.elastic_strain[0] + state.elastic_strain[1] + state.elastic_strain[2];
+    const V j = smaller(volume, broadcast<V>(opening()));
+    return 0.5 * shear * (trace * isochoric_factor(volume) - 3.0) +
+           0.5 * bulk * (0.5 * (j * j - 1.0) - logarithm(j)) + tension * logarithm(volume / j);
+  }
+
+ private:
+  /// J_e at which p = −T.
+  double opening() const { return std::sqrt(1 + 2 * tension / bulk); }
+
+  template <class V>
+  V pressure(V volume) const {
+    return larger(0.5 * bulk * (1.0 - volume * volume), broadcast<V>(-tension));
+  }
+
+  /// The plastic strain x ≥ 0 with q − 3Ḡ x = M p + k: g(x) = q − 3Ḡ x − (M p(J_e e^{−ηx}) + k) falls all the
+  /// way, from g(0) > 0 to g(q/3Ḡ) ≤ 0. Newton's method kept in that bracket; without dilation its first step
+  /// is exact. A lane stops when its own g has vanished, so that its neighbours do not matter.
+  template <class V>
+  V increment(V measure, V stiffness, V volume) const {
+    const double m = slope(friction_angle), eta = slope(dilation_angle), k = offset();
+    const V zero = broadcast<V>(0.0);
+    const auto strength = [&](V p) { return larger(m * p + k, zero); };
+    const V rest = measure - strength(pressure(volume));
+    const auto yields = rest > 1e-14 * measure;
+    V low = zero, high = measure / stiffness, x = yields ? rest / stiffness : zero;
+    if (eta == 0) return x;
+    constexpr int kMost = 60;  // bisection alone would need them; Newton takes about four
+    for (int round = 0; round < kMost; ++round) {
+      const V j = volume * exponential(-eta * x), p = pressure(j);
+      const V g = measure - stiffness * x - strength(p);
+      const auto open = yields & (magnitude(g) > 1e-14 * measure);
+      if (!any_open(open)) break;
+      low = g > 0.0 ? x : low;
+      high = g > 0.0 ? high : x;
+      const V rising = p > -tension ? m * eta * bulk * j * j : zero;
+      const V newton = x + g / (stiffness + rising);
+      const V next = ((newton > low) & (newton <= high)) ? newton : 0.5 * (low + high);
+      x = open ? next : x;
+    }
+    return x;
+  }
+  static bool any_open(bool open) { return open; }
+  static bool any_open(IntLanes open) { return any_of(open); }
+};
+
+}  // namespace mpmfast
