@@ -13,9 +13,18 @@
 #include "kernels/materials/rigid.hpp"
 
 /// In the order in which they are listed; laws of one word stand together, that which needs no key first.
-#define MPMFAST_LAWS(law)                                                                             \
-  law(NeoHookean) law(LinearElastic) law(LogarithmicNeoHookean) law(MieGruneisen) law(ElasticPlastic) \
-      law(MieGruneisenPlastic) law(ElasticJohnsonCook) law(MieGruneisenJohnsonCook) law(DruckerPrager)
+// clang-format off
+#define MPMFAST_LAWS(law)      \
+  law(NeoHookean)              \
+  law(LinearElastic)           \
+  law(LogarithmicNeoHookean)   \
+  law(MieGruneisen)            \
+  law(ElasticPlastic)          \
+  law(MieGruneisenPlastic)     \
+  law(ElasticJohnsonCook)      \
+  law(MieGruneisenJohnsonCook) \
+  law(DruckerPrager)
+// clang-format on
 
 namespace mpmfast {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file Strain and stress of a chunk of particles by one law: no basis in sight, so that each law is
-/// compiled once (engine/state/materials.hpp) and not with every basis.
+/// compiled once (engine/state/materials.cpp) and not with every basis.
 
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/kinematics.hpp"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/dimension.hpp"
 #include "kernels/materials/metal.hpp"
 
 namespace mpmfast::test {
