@@ -2,7 +2,7 @@
 
 #include "bench/support.hpp"
 #include "bench/work.hpp"
-#include "engine/scene/names.hpp"
+#include "engine/scene/keys/names.hpp"
 #include "kernels/transfer/update_rule.hpp"
 
 namespace {

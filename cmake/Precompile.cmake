@@ -3,7 +3,7 @@
 set(common <Eigen/LU> <algorithm> <array> <cmath> <filesystem> <fmt/format.h> <fmt/ranges.h> <fstream> <map> <optional>
   <string> <variant> <vector>)
 target_precompile_headers(mpmfast_scene PRIVATE ${common})
-foreach(target mpmfast_output mpmfast_core mpmfast_study mpmfast_report mpmfast_packing)
+foreach(target mpmfast_output mpmfast_state mpmfast_conditions mpmfast_contact mpmfast_step mpmfast_core mpmfast_study mpmfast_report mpmfast_packing)
   target_precompile_headers(${target} REUSE_FROM mpmfast_scene)
 endforeach()
 if(MPMFAST_TESTS)

@@ -47,6 +47,14 @@ inline constexpr Limit kAny{"finite"};
 inline constexpr Limit kPositive{"positive", 0, kInfinity, true};
 inline constexpr Limit kNotNegative{"zero or more", 0};
 
+/// A word that a parameter may be; a parameter that is a choice has an array of them.
+template <class E>
+struct Word {
+  E value;
+  const char* name;
+  const char* says;  ///< one line for `mpmfast list`
+};
+
 /// A parameter that is one number.
 struct Number {
   Measure measure = Measure::number;

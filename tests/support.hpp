@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "engine/run/run.hpp"
 #include "engine/scene/read_scene.hpp"
-#include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
 #include "tests/source_folder.hpp"
 

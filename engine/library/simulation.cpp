@@ -13,12 +13,12 @@
 
 #include "engine/errors.hpp"
 #include "engine/output/output.hpp"
+#include "engine/run/make_row.hpp"
+#include "engine/run/pause.hpp"
+#include "engine/run/run.hpp"
+#include "engine/run/threads.hpp"
 #include "engine/scene/read_scene.hpp"
-#include "engine/step/make_row.hpp"
-#include "engine/step/pause.hpp"
-#include "engine/step/run.hpp"
 #include "engine/step/step.hpp"
-#include "engine/step/threads.hpp"
 #include "mpmfast_version.hpp"
 
 namespace mpmfast {

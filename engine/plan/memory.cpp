@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "engine/scene/diagnostic.hpp"
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/text/diagnostic.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
 

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "engine/plan/materials.hpp"
-#include "engine/scene/diagnostic.hpp"
-#include "engine/scene/geometry.hpp"
-#include "engine/scene/time_table.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/quantities/time_table.hpp"
+#include "engine/scene/text/diagnostic.hpp"
 
 namespace mpmfast {
 

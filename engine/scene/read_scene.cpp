@@ -9,11 +9,11 @@
 #include <utility>
 
 #include "engine/errors.hpp"
-#include "engine/scene/include.hpp"
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/suggest.hpp"
 #include "engine/scene/suspicions.hpp"
-#include "engine/scene/variables.hpp"
+#include "engine/scene/text/include.hpp"
+#include "engine/scene/text/suggest.hpp"
+#include "engine/scene/text/variables.hpp"
 
 namespace mpmfast {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/diagnostic.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/scene/text/diagnostic.hpp"
 
 namespace mpmfast {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "engine/scene/geometry.hpp"
-#include "engine/scene/quantity.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {

@@ -2,9 +2,9 @@
 
 /// @file What a good scene says that is likely a mistake: warnings.
 
-#include "engine/scene/problems.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/tree.hpp"
+#include "engine/scene/text/problems.hpp"
+#include "engine/scene/text/tree.hpp"
 
 namespace mpmfast {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry.hpp"
-#include "engine/scene/quantity.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/quantities/quantity.hpp"
+#include "engine/scene/quantities/time_table.hpp"
 #include "engine/scene/suspicions.hpp"
-#include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "engine/step/fit_contact.hpp"
+#include "engine/contact/nodal/fit.hpp"
 #include "engine/step/passes.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/project.hpp"

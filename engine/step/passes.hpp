@@ -5,18 +5,16 @@
 
 #include <memory>
 
+#include "engine/contact/fitter.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
-#include "engine/step/contact_list.hpp"
 #include "kernels/transfer/update_rule.hpp"
 
 namespace mpmfast {
 
 template <int Dim>
-class Passes {
+class Passes : public ContactFitter<Dim> {
  public:
-  virtual ~Passes() = default;
-
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
   /// First support node of every particle, and the sort that follows from it.
@@ -25,8 +23,6 @@ class Passes {
   /// wanted (not of particles with slopes, nor about an axis); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again
   virtual bool project(State<Dim>& state, bool with_force) = 0;
-  /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
-  virtual void project_geometry(State<Dim>& state) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
   /// @return whether each J is a positive number
   virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;
@@ -38,8 +34,6 @@ class Passes {
   /// New particle velocities, positions, (strain last) strains, domains.
   virtual TileReport update(State<Dim>& state, const UpdateRule& rule, const Vec<Dim>& lower,
                             const Vec<Dim>& upper) = 0;
-  /// Normals by regression and separations by the particles' domains, of the listed contact entries.
-  virtual void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) = 0;
 };
 
 /// The passes of a basis.

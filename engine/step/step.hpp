@@ -6,16 +6,16 @@
 #include <span>
 #include <vector>
 
+#include "engine/conditions/conditions.hpp"
+#include "engine/conditions/rigid_bodies.hpp"
+#include "engine/contact/contact.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
 #include "engine/state/outflow.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/clock.hpp"
-#include "engine/step/conditions.hpp"
-#include "engine/step/contact.hpp"
 #include "engine/step/passes.hpp"
-#include "engine/step/rigid_bodies.hpp"
 
 namespace mpmfast {
 

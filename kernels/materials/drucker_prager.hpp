@@ -2,6 +2,7 @@
 
 /// @file Soil and sand: the cone of Drucker and Prager with dilation and a tension cut-off.
 
+#include <array>
 #include <cmath>
 
 #include "kernels/materials/evolving.hpp"
@@ -13,12 +14,13 @@ namespace mpmfast {
 /// τ = G dev(b̄) − p I over the elastic left Cauchy–Green tensor b = J_e^{2/3} b̄ that the step carries,
 /// b' = f b fᵀ with f = I + a, p = ½K(1 − J_e²) as in N20 Eq. 18; of Kirchhoff stresses
 ///   q = √(3/2)|dev τ| ≤ M p + k,  p ≥ −T.
-/// The cone goes through Mohr's and Coulomb's strength in triaxial compression,
-///   M = 6 sin φ/(3 − sin φ),  k = 6 c cos φ/(3 − sin φ);
-/// flow by an equivalent plastic strain x dilates by η x, η = 6 sin ψ/(3 − sin ψ), which takes ln J_e.
+/// The cone has the strength of Mohr and Coulomb in triaxial compression, in extension or in plane strain,
+///   M = 6 sin φ/(3 − sin φ), 6 sin φ/(3 + sin φ) or √3 sin φ,  k = M c cot φ;
+/// flow by an equivalent plastic strain x dilates by η x, η as M with ψ, which takes ln J_e.
 /// Beyond the cut-off J_e goes on with the volume, while p stays −T and q ≤ k − M T: a gap that opens is
 /// closed again before anything presses, and no volume is gained by it. At T = k/M that is the apex.
 struct DruckerPrager {
+  enum class Cone { compression, extension, plane_strain };
   static constexpr const char *kModel = "drucker_prager",
                               *kSays = "soil and sand: cohesion, friction, dilation, no or little tension";
   static constexpr StateColumns kColumns{true, false, true, false, true};
@@ -28,17 +30,19 @@ struct DruckerPrager {
   double friction_angle = 0, dilation_angle = 0;    ///< φ, ψ, rad
   double cohesion = 0;                              ///< c, Pa
   double tension = 0;                               ///< T, Pa
+  Cone cone = Cone::compression;
 
   template <class Keys>
   void describe(Keys& map) {
     constexpr Number kAngle{Measure::angle, {"above 0 and below 90 deg", 0, 1.5707963, true, true}};
     describe_density(map, density);
     describe_bulk_and_shear(map, bulk, shear);
-    map.need("friction_angle", "Of Mohr and Coulomb, met in triaxial compression.", friction_angle, kAngle);
+    map.need("friction_angle", "Of Mohr and Coulomb; `cone` says where it is met.", friction_angle, kAngle);
     const Limit less{
         "from 0 to the angle of friction", 0, map.tells() ? kInfinity : friction_angle, false, false, true};
     map.key("dilation_angle", "How much volume shear makes, as an angle.", dilation_angle,
             Number{Measure::angle, less});
+    map.key("cone", "Where the strength is that of Mohr and Coulomb.", cone, kCones);
     map.key("cohesion", "Shear strength where nothing presses.", cohesion, kStrength);
     if (!map.writes()) tension = apex();
     const Limit cut{"from 0 to the apex of the cone, cohesion/tan(friction_angle)",
@@ -53,8 +57,12 @@ struct DruckerPrager {
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return bulk + 4 * shear / 3; }
 
-  static double slope(double angle) { return 6 * std::sin(angle) / (3 - std::sin(angle)); }
-  double offset() const { return 6 * cohesion * std::cos(friction_angle) / (3 - std::sin(friction_angle)); }
+  /// M of an angle of friction, η of one of dilation.
+  double slope(double angle) const {
+    const double sine = std::sin(angle);
+    if (cone == Cone::plane_strain) return 1.7320508075688772 * sine;
+    return 6 * sine / (cone == Cone::compression ? 3 - sine : 3 + sine);
+  }
   double apex() const { return friction_angle > 0 ? cohesion / std::tan(friction_angle) : 0; }  ///< k/M, Pa
 
   template <int Dim, class V>
@@ -100,6 +108,12 @@ struct DruckerPrager {
   }
 
  private:
+  static constexpr std::array<Word<Cone>, 3> kCones{{
+      {Cone::compression, "compression", "in triaxial compression (default)"},
+      {Cone::extension, "extension", "in triaxial extension"},
+      {Cone::plane_strain, "plane_strain", "in plane strain without dilation: slopes, flows"},
+  }};
+
   /// J_e at which p = −T.
   double opening() const { return std::sqrt(1 + 2 * tension / bulk); }
 
@@ -113,7 +127,7 @@ struct DruckerPrager {
   /// is exact. A lane stops when its own g has vanished, so that its neighbours do not matter.
   template <class V>
   V increment(V measure, V stiffness, V volume) const {
-    const double m = slope(friction_angle), eta = slope(dilation_angle), k = offset();
+    const double m = slope(friction_angle), eta = slope(dilation_angle), k = m * apex();
     const V zero = broadcast<V>(0.0);
     const auto strength = [&](V p) { return larger(m * p + k, zero); };
     const V rest = measure - strength(pressure(volume));

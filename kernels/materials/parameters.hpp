@@ -2,8 +2,9 @@
 
 /// @file What laws share when they describe their parameters. A law has a `kModel`, the word of a scene, a
 /// line of what it is for (`kSays`), and `describe(map)`, which names each parameter: its key, a sentence,
-/// the member, its measure and limits. `map` reads, writes or tells (engine/scene/keys.hpp). Elastic moduli
-/// may be given in two ways: describe_bulk_and_shear and describe_lambda_and_shear (engine/scene/moduli.hpp).
+/// the member, its measure and limits. `map` reads, writes or tells (engine/scene/keys/keys.hpp). Elastic
+/// moduli may be given in two ways: describe_bulk_and_shear and describe_lambda_and_shear
+/// (engine/scene/keys/moduli.hpp).
 
 #include "kernels/measure.hpp"
 

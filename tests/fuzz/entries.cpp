@@ -4,10 +4,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/scene/geometry.hpp"
-#include "engine/scene/load.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/geometry/load.hpp"
+#include "engine/scene/geometry/surface.hpp"
 #include "engine/scene/read_scene.hpp"
-#include "engine/scene/surface.hpp"
 #include "tests/source_folder.hpp"
 
 namespace mpmfast::fuzz {

@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "engine/plan/memory.hpp"
-#include "engine/scene/tree.hpp"
+#include "engine/scene/text/tree.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {

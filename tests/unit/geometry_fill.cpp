@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
 
 using namespace mpmfast;
 

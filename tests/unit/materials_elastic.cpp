@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/dimension.hpp"
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/logarithmic_neo_hookean.hpp"
 #include "kernels/materials/neo_hookean.hpp"

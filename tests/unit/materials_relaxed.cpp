@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/dimension.hpp"
 #include "kernels/materials/depth.hpp"
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/logarithmic_neo_hookean.hpp"

@@ -53,10 +53,11 @@ TEST_CASE("in triaxial compression the strength is that of Mohr and Coulomb") {
     REQUIRE(sample.state.plastic_strain > 0.01);
     const Mat<3> tau = sample.stress();
     const double tangent = std::tan((45 + 16) * kDegree);
-    CHECK(-tau(2, 2) == doctest::Approx(-tau(0, 0) * tangent * tangent + 2 * cohesion * tangent).epsilon(1e-9));
-    CHECK(sample.von_mises() ==
-          doctest::Approx(DruckerPrager::slope(law.friction_angle) * pressure(sample) + law.offset())
-              .epsilon(1e-9));
+    CHECK(-tau(2, 2) ==
+          doctest::Approx(-tau(0, 0) * tangent * tangent + 2 * cohesion * tangent).epsilon(1e-9));
+    CHECK(sample.von_mises() == doctest::Approx(law.slope(law.friction_angle) * pressure(sample) +
+                                                law.slope(law.friction_angle) * law.apex())
+                                    .epsilon(1e-9));
   }
 }
 
@@ -71,11 +72,13 @@ TEST_CASE("shear that is held at its volume builds up pressure by its dilation")
     if (plastic > 0) strain += 2e-6, before += sample.state.plastic_strain - plastic;
   }
   REQUIRE(strain > 4e-4);
-  const double eta = DruckerPrager::slope(law.dilation_angle), m = DruckerPrager::slope(law.friction_angle);
+  const double eta = law.slope(law.dilation_angle), m = law.slope(law.friction_angle);
   const double open = sample.volume() * std::exp(-eta * sample.state.plastic_strain);
   CHECK(pressure(sample) == doctest::Approx(0.5 * law.bulk * (1 - open * open)).epsilon(1e-9));
-  CHECK(sample.von_mises() == doctest::Approx(m * pressure(sample) + law.offset()).epsilon(1e-9));
-  CHECK(before / strain == doctest::Approx(3 * law.shear / (3 * law.shear + m * law.bulk * eta)).epsilon(0.003));
+  CHECK(sample.von_mises() ==
+        doctest::Approx(m * pressure(sample) + law.slope(law.friction_angle) * law.apex()).epsilon(1e-9));
+  CHECK(before / strain ==
+        doctest::Approx(3 * law.shear / (3 * law.shear + m * law.bulk * eta)).epsilon(0.003));
 }
 
 TEST_CASE("plane strain at constant volume comes to flow without a deviator along z") {
@@ -85,11 +88,31 @@ TEST_CASE("plane strain at constant volume comes to flow without a deviator alon
     for (int k = 0; k < 4000; ++k) sample.strain(diagonal<2>(1, -1), 5e-6);
     const Mat<3> tau = sample.stress();
     const double p = pressure(sample), q = sample.von_mises();
-    CHECK(q == doctest::Approx(DruckerPrager::slope(law.friction_angle) * p + law.offset()).epsilon(1e-9));
+    CHECK(q == doctest::Approx(law.slope(law.friction_angle) * p + law.slope(law.friction_angle) * law.apex())
+                   .epsilon(1e-9));
     // Along z 0 = dx (3/2 s_z/q + eta/3) + ds_z/2G - dp/3K, and dp = K eta dx: s_z decays.
     CHECK(std::abs(tau(2, 2) + p) < 0.005 * q);
     CHECK(tau(0, 0) - tau(1, 1) == doctest::Approx(2 * q / std::sqrt(3.0)).epsilon(1e-4));
   }
+}
+
+TEST_CASE("the cones of extension and of plane strain meet Mohr and Coulomb there") {
+  DruckerPrager law = soil(4e3, 0);
+  law.cone = DruckerPrager::Cone::extension;
+  auto drawn = pressed<3>(law, 1e-3);
+  for (int k = 0; k < 200; ++k) drawn.strain(diagonal<3>(-0.5, -0.5, 1), 1e-4);
+  const double tangent = std::tan((45 + 16) * kDegree);
+  CHECK(
+      -drawn.stress()(0, 0) ==
+      doctest::Approx(-drawn.stress()(2, 2) * tangent * tangent + 2 * law.cohesion * tangent).epsilon(1e-9));
+  law.cone = DruckerPrager::Cone::plane_strain;
+  auto flat = pressed<2>(law, 1e-3);
+  for (int k = 0; k < 4000; ++k) flat.strain(diagonal<2>(1, -1), 5e-6);
+  const Mat<3> tau = flat.stress();
+  CHECK(0.5 * (tau(0, 0) - tau(1, 1)) ==
+        doctest::Approx(-0.5 * (tau(0, 0) + tau(1, 1)) * std::sin(32 * kDegree) +
+                        law.cohesion * std::cos(32 * kDegree))
+            .epsilon(1e-3));
 }
 
 TEST_CASE("beyond the cut-off nothing is held but the tension, and a gap closes before anything presses") {
@@ -123,7 +146,8 @@ TEST_CASE("a lower cut-off takes the tip of the cone") {
   for (int k = 0; k < 400; ++k) sample.strain(diagonal<3>(0.5, 0.5, -1), 1e-5);
   CHECK(pressure(sample) == doctest::Approx(-1e3).epsilon(1e-12));
   CHECK(sample.von_mises() ==
-        doctest::Approx(law.offset() - DruckerPrager::slope(law.friction_angle) * 1e3).epsilon(1e-9));
+        doctest::Approx(law.slope(law.friction_angle) * law.apex() - law.slope(law.friction_angle) * 1e3)
+            .epsilon(1e-9));
 }
 
 TEST_CASE_TEMPLATE("work is stored or dissipated, to the second order of the step", D, TwoD, ThreeD) {

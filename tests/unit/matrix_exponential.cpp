@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "kernels/dimension.hpp"
 #include "kernels/materials/kinematics.hpp"
 
 using namespace mpmfast;

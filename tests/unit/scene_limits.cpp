@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "engine/scene/load.hpp"
+#include "engine/scene/geometry/load.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

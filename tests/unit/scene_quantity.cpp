@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "engine/scene/quantity.hpp"
+#include "engine/scene/quantities/quantity.hpp"
 
 using namespace mpmfast;
 

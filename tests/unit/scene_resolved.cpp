@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

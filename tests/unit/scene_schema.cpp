@@ -7,10 +7,10 @@
 #include <iterator>
 
 #include "engine/scene/catalogue.hpp"
-#include "engine/scene/known.hpp"
-#include "engine/scene/problems.hpp"
+#include "engine/scene/keys/known.hpp"
 #include "engine/scene/schema/write_schema.hpp"
-#include "engine/scene/tree.hpp"
+#include "engine/scene/text/problems.hpp"
+#include "engine/scene/text/tree.hpp"
 #include "scene_helpers.hpp"
 #include "tests/source_folder.hpp"
 
@@ -67,6 +67,7 @@ std::vector<std::string> small_scenes() {
           material("model: j2_plasticity, " + metal + heat + "equation_of_state: {" + state + "}"),
           material("model: johnson_cook, " + metal + heat +
                    "hardening: 1 GPa, exponent: 1, melt: 1300 K, equation_of_state: {" + state + "}"),
+          material("model: drucker_prager, density: 1, bulk: 1, shear: 1, friction_angle: 30 deg"),
           plain + "gravity: {acceleration: [0, 1 m/s^2]}\ncontact: {}\nboundaries: {left: {piston: 1 m/s}}\n",
           plain + "contact: {" + bond + "}\n",
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "engine/scene/suggest.hpp"
+#include "engine/scene/text/suggest.hpp"
 
 namespace mpmfast {
 

@@ -10,7 +10,7 @@
 #include "complain.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/schema/write_schema.hpp"
-#include "engine/scene/suggest.hpp"
+#include "engine/scene/text/suggest.hpp"
 #include "exit_codes.hpp"
 
 namespace mpmfast {

@@ -12,8 +12,8 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "engine/errors.hpp"
-#include "engine/scene/diagnostic.hpp"
-#include "engine/step/threads.hpp"
+#include "engine/run/threads.hpp"
+#include "engine/scene/text/diagnostic.hpp"
 #include "exit_codes.hpp"
 
 namespace {

@@ -10,7 +10,7 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "engine/output/files.hpp"
-#include "engine/scene/suggest.hpp"
+#include "engine/scene/text/suggest.hpp"
 #include "exit_codes.hpp"
 #include "shell_text.hpp"
 #include "starters.hpp"

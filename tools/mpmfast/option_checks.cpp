@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "engine/scene/quantity.hpp"
-#include "engine/step/threads.hpp"
+#include "engine/run/threads.hpp"
+#include "engine/scene/quantities/quantity.hpp"
 
 namespace mpmfast {
 

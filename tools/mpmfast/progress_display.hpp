@@ -5,7 +5,7 @@
 #include <string>
 
 #include "command_line.hpp"
-#include "engine/step/run.hpp"
+#include "engine/run/run.hpp"
 
 namespace mpmfast {
 

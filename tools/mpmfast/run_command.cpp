@@ -9,7 +9,7 @@
 #include "commands.hpp"
 #include "complain.hpp"
 #include "engine/errors.hpp"
-#include "engine/step/run.hpp"
+#include "engine/run/run.hpp"
 #include "exit_codes.hpp"
 #include "progress_display.hpp"
 #include "shell_text.hpp"

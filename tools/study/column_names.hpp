@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/expression.hpp"
+#include "engine/scene/quantities/expression.hpp"
 
 namespace mpmfast {
 

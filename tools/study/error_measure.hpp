@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "engine/scene/names.hpp"
+#include "engine/scene/keys/names.hpp"
 #include "table.hpp"
 
 namespace mpmfast {

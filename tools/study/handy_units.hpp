@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/scene/expression.hpp"
+#include "engine/scene/quantities/expression.hpp"
 
 namespace mpmfast {
 

@@ -14,7 +14,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/hash.hpp"
-#include "engine/scene/diagnostic.hpp"
+#include "engine/scene/text/diagnostic.hpp"
 
 extern char** environ;
 

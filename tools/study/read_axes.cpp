@@ -6,7 +6,7 @@
 #include <system_error>
 #include <utility>
 
-#include "engine/scene/suggest.hpp"
+#include "engine/scene/text/suggest.hpp"
 #include "study_parts.hpp"
 
 namespace mpmfast {

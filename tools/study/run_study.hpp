@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include "engine/step/run.hpp"
+#include "engine/run/run.hpp"
 #include "study.hpp"
 
 namespace mpmfast {

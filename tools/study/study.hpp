@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/problems.hpp"
 #include "engine/scene/read_scene.hpp"
+#include "engine/scene/text/problems.hpp"
 #include "error_measure.hpp"
 
 namespace mpmfast {

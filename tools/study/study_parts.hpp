@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/fields.hpp"
+#include "engine/scene/keys/fields.hpp"
 #include "study.hpp"
 
 namespace mpmfast {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/known.hpp"
+#include "engine/scene/keys/known.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

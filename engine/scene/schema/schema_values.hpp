@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/known.hpp"
+#include "engine/scene/keys/known.hpp"
 
 namespace mpmfast {
 

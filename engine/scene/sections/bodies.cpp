@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/suggest.hpp"
+#include "engine/scene/text/suggest.hpp"
 
 namespace mpmfast {
 

@@ -2,7 +2,7 @@
 
 #include <type_traits>
 
-#include "engine/scene/names.hpp"
+#include "engine/scene/keys/names.hpp"
 #include "engine/scene/sections/describe.hpp"
 #include "kernels/materials/depth.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry.hpp"
+#include "engine/scene/geometry/geometry.hpp"
+#include "engine/scene/quantities/time_table.hpp"
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/time_table.hpp"
 
 namespace mpmfast {
 

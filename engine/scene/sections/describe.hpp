@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/keys.hpp"
+#include "engine/scene/keys/keys.hpp"
 
 namespace mpmfast {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/moduli.hpp"
+#include "engine/scene/keys/moduli.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

@@ -2,7 +2,7 @@
 
 /// @file `contact.pairs`: pairs of bodies or of materials with a law of their own.
 
-#include "engine/scene/keys.hpp"
+#include "engine/scene/keys/keys.hpp"
 
 namespace mpmfast {
 

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "engine/scene/load.hpp"
-#include "engine/scene/polygon.hpp"
+#include "engine/scene/geometry/load.hpp"
+#include "engine/scene/geometry/polygon.hpp"
+#include "engine/scene/geometry/surface.hpp"
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/surface.hpp"
 
 namespace mpmfast {
 

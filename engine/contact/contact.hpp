@@ -1,0 +1,202 @@
+#pragma once
+
+/// @file Contact between velocity fields: which nodes, and the two corrections of a step (theory §4).
+
+#include <vector>
+
+#include "engine/contact/fitter.hpp"
+#include "engine/contact/nodal/list.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
+#include "engine/state/state.hpp"
+#include "kernels/contact/resolve_pair.hpp"
+#include "kernels/contact/together.hpp"
+
+namespace mpmfast {
+
+template <int Dim>
+class Conditions;
+
+/// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force); and of
+/// re-extrapolated momenta (for the strain alone).
+enum class Correction { initial, final, strain };
+
+/// Of a node with explicit pairs: none touches or they are solved, or the lump must do (N20 §3.4).
+enum class PairOutcome { none, solved, lump };
+
+/// What contact did in one step, for the balance and the history.
+template <int Dim>
+struct ContactBooks {
+  double friction_work = 0;                ///< J
+  double rigid_work = 0;                   ///< J, of rigid bodies on the others
+  std::vector<Vec<Dim>> rigid_impulse;     ///< N s, on rigid bodies; by field
+  std::vector<Vec<3>> rigid_moment;        ///< N m s, on rigid bodies about their pivots; by field
+  std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
+  std::vector<double> pair_friction_work;  ///< J; as ContactSpec::pairs
+};
+
+template <int Dim>
+class Contact {
+ public:
+  Contact(const Scene& scene, const Plan& plan);
+
+  /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
+  void find_nodes(const State<Dim>& state);
+
+  /// Normals and separations of all entries: they hold for both corrections.
+  void find_geometry(State<Dim>& state, ContactFitter<Dim>& basis);
+
+  /// On nodes where conditions prescribe components of the velocities contact acts along the others only.
+  void leave_to(const Conditions<Dim>& conditions);
+
+  /// A new step: the books are empty, and moments count about these points, by field.
+  void open_books(const std::vector<Vec<Dim>>& pivots);
+  /// The time in which the fastest of all waves and motions crosses a cell, s.
+  void set_crossing(double seconds) { crossing_ = seconds; }
+
+  /// Adds the slots of nodes where surfaces meet that may part (not bonds).
+  void list_meeting_slots(std::vector<int>& slots) const;
+
+  /// Gives the fields of a node that are tied the share of pressed mass that all of them have: a tie moves as
+  /// one field does.
+  void share_pressed(State<Dim>& state) const;
+
+  /// Momentum changes of all entries. initial: Δv is kept in the second half of `star` where XPIC wants it;
+  /// final: forces change too. Friction work and the impulses on rigid bodies and of pairs are summed.
+  void resolve(State<Dim>& state, Correction correction, double dt);
+
+  /// What a step leaves to the next.
+  void visit(Archive& archive);
+
+  const ContactList<Dim>& list() const { return list_; }
+  /// Of the last step.
+  const ContactBooks<Dim>& books() const { return books_; }
+
+ private:
+  void list_stack(const State<Dim>& state, int stack);
+  void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
+  void add_pairs(const ContactNode<Dim>& node);
+  void book(const State<Dim>& state);
+  bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  bool has_memory() const { return spec_.hysteresis > 0 || spec_.warm_start || spec_.persistent; }
+  void remember();
+  void recall(const State<Dim>& state);
+  void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);
+  void book_pair(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                 double share);
+  void grid_normals(const State<Dim>& state);
+  void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
+  void grid_separations(const State<Dim>& state);
+  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  template <class Laws>
+  void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
+  template <class Laws>
+  void resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                    const ContactNode<Dim>& node);
+  /// What is kept of an entry until the next step.
+  struct Memory {
+    std::uint64_t key;
+    bool touching, stuck;
+    double spring;
+    double plane[Dim + 1];
+  };
+
+  PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
+                            const ContactNode<Dim>& node);
+  struct Touching;
+  bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node, Touching& out);
+  void rest(int begin, int end);
+  void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
+  struct Total {
+    double mass = 0;
+    Vec<Dim> momentum = Vec<Dim>::Zero();
+  };
+  /// What field a needs to stick to the others: Δp_a(0), N s, and m_red, kg.
+  struct Meeting {
+    Vec<Dim> stick;
+    double reduced;
+  };
+  /// A pair of a node that may have an impulse while all of them are solved together.
+  struct Acting {
+    ContactEntry<Dim>* entry;
+    double area_time;  ///< A_c Δt, m² s, for laws that use the area
+  };
+  /// What one thread solves the pairs of a node in.
+  struct Together {
+    ContactsTogether<Dim> solver;
+    std::vector<Acting> acting;  ///< as the solver's contacts
+  };
+  void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
+                   std::vector<MovingField<Dim>>& fields) const;
+  template <class Laws>
+  void find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                   const ContactNode<Dim>& node, Together& together);
+  template <class Laws>
+  void finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+              const Together& together) const;
+  template <class Laws, class F>
+  void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
+  template <class Laws>
+  bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                        const ContactNode<Dim>& node);
+  template <class Law>
+  Demand<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                         Correction correction, const Law& law, double area_time) const;
+  template <class Law>
+  Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+                             Correction correction, const Law& law, double area_time) const;
+  bool may_part(const ContactNode<Dim>& node) const;
+  bool lasts(const ContactEntry<Dim>& entry) const;
+  double closing_of(const ContactEntry<Dim>& entry) const;
+  bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;
+  bool holds_slip(const ContactEntry<Dim>& entry, Correction correction) const;
+  Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
+  Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                   const ContactEntry<Dim>& entry) const;
+  void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
+  bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
+                  const ContactEntry<Dim>& entry) const;
+  double spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                   const ContactEntry<Dim>& entry) const;
+  double force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const;
+  void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  double friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const;
+  void book_friction(const State<Dim>& state);
+  std::size_t place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                            const ContactEntry<Dim>& entry) const;
+  int pair_of(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
+  Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
+  void pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const;
+  double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const;
+  double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+
+  ContactSpec spec_;
+  PairTable pairs_;
+  std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
+  const Conditions<Dim>* conditions_ = nullptr;
+  double cell_, cell_volume_;
+  double dt_ = 0;        ///< of the step, s
+  double crossing_ = 0;  ///< s
+  bool first_correction_;
+  bool one_set_;                 ///< the touching pairs are decided once a step
+  bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction
+  bool holds_sticking_;          ///< pairs that stick are held along the surface in every correction
+  bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
+  double first_share_;           ///< of the first correction's impulse: a force of the second too
+  bool geometry_;                ///< some law asks for normals and separations
+  bool exact_fields_;            ///< no node is screened out by its masses
+  ContactList<Dim> list_;
+  std::vector<std::uint64_t> keys_;  ///< of the entries
+  std::vector<Together> together_;   ///< of each thread
+  std::vector<Memory> memory_;       ///< of the last step, in order of the keys
+  ContactBooks<Dim> books_;
+  std::vector<Vec<Dim>> pivots_;  ///< m, by field
+};
+
+extern template class Contact<2>;
+extern template class Contact<3>;
+
+}  // namespace mpmfast

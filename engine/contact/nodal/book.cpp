@@ -1,0 +1,179 @@
+/// What contact did in a step: friction work, and the impulses, moments and work of rigid bodies and pairs.
+
+#include <Eigen/Geometry>
+
+#include "engine/conditions/conditions.hpp"
+#include "engine/contact/contact.hpp"
+
+namespace mpmfast {
+
+template <int Dim>
+void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
+  pivots_ = pivots;
+  books_.friction_work = books_.rigid_work = 0;
+  books_.rigid_impulse.assign(pivots.size(), Vec<Dim>::Zero());
+  books_.rigid_moment.assign(pivots.size(), Vec<3>::Zero());
+  books_.pair_impulse.assign(spec_.pairs.size(), Vec<Dim>::Zero());
+  books_.pair_friction_work.assign(spec_.pairs.size(), 0);
+}
+
+/// Adds up, in a fixed order, what the particles will keep of a correction.
+template <int Dim>
+void Contact<Dim>::book(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      // In a lump, each touching pair is seen from both sides.
+      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+      if (node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid)) book_rigid(state, node, entry);
+      if (!pairs_.empty()) book_pair(state, node, entry, share);
+    }
+}
+
+/// v_a − v_b, b the others of a lump or the rigid body, m/s.
+template <int Dim>
+Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                               const ContactEntry<Dim>& entry) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const auto momentum = [&](int k) { return state.nodes.vector(Nodal::momentum, slot_of(k)); };
+  const int other = entry.b >= 0 ? entry.b : node.rigid;
+  double mass_b = 0;
+  Vec<Dim> momentum_b = Vec<Dim>::Zero();
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (other >= 0 ? k != other : k == entry.a) continue;
+    mass_b += mass[slot_of(k)];
+    momentum_b += momentum(k);
+  }
+  const Vec<Dim> slip = momentum(entry.a) / mass[slot_of(entry.a)] - momentum_b / mass_b;
+  return node.constrained ? free_part(node, slip) : slip;
+}
+
+/// What the slips are before the first correction.
+template <int Dim>
+void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  if (!one_set_ && !first_correction_stays_) return;
+  if (correction != (first_correction_ ? Correction::initial : Correction::final)) return;
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.slip_start = entry.slip_held = slip_of(state, node, entry);
+  }
+}
+
+/// What a correction leaves to know.
+template <int Dim>
+void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const bool acts = !entry.impulse.isZero(0);
+    if (correction == Correction::initial) {
+      entry.first = entry.impulse;
+      entry.held = acts;
+      if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
+    } else if (correction == Correction::final) {
+      entry.second = entry.impulse + entry.passed;
+      entry.touching = one_set_ ? touches_on(state, node, entry) : acts;
+      if (one_set_) {
+        entry.slip_pulled = slip_of(state, node, entry);
+        entry.spring = spring_of(state, node, entry);
+      }
+    }
+    if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
+      entry.slip_end = slip_of(state, node, entry);
+  }
+}
+
+/// What the particles lose by sliding, J: the tangential impulse on the mean of the slips that the strains of
+/// the step see, and what forces do to slips that strains do not see because the pair sticks. (Normal parts
+/// do no work: tools/manual/theory.md, "The energy of a contact".) Where each correction finds its pairs by
+/// itself, on the slip that is left: impulses of many fields that jam and do not settle take energy with both
+/// parts. Particles that keep the first correction lose by that too.
+template <int Dim>
+double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const {
+  const auto rubbing = [&](const Vec<Dim>& x) -> Vec<Dim> {
+    return tangential || one_set_ ? Vec<Dim>(x - x.dot(entry.normal) * entry.normal) : x;
+  };
+  const Vec<Dim> second = rubbing(entry.second - (one_set_ ? Vec<Dim>::Zero() : entry.passed));
+  double gain = one_set_ ? 0.5 * second.dot(entry.slip_held + entry.slip_end) : second.dot(entry.slip_end);
+  if (first_correction_stays_)
+    gain += rubbing(entry.first)
+                .dot(one_set_ ? Vec<Dim>(0.5 * (entry.slip_start + entry.slip_held)) : entry.slip_held);
+  else if (holds_sticking_) {
+    const Vec<Dim> unseen = entry.slip_pulled - entry.slip_held;
+    if (entry.stuck_before) gain -= 0.5 * rubbing(entry.first).dot(unseen);
+    if (entry.stuck) gain -= 0.5 * rubbing(entry.impulse).dot(unseen);
+  }
+  return -gain;
+}
+
+/// Adds up the friction work, in a fixed order.
+template <int Dim>
+void Contact<Dim>::book_friction(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      if (entry.first.isZero(0) && entry.second.isZero(0)) continue;
+      const int law = pair_of(state, node, entry);
+      entry.friction_work = 0;
+      const LawScope scope =
+          std::visit([](const auto& l) { return l.scope; }, laws_[static_cast<std::size_t>(law + 1)]);
+      if (scope != LawScope::contact && scope != LawScope::bonded) continue;
+      // In a lump, each touching pair is seen from both sides.
+      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+      entry.friction_work = share * friction_work_of(entry, scope == LawScope::bonded);
+      books_.friction_work += entry.friction_work;
+      if (law >= 0) books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
+    }
+}
+
+template <int Dim>
+void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) {
+  const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
+  const auto f = static_cast<std::size_t>(field);
+  const Vec<Dim> kept = entry.impulse + entry.passed;
+  books_.rigid_impulse[f] -= kept;
+  books_.rigid_work +=
+      kept.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
+  Vec<3> arm = Vec<3>::Zero(), impulse = Vec<3>::Zero();
+  for (int d = 0; d < Dim; ++d) {
+    arm[d] = state.grid.origin[d] + node.node[d] * state.grid.cell - pivots_[f][d];
+    impulse[d] = kept[d];
+  }
+  books_.rigid_moment[f] -= arm.cross(impulse);
+}
+
+/// Where the table of pairs has the two fields of an entry.
+template <int Dim>
+std::size_t Contact<Dim>::place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                                        const ContactEntry<Dim>& entry) const {
+  const auto field_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  return pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
+}
+
+/// Which of ContactSpec::pairs an entry is; −1: of none.
+template <int Dim>
+int Contact<Dim>::pair_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  return pairs_.empty() ? -1 : pairs_.pair[place_of_pair(state, node, entry)];
+}
+
+template <int Dim>
+void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                             const ContactEntry<Dim>& entry, double share) {
+  const int pair = pair_of(state, node, entry);
+  if (pair < 0) return;
+  const auto k = static_cast<std::size_t>(pair);
+  const bool forward = pairs_.forward[place_of_pair(state, node, entry)];
+  books_.pair_impulse[k] += (forward ? share : -share) * (entry.impulse + entry.passed);
+}
+
+// Here: the members that this file defines.
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

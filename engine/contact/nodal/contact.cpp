@@ -1,0 +1,158 @@
+#include "engine/contact/contact.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace mpmfast {
+
+template <int Dim>
+void Contact<Dim>::find_nodes(const State<Dim>& state) {
+  const bool memory = has_memory();
+  if (memory) remember();
+  list_.nodes.clear();
+  list_.fields.clear();
+  list_.entries.clear();
+  list_.node_at.assign(state.tiling.places(), -1);
+  for (int s = 0; s < static_cast<int>(state.tiling.stacks.size()); ++s) {
+    const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
+    if (stack.end - stack.begin > 1) list_stack(state, s);
+  }
+  list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, list_.nodes.size());
+  if (memory) recall(state);
+}
+
+template <int Dim>
+void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
+  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
+  const double* mass = state.nodes.column(Nodal::mass);
+  std::array<int, kTileNodes<Dim>> fields{};
+  for (int t = stack.begin; t < stack.end; ++t)
+    for (int local = 0; local < kTileNodes<Dim>; ++local)
+      fields[static_cast<std::size_t>(local)] += mass[t * kTileNodes<Dim> + local] > 0;
+  for (int local = 0; local < kTileNodes<Dim>; ++local) {
+    if (fields[static_cast<std::size_t>(local)] < 2) continue;
+    ContactNode<Dim> node;
+    node.field_begin = static_cast<int>(list_.fields.size());
+    node.rigid = -1;
+    for (int t = stack.begin; t < stack.end; ++t) {
+      const int slot = t * kTileNodes<Dim> + local;
+      if (!(mass[slot] > 0)) continue;
+      const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
+      list_.fields.push_back({field, slot});
+    }
+    node.field_end = static_cast<int>(list_.fields.size());
+    node.stack = s;
+    node.local = local;
+    node.node = state.tiling.node(stack, local);
+    node.entry_begin = static_cast<int>(list_.entries.size());
+    add_entries(state, node);
+    node.pair_begin = static_cast<int>(list_.entries.size());
+    if (spec_.fields == ManyFields::pairs && node.rigid < 0) add_pairs(node);
+    node.entry_end = static_cast<int>(list_.entries.size());
+    if (node.entry_begin == node.entry_end) {
+      list_.fields.resize(static_cast<std::size_t>(node.field_begin));
+      continue;
+    }
+    list_.node_at[static_cast<std::size_t>(s) * kTileNodes<Dim> + static_cast<std::size_t>(local)] =
+        static_cast<int>(list_.nodes.size());
+    list_.nodes.push_back(node);
+  }
+}
+
+/// Is there too little material on the node for a normal to be trusted (DC)?
+template <int Dim>
+bool Contact<Dim>::is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const {
+  if (!state.nodes.has(Nodal::volume) || spec_.volume_screen <= 0) return false;
+  double volume = 0;
+  for (int f = node.field_begin; f < node.field_end; ++f)
+    volume += state.nodes.column(Nodal::volume)[list_.fields[static_cast<std::size_t>(f)].slot];
+  return volume < spec_.volume_screen * cell_volume_;
+}
+
+/// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
+/// rest, or every other one by itself. Of several rigid bodies on a node, the one with the most mass counts.
+template <int Dim>
+void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) {
+  const int fields = node.field_end - node.field_begin;
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto field_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
+  const auto mass_of = [&](int k) { return mass[field_of(k).slot]; };
+  const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
+  // Tied fields must move as one to the last node (the perfect interface is exact).
+  const double screen = exact_fields_ ? 0 : spec_.mass_screen;
+  const bool own_normals = spec_.normal == NormalKind::own_gradient;
+  ++list_.counters.meetings;
+  if (is_screened(state, node)) {
+    ++list_.counters.screened;
+    return;
+  }
+  double total = 0;
+  for (int k = 0; k < fields; ++k) {
+    total += mass_of(k);
+    if (is_rigid(k) && (node.rigid < 0 || mass_of(k) > mass_of(node.rigid))) node.rigid = k;
+  }
+  ContactEntry<Dim> entry;
+  entry.normal = entry.impulse = Vec<Dim>::Zero();
+  const bool together = spec_.fields == ManyFields::simultaneous && fields > 2 && !own_normals;
+  bool dropped = false;
+  for (int k = 0; k < fields; ++k) {
+    if (is_rigid(k)) continue;
+    if (together) {
+      entry.a = k;
+      for (entry.b = 0; entry.b < fields; ++entry.b)
+        if (entry.b == node.rigid || (entry.b > k && !is_rigid(entry.b))) list_.entries.push_back(entry);
+      continue;
+    }
+    if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) {
+      dropped = true;
+      continue;
+    }
+    entry.a = k;
+    entry.b = fields == 2 && !own_normals ? 1 - k : -1;
+    entry.alone = fields == 2;
+    list_.entries.push_back(entry);
+    if (entry.b >= 0) return;
+  }
+  list_.counters.screened += dropped;
+}
+
+/// What the next step wants to know of this one's entries.
+template <int Dim>
+void Contact<Dim>::remember() {
+  memory_.clear();
+  memory_.reserve(list_.entries.size());
+  for (std::size_t k = 0; k < list_.entries.size(); ++k) {
+    const auto& entry = list_.entries[k];
+    Memory m{keys_[k], entry.touching, entry.stuck, entry.spring, {}};
+    std::memcpy(m.plane, entry.plane, sizeof m.plane);
+    memory_.push_back(m);
+  }
+  if (spec_.fields == ManyFields::pairs)  // lumps come before the pairs of a node
+    std::sort(memory_.begin(), memory_.end(), [](const Memory& m, const Memory& n) { return m.key < n.key; });
+}
+
+template <int Dim>
+void Contact<Dim>::recall(const State<Dim>& state) {
+  keys_.clear();
+  const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
+  auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      const std::uint64_t key = entry_key(state, list_, node, entry);
+      if (!keys_.empty() && key < keys_.back()) last = std::lower_bound(memory_.begin(), last, key, less);
+      keys_.push_back(key);
+      while (last != memory_.end() && last->key < key) ++last;
+      if (last == memory_.end() || last->key != key) continue;
+      entry.touched = last->touching;
+      entry.stuck_before = last->stuck;
+      entry.spring_before = last->spring;
+      std::memcpy(entry.plane, last->plane, sizeof entry.plane);
+    }
+}
+
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

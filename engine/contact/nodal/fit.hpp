@@ -1,0 +1,336 @@
+#pragma once
+
+/// @file Normals by regression and separations by the particles' domains, for every contact entry.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/nodal/slabs.hpp"
+#include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/state.hpp"
+#include "kernels/contact/collect.hpp"
+#include "kernels/contact/margin.hpp"
+#include "kernels/contact/regression.hpp"
+#include "kernels/contact/separation.hpp"
+
+namespace mpmfast {
+
+/// What one thread counts; summed in any order, since whole numbers do not round.
+struct alignas(64) FitTally {
+  std::uint64_t regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
+};
+
+/// What a scene's contact asks of the clouds.
+struct FitChoice {
+  bool regress, margin, smooth, separate, pairs;
+  Extent extent;
+  RegressionRule rule;
+
+  explicit FitChoice(const ContactSpec& spec) {
+    pairs = spec.fields == ManyFields::simultaneous;
+    smooth = spec.normal == NormalKind::smoothed_logistic_regression ||
+             spec.normal == NormalKind::smoothed_max_margin;
+    margin = spec.normal == NormalKind::max_margin || spec.normal == NormalKind::smoothed_max_margin;
+    regress = smooth || margin || spec.normal == NormalKind::logistic_regression ||
+              spec.normal == NormalKind::logistic_irls || spec.normal == NormalKind::linear_regression;
+    separate = spec.detection != DetectionKind::velocity &&
+               (spec.separation == SeparationKind::ellipsoid ||
+                spec.separation == SeparationKind::ellipsoid_support ||
+                spec.separation == SeparationKind::parallelogram_support);
+    extent = spec.separation == SeparationKind::ellipsoid_support       ? Extent::ellipsoid
+             : spec.separation == SeparationKind::parallelogram_support ? Extent::parallelepiped
+                                                                        : Extent::radial;
+    rule.fit = spec.normal == NormalKind::logistic_irls       ? Fit::likelihood
+               : spec.normal == NormalKind::linear_regression ? Fit::linear
+                                                              : Fit::least_squares;
+    rule.penalty = spec.penalty;
+    rule.offset_penalty = spec.offset_penalty;
+    rule.tolerance = spec.tolerance;
+    rule.max_iterations = spec.max_iterations;
+  }
+};
+
+template <int Dim, class Basis>
+class ContactFit {
+ public:
+  ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())) {}
+
+  void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
+    const FitChoice choice(spec);
+    if (!choice.regress && !choice.separate) return;
+    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
+    for (auto& room : rooms_) {
+      room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
+      room.tally = {};
+    }
+    if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
+    first_.resize(contact.fields.size());
+    slabs_.cut(state, contact, choice.smooth);
+    for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
+    const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
+    std::size_t surrounded = 0;
+    for (std::size_t s = 0; s < slabs_.size(); ++s) {
+      fit_slab(state, view, spec, choice, mean, s, contact);
+      for (; choice.smooth && surrounded <= s && slabs_.surrounded_by(surrounded) <= s; ++surrounded)
+        smooth(state, choice, mean, surrounded, contact);
+    }
+    count(contact.counters);
+  }
+
+ private:
+  struct Room;
+
+  /// Normals and separations of the nodes of a slab; of those to be smoothed the clouds are kept.
+  void fit_slab(const State<Dim>& state, const ParticleView<Dim>& view, const ContactSpec& spec,
+                const FitChoice& choice, const NormalMean<Dim>& mean, std::size_t slab,
+                ContactList<Dim>& contact) {
+    const std::size_t at = slab % slabs_.at_once();
+    for (auto& room : rooms_) {
+      room.clouds[at].shapes = room.candidates.shapes();
+      room.clouds[at].begin = 0;
+    }
+    slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      Room& room = own_room();
+      CloudRoom<Dim>& clouds = room.clouds[at];
+      if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
+      collect(state.grid, contact, node, room.candidates, clouds);
+      const auto cloud = clouds.columns(clouds.begin, clouds.count);
+      const FieldRanges fields = ranges(node, cloud.count);
+      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+        auto& entry = contact.entries[static_cast<std::size_t>(e)];
+        if (choice.regress && !entry.settled)
+          fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry, room.tally);
+        if (choice.separate)
+          entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
+        if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
+      }
+      if (!choice.smooth) return;
+      kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
+      clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
+    });
+  }
+
+  Room& own_room() { return rooms_[static_cast<std::size_t>(omp_get_thread_num())]; }
+
+  /// Where the particles of each field of a node begin and end in its cloud.
+  struct FieldRanges {
+    const int* first;
+    int fields, count;
+    std::pair<int, int> operator()(int k) const { return {first[k], k + 1 < fields ? first[k + 1] : count}; }
+  };
+  FieldRanges ranges(const ContactNode<Dim>& node, int count) const {
+    return {first_.data() + node.field_begin, node.field_end - node.field_begin, count};
+  }
+
+  /// What one thread works in.
+  struct Room {
+    Candidates<Dim> candidates;          ///< of the stack in hand
+    std::vector<CloudRoom<Dim>> clouds;  ///< of the slabs that are kept at once
+    CloudRoom<Dim> pair;
+    std::vector<double> side;    ///< classes of the particles in hand
+    std::vector<Vec<Dim>> sums;  ///< of normals, of the entries of the node in hand
+    FitTally tally;
+
+    /// The particles of an entry with their sides: of a pair on a node of several fields those of the two,
+    /// else all of them.
+    CloudColumns<Dim> particles_of(const CloudColumns<Dim>& cloud, const FieldRanges& ranges,
+                                   const ContactEntry<Dim>& entry) {
+      const auto [a_begin, a_end] = ranges(entry.a);
+      if (entry.b < 0 || ranges.fields == 2) {
+        fill_sides(cloud.count, a_begin, a_end);
+        return cloud;
+      }
+      const auto [b_begin, b_end] = ranges(entry.b);
+      const int count = a_end - a_begin + b_end - b_begin, low = std::min(a_begin, b_begin);
+      if (std::max(a_end, b_end) - low == count) {  // neighbours
+        fill_sides(count, a_begin - low, a_end - low);
+        return cloud.part(low, count);
+      }
+      pair.count = 0;
+      pair.append_places(cloud, a_begin, a_end);
+      pair.append_places(cloud, b_begin, b_end);
+      fill_sides(count, 0, a_end - a_begin);
+      return pair.columns(0, count);
+    }
+
+    /// −1 for [begin, end), 1 for the rest of the particles, 0 beyond them.
+    void fill_sides(int count, int begin, int end) {
+      const auto needed = static_cast<std::size_t>(padded_count(count));
+      if (side.size() < needed) side.resize(2 * needed);
+      const Lanes zero{}, one = broadcast<Lanes>(1.0);
+      Lanes index;
+      for (int i = 0; i < kLanes; ++i) index[i] = i;
+      for (int k = 0; k < count; k += kLanes) {
+        const IntLanes own = (index >= static_cast<double>(begin)) & (index < static_cast<double>(end));
+        const Lanes counted = index < static_cast<double>(count) ? one : zero;
+        store_lanes(&side[static_cast<std::size_t>(k)], own ? -one : counted);
+        index += static_cast<double>(kLanes);
+      }
+    }
+
+    CloudView<Dim> view(const CloudColumns<Dim>& cloud) const {
+      CloudView<Dim> v;
+      for (int d = 0; d < Dim; ++d) v.xi[d] = cloud.xi[d];
+      v.side = side.data();
+      v.count = cloud.count;
+      return v;
+    }
+  };
+
+  /// N20 Eq. 24, cells; infinite if a class is empty.
+  static double separation(Extent extent, const CloudColumns<Dim>& cloud, const FieldRanges& fields,
+                           const ContactEntry<Dim>& entry) {
+    switch (extent) {
+      case Extent::radial:
+        return separation<Extent::radial>(cloud, fields, entry);
+      case Extent::ellipsoid:
+        return separation<Extent::ellipsoid>(cloud, fields, entry);
+      case Extent::parallelepiped:
+        return separation<Extent::parallelepiped>(cloud, fields, entry);
+    }
+    return 0;
+  }
+
+  template <Extent E>
+  static double separation(const CloudColumns<Dim>& cloud, const FieldRanges& fields,
+                           const ContactEntry<Dim>& entry) {
+    const Vec<Dim> ahead = entry.normal, back = -entry.normal;
+    const auto part = [&](std::pair<int, int> range) {
+      return cloud.part(range.first, range.second - range.first);
+    };
+    const auto own = fields(entry.a);
+    const double front = reach_along<E>(part(own), ahead);
+    if (entry.b >= 0) return -front - reach_along<E>(part(fields(entry.b)), back);
+    return -front - std::max(reach_along<E>(part({0, own.first}), back),
+                             reach_along<E>(part({own.second, cloud.count}), back));
+  }
+
+  /// Where the cloud of a node was left.
+  struct Kept {
+    int thread, count;
+    std::size_t begin;
+  };
+
+  /// Particles near the contact nodes of a stack, whose first one is given.
+  static void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
+                              const ContactList<Dim>& contact, std::size_t first, Room& room) {
+    const auto& tiling = state.tiling;
+    const int s = contact.nodes[first].stack;
+    NodeBox<Dim> box{contact.nodes[first].node, contact.nodes[first].node};
+    for (std::size_t k = first; k < contact.nodes.size() && contact.nodes[k].stack == s; ++k)
+      for (int d = 0; d < Dim; ++d) {
+        box.low[d] = std::min(box.low[d], contact.nodes[k].node[d]);
+        box.high[d] = std::max(box.high[d], contact.nodes[k].node[d]);
+      }
+    room.candidates.clear();
+    const auto& stack = tiling.stacks[static_cast<std::size_t>(s)];
+    for (int n = stack.begin; n < stack.end; ++n)
+      for (int t : tiling.node_tiles[static_cast<std::size_t>(n)].particle_tile) {
+        if (t < 0) continue;
+        const TileContext<Dim> c{&view, &tiling.tiles[static_cast<std::size_t>(t)], tiling.runs.data(),
+                                 state.bodies.data(), &state.grid};
+        add_candidates<Dim, Basis>(c, box, room.candidates);
+      }
+  }
+
+  /// The cloud of a node, field after field.
+  void collect(const GridView<Dim>& grid, const ContactList<Dim>& contact, const ContactNode<Dim>& node,
+               const Candidates<Dim>& candidates, CloudRoom<Dim>& clouds) {
+    clouds.count = 0;
+    auto piece = candidates.pieces.begin();
+    const auto end = candidates.pieces.end();
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int field = contact.fields[static_cast<std::size_t>(f)].field;
+      while (piece != end && piece->field < field) ++piece;
+      first_[static_cast<std::size_t>(f)] = clouds.count;
+      for (; piece != end && piece->field == field; ++piece)
+        append_covering<Dim, Basis>(candidates, *piece, grid.inverse_cell, node.node, clouds);
+    }
+    clouds.pad();
+  }
+
+  /// The plane of widest margin, from the last step's normal; regression where the hulls meet.
+  static bool part(const CloudView<Dim>& cloud, bool warm, ContactEntry<Dim>& entry, FitTally& tally) {
+    Vec<Dim> guess = Eigen::Map<const Vec<Dim>>(entry.plane);
+    if (!warm || guess.isZero(0)) guess = cloud_gradient(cloud);
+    if (guess.isZero(0)) return false;
+    const Margin<Dim> margin = widest_margin<Dim>(cloud, guess);
+    tally.iterations += static_cast<std::uint64_t>(margin.iterations);
+    if (margin.normal.isZero(0)) return false;
+    entry.normal = margin.normal;
+    for (int d = 0; d < Dim; ++d) entry.plane[d] = margin.normal[d];
+    return true;
+  }
+
+  static void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry,
+                  FitTally& tally) {
+    ++tally.regressions;
+    if (choice.margin) {
+      if (part(cloud, warm, entry, tally)) return;
+      warm = false;  // what is kept of the last step is a normal, not a plane
+      ++tally.fallbacks;
+    }
+    const Regression<Dim> result = fit_normal<Dim>(cloud, choice.rule, warm ? entry.plane : nullptr);
+    using Outcome = typename Regression<Dim>::Outcome;
+    entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
+    std::memcpy(entry.plane, result.plane, sizeof entry.plane);
+    tally.iterations += static_cast<std::uint64_t>(result.iterations);
+    tally.fallbacks += result.outcome == Outcome::centroid_fallback || result.outcome == Outcome::failed;
+    tally.unconverged += result.outcome == Outcome::unconverged;
+  }
+
+  /// The last resort, where one class is missing or the centroids coincide: the gradient normal with
+  /// G_pi ∝ −ξ_p, the slope of a paraboloid over the support.
+  static Vec<Dim> cloud_gradient(const CloudView<Dim>& cloud) {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int k = 0; k < cloud.count; ++k)
+      for (int d = 0; d < Dim; ++d) sum[d] += cloud.side[k] * cloud.xi[d][k];
+    const double length = sum.norm();
+    return length > 0 ? Vec<Dim>(sum / length) : Vec<Dim>::Zero();
+  }
+
+  /// Mean normals of the nodes around, and the separations along them, of a slab.
+  void smooth(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean, std::size_t slab,
+              ContactList<Dim>& contact) {
+    const std::size_t at = slab % slabs_.at_once();
+    slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      Room& room = own_room();
+      const Kept& kept = kept_[k];
+      const auto cloud =
+          rooms_[static_cast<std::size_t>(kept.thread)].clouds[at].columns(kept.begin, kept.count);
+      mean(mean.around(node), node, room.sums);
+      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+        auto& entry = contact.entries[static_cast<std::size_t>(e)];
+        const Vec<Dim>& sum = room.sums[static_cast<std::size_t>(e - node.entry_begin)];
+        const double length = sum.norm();
+        if (length > 0 && !entry.settled) entry.normal = sum / length;
+        if (choice.separate)
+          entry.separation =
+              state.grid.cell * separation(choice.extent, cloud, ranges(node, cloud.count), entry);
+      }
+    });
+  }
+
+  void count(ContactCounters& counters) const {
+    for (const Room& room : rooms_) {
+      const FitTally& t = room.tally;
+      counters.regressions += t.regressions;
+      counters.iterations += t.iterations;
+      counters.fallbacks += t.fallbacks;
+      counters.unconverged += t.unconverged;
+    }
+  }
+
+  std::vector<Room> rooms_;
+  std::vector<RawNormal<Dim>> raw_;
+  std::vector<Kept> kept_;
+  ContactSlabs<Dim> slabs_;
+  std::vector<int> first_;  ///< as ContactList::fields: where its particles begin in their cloud
+};
+
+}  // namespace mpmfast

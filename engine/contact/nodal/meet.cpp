@@ -1,0 +1,264 @@
+/// What the pairs of a node bring to their laws: momenta that sticking needs, separations, areas, the ways
+/// that walls leave, and which pairs last.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "engine/conditions/conditions.hpp"
+#include "engine/contact/contact.hpp"
+
+namespace mpmfast {
+
+template <int Dim>
+Vec<Dim> Contact<Dim>::free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const {
+  return conditions_->free_part({node.held_combination, node.held_axes}, x);
+}
+
+/// A wall and a contact that correct each other in turn are no projection, and hold different velocities in
+/// the strain, the force and v′: that makes energy without end where grains jam at a wall. So on nodes where
+/// conditions hold a direction, contact acts in the others alone: both are one projection then. A gap d along
+/// n is closed by moving d/|n_free| along n_free.
+template <int Dim>
+void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
+  constexpr double kNone = 1e-3;  // a surface along the held plane: no way is left
+  conditions_ = &conditions;
+  if (conditions.empty() || !one_set_) return;
+  for (auto& node : list_.nodes) {
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const auto held = conditions.held(list_.fields[static_cast<std::size_t>(f)].slot);
+      node.held_combination = std::max(node.held_combination, held.combination);
+      node.held_axes |= held.axes;
+      node.constrained |= held.any();
+    }
+    if (!node.constrained) continue;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      const Vec<Dim> free = free_part(node, entry.normal);
+      const double length = free.norm();
+      entry.normal = length > kNone ? Vec<Dim>(free / length) : Vec<Dim>::Zero();
+      entry.separation = length > kNone ? entry.separation / length : std::numeric_limits<double>::infinity();
+    }
+  }
+}
+
+/// The other field of an entry; of a lump the one with the largest volume, whose law then holds for the whole
+/// (N20 after Eq. 50).
+template <int Dim>
+int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  if (entry.b >= 0) return entry.b;
+  if (node.rigid >= 0) return node.rigid;
+  const double* volume = state.nodes.column(Nodal::volume);
+  int largest = -1;
+  double most = -1;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    const double v = volume[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+    if (k != entry.a && v > most) largest = k, most = v;
+  }
+  return largest;
+}
+
+/// All fields of a node, or the two of a pair.
+template <int Dim>
+typename Contact<Dim>::Total Contact<Dim>::together(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                    int a, int b) const {
+  Total sum;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (b >= 0 && k != a && k != b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    sum.mass += state.nodes.column(Nodal::mass)[slot];
+    sum.momentum += state.nodes.vector(Nodal::momentum, slot);
+  }
+  return sum;
+}
+
+/// Field a against the others of `all`; a rigid body has m_b → ∞ and keeps its velocity.
+template <int Dim>
+typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                  int a, const Total& all) const {
+  const auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const double m_a = mass[slot_of(a)];
+  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(a));
+  Meeting meeting{(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
+  if (node.rigid >= 0) {
+    const int r = slot_of(node.rigid);
+    meeting = {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
+  }
+  if (node.constrained) meeting.stick = free_part(node, meeting.stick);
+  return meeting;
+}
+
+/// The separation that decides on contact. Both corrections judge by where the free velocities take the
+/// surfaces: positions that follow the end velocity close a gap up to a touch and no further, so that the
+/// first correction, asked for an overlap now, would hardly ever act.
+template <int Dim>
+double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const {
+  double separation = entry.separation;
+  if (entry.touched) separation -= spec_.hysteresis * cell_;
+  if (spec_.advance_separation)
+    separation += meeting.stick.dot(entry.normal) * dt / meeting.reduced;  // NN Eq. 3.56
+  return separation;
+}
+
+/// Contact area of an entry, m² (of the scene's thickness in 2-D).
+///
+/// volume_gradient: g = Σ G_pi V_p = ∫ N_i n dS over the surface of a field, so that g_a·n and −g_b·n are
+/// each the node's share of a surface; over a flat interface they add up to its area exactly, since Σ N_i
+/// = 1. The smaller one leaves out what the other has beyond the edge of this one. nodal_volume: sqrt(2 Ω_min
+/// Ω_tot)/h (theory §4), exact for linear functions and an interface along the grid.
+template <int Dim>
+double Contact<Dim>::area(const State<Dim>& state, const ContactNode<Dim>& node,
+                          const ContactEntry<Dim>& entry) const {
+  const bool by_volume = spec_.area == AreaKind::nodal_volume;
+  double own = 0, rest = 0;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    if (entry.b >= 0 && k != entry.a && k != entry.b) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+    const double sign = k == entry.a ? 1 : -1;
+    (k == entry.a ? own : rest) +=
+        by_volume ? state.nodes.column(Nodal::volume)[slot]
+                  : sign * state.nodes.vector(Nodal::volume_gradient, slot).dot(entry.normal);
+  }
+  if (by_volume) return std::sqrt(2 * std::min(own, rest) * (own + rest)) / cell_;
+  return std::max(0.0, std::min(own, rest));
+}
+
+/// Does the pair stay in contact until a force pulls it apart? Held by its velocities, a surface drifts from
+/// where the particles' extents say that it is; to close such a gap δ against N would lose N δ, time and
+/// again. A gap that would not close if the pair were let go is none of this kind: that pair carries a load
+/// where bodies do not touch (beside a round contact, at the ends of a sliding block).
+template <int Dim>
+bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
+  constexpr double kLeast = 0.05, kMost = 0.3;  // cells
+  return one_set_ && entry.touched &&
+         entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
+}
+
+/// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),
+/// T the time in which the fastest of all waves and motions crosses a cell. That is 2 h ε between bodies that
+/// are strained by ε, a layer of h on each side. A mean over some ten steps.
+template <int Dim>
+double Contact<Dim>::spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                               const ContactEntry<Dim>& entry) const {
+  constexpr double kNew = 0.1;
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto mass_of = [&](int k) {
+    return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
+  };
+  const double own = mass_of(entry.a);
+  const bool on_rigid = node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid);
+  const double other = entry.b >= 0 ? mass_of(entry.b) : together(state, node).mass - own;
+  const double reduced = on_rigid ? own : own * other / (own + other);
+  const double pressed = std::max(0.0, -entry.second.dot(entry.normal));
+  const double now = 0.5 * pressed * crossing_ * crossing_ / (reduced * dt_);
+  return entry.touched ? entry.spring_before + kNew * (now - entry.spring_before) : now;
+}
+
+/// The approach that closes a gap by the end of the step, m/s: an impulse of the set leaves it.
+template <int Dim>
+double Contact<Dim>::closing_of(const ContactEntry<Dim>& entry) const {
+  return lasts(entry) ? 0 : std::max(0.0, entry.separation) / dt_;
+}
+
+/// Is the pair held whichever way it goes?
+template <int Dim>
+bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correction) const {
+  return correction != Correction::final && lasts(entry);
+}
+
+/// Is the slip of the pair held where friction is no force: has it stuck at the last step's second
+/// correction, or this one's? (With FLIP alone: XPIC's filter takes what particles slip of itself, and more
+/// of them that are held.)
+template <int Dim>
+bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correction) const {
+  if (!holds_sticking_) return false;
+  return correction == Correction::initial  ? lasts(entry) && entry.stuck_before
+         : correction == Correction::strain ? entry.stuck
+                                            : false;
+}
+
+/// Does the second correction leave the pair of the set in contact: has it pressed, or did the first and no
+/// force pulls? Speeds of 1e-10 cells a step are round-off, which must not decide.
+template <int Dim>
+bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) const {
+  const double least = 1e-10 * cell_ / dt_;
+  const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
+  const double mass = state.nodes.column(Nodal::mass)[slot];
+  if (entry.impulse.dot(entry.normal) < -least * mass) return true;
+  if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
+  return closing_of(entry) - slip_of(state, node, entry).dot(entry.normal) <= least;
+}
+
+/// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within
+/// the step nothing of the time before. The approach v' that particles then keep is such that contact makes
+/// no energy, v'² = v² + a (v^c + v'^c): a is what forces change, v^c what the first correction left, v'^c =
+/// −δ/Δt what the last will leave. Where more fields meet, the others' impulses depend on it: there all of it
+/// is.
+/// @param normal  the impulse
+template <int Dim>
+double Contact<Dim>::force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const {
+  const double closing = closing_of(entry);
+  if (!one_set_ || first_correction_stays_ || !entry.alone || !(normal < 0) || !(closing > 0)) return normal;
+  const double before = -entry.slip_start.dot(entry.normal), held = -entry.slip_held.dot(entry.normal);
+  const double forces = meeting.stick.dot(entry.normal) / meeting.reduced - held;
+  const double after = -std::sqrt(std::max(0.0, before * before + forces * (held - closing)));
+  return meeting.reduced * (before + forces - after);
+}
+
+/// Takes off the forces what of the second correction is none: see force_of.
+template <int Dim>
+void Contact<Dim>::see_gaps(const State<Dim>& state, const ContactNode<Dim>& node) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (!entry.parts || !entry.alone) continue;
+    const double normal = entry.impulse.dot(entry.normal);
+    const Meeting meeting = meet(state, node, entry.a, together(state, node));
+    entry.passed -= (normal - force_of(entry, meeting, normal)) * entry.normal;
+  }
+}
+
+/// Has the node surfaces that may part, which are not tied?
+template <int Dim>
+bool Contact<Dim>::may_part(const ContactNode<Dim>& node) const {
+  const auto entry = list_.entries.begin();
+  return std::any_of(entry + node.entry_begin, entry + node.entry_end, [](const auto& e) { return e.parts; });
+}
+
+template <int Dim>
+void Contact<Dim>::list_meeting_slots(std::vector<int>& slots) const {
+  for (const auto& node : list_.nodes) {
+    if (!may_part(node)) continue;
+    for (int f = node.field_begin; f < node.field_end; ++f)
+      slots.push_back(list_.fields[static_cast<std::size_t>(f)].slot);
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::share_pressed(State<Dim>& state) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  double* pressed = state.nodes.column(Nodal::pressed);
+  for (const auto& node : list_.nodes) {
+    if (may_part(node)) continue;
+    double all = 0, part = 0;
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
+      all += mass[slot], part += pressed[slot];
+    }
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
+      pressed[slot] = part / all * mass[slot];
+    }
+  }
+}
+
+// Here: the members that this file defines.
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,354 @@
+/// The impulses of a correction: what each law makes of its pair, alone or with the others of a node.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "engine/conditions/conditions.hpp"
+#include "engine/contact/contact.hpp"
+#include "engine/plan/contact_law.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// One law for every pair: nothing is looked up.
+template <class Law>
+struct OneLaw {
+  const Law& law;
+  static constexpr bool by_pair = false;
+  template <class F>
+  void with(int, int, F f) const {
+    f(law);
+  }
+};
+
+/// The law of each pair from the table.
+struct LawsByPair {
+  const PairTable& table;
+  const std::vector<AnyLaw>& laws;
+  static constexpr bool by_pair = true;
+  template <class F>
+  void with(int field_a, int field_b, F f) const {
+    std::visit(f, laws[static_cast<std::size_t>(table.pair[table.at(field_a, field_b)] + 1)]);
+  }
+};
+
+}  // namespace
+
+template <int Dim>
+Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
+    : spec_(scene.contact),
+      pairs_(plan.pairs),
+      cell_(scene.grid.cell),
+      cell_volume_(cell_volume(scene)),
+      first_correction_(plan.first_correction),
+      one_set_(plan.one_set),
+      keep_velocity_change_(plan.paired),
+      holds_sticking_(plan.one_set && plan.update == ParticleUpdate::flip),
+      first_correction_stays_(plan.first_correction_stays),
+      first_share_(plan.first_share),
+      geometry_(plan.contact_geometry),
+      exact_fields_(plan.exact_fields) {
+  together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  laws_.push_back(law_on(spec_.law, cell_));
+  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, cell_));
+}
+
+template <int Dim>
+void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
+  dt_ = dt;
+  if (pairs_.empty())
+    std::visit(
+        [&](const auto& law) {
+          resolve_all(state, OneLaw<std::decay_t<decltype(law)>>{law}, correction, dt);
+        },
+        laws_.front());
+  else
+    resolve_all(state, LawsByPair{pairs_, laws_}, correction, dt);
+}
+
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+  std::uint64_t solved = 0, lumped = 0;
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    see_slips(state, correction, node);
+    auto outcome = PairOutcome::lump;
+    if (node.pair_begin < node.entry_end) {
+      outcome = resolve_pairs(state, correction, dt, node);
+      solved += outcome == PairOutcome::solved;
+      lumped += outcome == PairOutcome::lump;
+    }
+    if (spec_.fields == ManyFields::simultaneous && node.field_end - node.field_begin > 2) {
+      const bool settled = resolve_together(state, laws, correction, dt, node);
+      solved += settled;
+      lumped += !settled;
+    } else if (outcome == PairOutcome::lump) {
+      resolve_each(state, laws, correction, dt, node);
+    }
+    if (correction == Correction::final && one_set_) see_gaps(state, node);
+    apply(state, correction, dt, node);
+    settle(state, correction, node);
+  }
+  if (correction == Correction::final) {
+    list_.counters.pair_nodes += solved;
+    list_.counters.pair_fallbacks += lumped;
+  }
+  if (correction == Correction::final || (correction == Correction::initial && first_correction_stays_))
+    book(state);
+  if (correction == (one_set_ ? Correction::strain : Correction::final)) book_friction(state);
+}
+
+/// Impulses of all entries but the explicit pairs, from the momenta before any of them changes.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                                const ContactNode<Dim>& node) {
+  const auto field_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  const Total all = together(state, node);
+  for (int e = node.entry_begin; e < node.pair_begin; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const Meeting meeting = meet(state, node, entry.a, all);
+    const double separation = separation_of(entry, meeting, dt);
+    const auto act = [&](const auto& law) {
+      using Law = std::decay_t<decltype(law)>;
+      double area_time = 0;
+      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
+      const Demand<Dim> demand = impulse_of(entry, meeting, separation, correction, law, area_time);
+      entry.impulse = demand.impulse;
+      if (correction == Correction::final) entry.stuck = demand.hinders == Hinders::slip;
+      pass_on(entry, correction, Law::scope);
+    };
+    if constexpr (Laws::by_pair)
+      laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
+    else
+      laws.with(0, 0, act);
+  }
+  rest(node.pair_begin, node.entry_end);
+}
+
+/// The impulse of one entry by itself.
+///
+/// A pair that touched and now would part is held by the first correction (`persistent`): contact ends where
+/// the forces pull, not where noise does. Over a step in which only the second correction acts, its force
+/// does work on the parting velocity, F·½ v_rel Δt > 0; with both, the surfaces' mean relative velocity is
+/// zero along n and no energy comes from the contact.
+template <int Dim>
+template <class Law>
+Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                     double separation, Correction correction, const Law& law,
+                                     double area_time) const {
+  if (one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded))
+    return impulse_of_set(entry, meeting, separation, correction, law, area_time);
+  const Vec<Dim> free =
+      resolve_pair<Dim>(meeting.stick, entry.normal, separation, law, meeting.reduced, area_time);
+  const double along = meeting.stick.dot(entry.normal);
+  const bool overlaps = spec_.detection == DetectionKind::separation;  // in contact, parting or not
+  const bool lasts = correction == Correction::initial && spec_.persistent && entry.touched;
+  const bool holds = Law::scope == LawScope::contact && (overlaps || lasts) && separation < 0 && along > 0;
+  return demand_of<Dim>(holds ? Vec<Dim>(along * entry.normal) : free, meeting.stick);
+}
+
+/// The impulse of a pair of the step's one set (tools/manual/theory.md, "The energy of a contact").
+///
+/// In the set are pairs that will touch by the end of the step as the first correction sees it, and those
+/// that last; the second may add what the forces bring. A gap δ that closes leaves the approach δ/Δt. The
+/// normal velocities of pairs that last are held, whichever way they go; forces are held where they press,
+/// and end the contact where they pull. Momenta that are re-extrapolated are held where forces were. Pairs
+/// that stick are held along the surface too: else the friction of a pair at rest works on the slips that the
+/// strains see, and makes energy.
+template <int Dim>
+template <class Law>
+Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
+                                         double separation, Correction correction, const Law& law,
+                                         double area_time) const {
+  const double along = meeting.stick.dot(entry.normal);
+  const Vec<Dim> tangential = meeting.stick - along * entry.normal;
+  const double needed = tangential.norm();
+  if constexpr (Law::scope == LawScope::bonded)
+    if (entry.separation < law.longest_gap() && law.holds({-along, needed, meeting.reduced, area_time}))
+      return {meeting.stick, Hinders::slip};
+  const bool last = lasts(entry), closes = separation < 0 || last;
+  if (correction == Correction::initial ? !closes
+      : correction == Correction::final ? !closes && !entry.held
+                                        : !entry.touching)
+    return {Vec<Dim>::Zero(), Hinders::nothing};
+  const double normal = along + meeting.reduced * closing_of(entry);
+  if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
+  // Friction that slides is a force of the second correction: what is held for the strain alone must be a
+  // projection.
+  const bool rubs = correction == Correction::final || first_correction_stays_;
+  if (Law::scope == LawScope::contact && holds_slip(entry, correction))
+    return {normal * entry.normal + tangential, Hinders::slip};
+  const double presses = Law::scope == LawScope::contact ? force_of(entry, meeting, normal) : normal;
+  constexpr double kLeast = std::numeric_limits<double>::min();  // what carries nothing does not stick
+  const double limit = law(
+      {rubs ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), meeting.reduced, rubs ? area_time : 0});
+  if (needed <= limit && limit > 0) return {normal * entry.normal + tangential, Hinders::slip};
+  return {normal * entry.normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
+}
+
+/// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
+/// its law with the velocities that all of them leave.
+/// @return whether they settled
+template <int Dim>
+template <class Laws>
+bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, Correction correction,
+                                    double dt, const ContactNode<Dim>& node) {
+  Together& together = together_[static_cast<std::size_t>(omp_get_thread_num())];
+  find_moving(state, node, together.solver.fields);
+  find_acting(state, laws, correction, dt, node, together);
+  const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
+    const Acting& acting = together.acting[k];
+    Demand<Dim> demand;
+    with_law(laws, node, *acting.entry, [&](const auto& law) {
+      demand = impulse_of(*acting.entry, {stick, together.solver.contacts[k].reduced}, acting.entry->advanced,
+                          correction, law, acting.area_time);
+    });
+    return demand;
+  });
+  finish(laws, correction, node, together);
+  return settled;
+}
+
+/// The fields of a node as they move before the correction.
+template <int Dim>
+void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
+                               std::vector<MovingField<Dim>>& fields) const {
+  fields.clear();
+  for (int k = node.field_begin; k < node.field_end; ++k) {
+    const auto [field, slot] = list_.fields[static_cast<std::size_t>(k)];
+    const double inverse_mass = 1 / state.nodes.column(Nodal::mass)[slot];
+    const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
+    Vec<Dim> velocity = inverse_mass * state.nodes.vector(Nodal::momentum, slot);
+    if (node.constrained) velocity = free_part(node, velocity);
+    fields.push_back({velocity, rigid ? 0.0 : inverse_mass});
+  }
+}
+
+/// The pairs of a node that may have an impulse, with their separations at the end of the step, before
+/// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
+                               const ContactNode<Dim>& node, Together& together) {
+  auto& solver = together.solver;
+  together.acting.clear();
+  solver.contacts.clear();
+  rest(node.entry_begin, node.entry_end);
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const auto &a = solver.fields[static_cast<std::size_t>(entry.a)],
+               &b = solver.fields[static_cast<std::size_t>(entry.b)];
+    const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
+    const Meeting meeting{reduced * (b.velocity - a.velocity), reduced};
+    entry.advanced = separation_of(entry, meeting, dt);
+    with_law(laws, node, entry, [&](const auto& law) {
+      using Law = std::decay_t<decltype(law)>;
+      const bool in_set = one_set_ && (lasts(entry) || entry.held || entry.touching);
+      const bool apart = !(entry.advanced < 0) && !in_set;
+      if (Law::scope == LawScope::contact ? apart : Law::scope == LawScope::nowhere) return;
+      double area_time = 0;
+      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
+      together.acting.push_back({&entry, area_time});
+      solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
+      if (!one_set_) return;
+      auto& contact = solver.contacts.back();
+      contact.closing = closing_of(entry);
+      contact.both_ways = both_ways(entry, correction);
+    });
+  }
+}
+
+/// The impulses of pairs that are solved, with their friction work.
+template <int Dim>
+template <class Laws>
+void Contact<Dim>::finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+                          const Together& together) const {
+  for (std::size_t k = 0; k < together.acting.size(); ++k) {
+    const FieldContact<Dim>& contact = together.solver.contacts[k];
+    auto& entry = *together.acting[k].entry;
+    entry.impulse = contact.impulse;
+    if (correction == Correction::final) entry.stuck = contact.hinders == Hinders::slip;
+    with_law(laws, node, entry, [&](const auto& law) { pass_on(entry, correction, law.scope); });
+  }
+}
+
+/// Calls f(law of the entry's two fields).
+template <int Dim>
+template <class Laws, class F>
+void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                            F f) const {
+  if constexpr (Laws::by_pair)
+    laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
+              list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, f);
+  else
+    laws.with(0, 0, f);
+}
+
+/// FLIP's particles take a share of what surfaces that touch change in the first correction.
+///
+/// They are given forces only, and the first correction is none (N20 Eq. 33). So an approach that it takes
+/// from the grid in every step stays in the particles for good: forces then act on velocities that the bodies
+/// do not have, and the noise grows. A small share ends it within as many steps as its inverse.
+template <int Dim>
+void Contact<Dim>::pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const {
+  entry.parts = scope == LawScope::contact;
+  if (correction == Correction::initial && entry.parts) entry.passed = first_share_ * entry.impulse;
+}
+
+/// No contact at the entries [begin, end).
+template <int Dim>
+void Contact<Dim>::rest(int begin, int end) {
+  for (int e = begin; e < end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.impulse.setZero();
+  }
+}
+
+template <int Dim>
+void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
+                         const ContactNode<Dim>& node) const {
+  auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const auto add_force = [&](int k, const Vec<Dim>& impulse) {
+    nodes.set(Nodal::force, slot_of(k), nodes.vector(Nodal::force, slot_of(k)) + impulse / dt);
+  };
+  const auto change = [&](int k, const Vec<Dim>& impulse) {
+    const int slot = slot_of(k);
+    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
+    if (correction == Correction::final)
+      add_force(k, impulse);
+    else if (keep_velocity_change_ && correction == Correction::initial)
+      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
+  };
+  const bool passes = correction == Correction::final && (first_share_ > 0 || one_set_);
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const bool moves_other = entry.b >= 0 && entry.b != node.rigid;
+    if (!entry.impulse.isZero(0)) {
+      change(entry.a, entry.impulse);
+      if (moves_other) change(entry.b, -entry.impulse);
+    }
+    if (passes && !entry.passed.isZero(0)) {
+      add_force(entry.a, entry.passed);
+      if (moves_other) add_force(entry.b, -entry.passed);
+    }
+  }
+}
+
+// Here: the members that this file defines.
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,78 @@
+#pragma once
+
+/// @file The contact nodes in slabs that follow each other: what a node keeps for the nodes around it is held
+/// for some slabs at once, not for all nodes of a large scene.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/contact/nodal/list.hpp"
+#include "engine/state/state.hpp"
+
+namespace mpmfast {
+
+/// Contact nodes are listed stack after stack, and stacks lie in order of their places. A slab is a number of
+/// stacks; all that is around its nodes lies in slabs up to one that follows soon, a layer of tiles later.
+template <int Dim>
+class ContactSlabs {
+ public:
+  /// Nodes of a slab for each thread: so many that threads hardly wait for each other at its end.
+  static constexpr std::size_t kNodesAThread = 256;
+
+  /// @param many  else one slab has all nodes
+  void cut(const State<Dim>& state, const ContactList<Dim>& contact, bool many) {
+    const std::size_t enough =
+        many ? kNodesAThread * static_cast<std::size_t>(state.threads) : ~std::size_t{0};
+    groups_.clear();
+    slabs_.clear();
+    for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
+      if (k > 0 && contact.nodes[k - 1].stack == contact.nodes[k].stack) continue;
+      if (slabs_.empty() || k - groups_[slabs_.back().begin] >= enough)
+        slabs_.push_back({groups_.size(), 0, contact.nodes[k].stack, -1, 0});
+      groups_.push_back(k);
+      Slab& slab = slabs_.back();
+      slab.end = groups_.size();
+      const auto& around = state.tiling.stacks[static_cast<std::size_t>(contact.nodes[k].stack)].neighbour;
+      slab.reach = std::max(slab.reach, *std::max_element(std::begin(around), std::end(around)));
+    }
+    groups_.push_back(contact.nodes.size());
+    at_once_ = 1;
+    for (std::size_t s = 0, last = 0; s < slabs_.size(); ++s) {
+      while (last + 1 < slabs_.size() && slabs_[last + 1].first_stack <= slabs_[s].reach) ++last;
+      slabs_[s].surrounded_by = std::max(last, s);
+      at_once_ = std::max(at_once_, slabs_[s].surrounded_by - s + 1);
+    }
+  }
+
+  std::size_t size() const { return slabs_.size(); }
+  /// The slab with which all nodes around those of a slab have had their turn.
+  std::size_t surrounded_by(std::size_t slab) const { return slabs_[slab].surrounded_by; }
+  /// Slabs that wait for those around them at a time, and the one in hand.
+  std::size_t at_once() const { return at_once_; }
+
+  /// f(index, node) of a slab's nodes, stack after stack, in parallel.
+  template <class F>
+  void for_each_node(std::size_t slab, const State<Dim>& state, const ContactList<Dim>& contact, F f) const {
+    const auto begin = static_cast<std::int64_t>(slabs_[slab].begin),
+               end = static_cast<std::int64_t>(slabs_[slab].end);
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic) if (end - begin > 4)
+    for (std::int64_t g = begin; g < end; ++g) {
+      const auto group = static_cast<std::size_t>(g);
+      for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k]);
+    }
+  }
+
+ private:
+  struct Slab {
+    std::size_t begin, end;  ///< into groups_
+    int first_stack, reach;  ///< reach: the highest stack around it
+    std::size_t surrounded_by;
+  };
+  std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
+  std::vector<Slab> slabs_;
+  std::size_t at_once_ = 1;
+};
+
+}  // namespace mpmfast

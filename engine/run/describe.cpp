@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <vector>
+
+#include "engine/errors.hpp"
+#include "engine/plan/memory.hpp"
+#include "engine/run/contact_memory.hpp"
+#include "engine/run/overlap_at_start.hpp"
+#include "engine/run/run.hpp"
+#include "engine/scene/keys/names.hpp"
+#include "engine/step/step.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+template <class Number>
+std::string in_mebibytes(Number bytes) {
+  return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / 1048576.0);
+}
+
+/// @param bytes  of the columns and the keys of the sort
+std::string checkpoint_text(const CheckpointSpec& checkpoint, std::size_t bytes) {
+  if (!checkpoint.active) return "none";
+  std::string when;
+  if (checkpoint.every > 60) when += "after a minute, ";
+  if (checkpoint.every > 0) when += fmt::format("every {:.4g} s of wall time, ", checkpoint.every);
+  if (checkpoint.steps > 0) when += fmt::format("every {} steps, ", checkpoint.steps);
+  return fmt::format("{}, {}at a signal and at the end", in_mebibytes(bytes), when);
+}
+
+/// A few steps of the scene itself measure what a step costs on this machine: the median, which neither the
+/// first steps, that touch the memory, nor a busy moment disturb.
+template <int Dim>
+std::string estimated_time(Step<Dim>& step, double steps) {
+  constexpr std::size_t kFewest = 5, kMost = 100;
+  constexpr double kPatience = 0.3;  // s
+  using Clock = std::chrono::steady_clock;
+  const auto seconds_since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  std::vector<double> walls;
+  try {
+    const auto begin = Clock::now();
+    while (walls.size() < kFewest || (walls.size() < kMost && seconds_since(begin) < kPatience)) {
+      const auto start = Clock::now();
+      step.advance(step.stable_dt());
+      walls.push_back(seconds_since(start));
+    }
+  } catch (const RunFailure& failure) {
+    return fmt::format("unknown: {}", failure.what());
+  }
+  const auto middle = walls.begin() + static_cast<std::ptrdiff_t>(walls.size() / 2);
+  std::nth_element(walls.begin(), middle, walls.end());
+  return fmt::format(
+      "{:.3g} s of stepping at {:.3g} ms a step (the median of the first {}; contact may come to cost more)",
+      *middle * steps, *middle * 1e3, walls.size());
+}
+
+/// "80 x 40 cells of 0.00025 m"
+std::string grid_text(const GridSpec& grid, int dimension) {
+  std::string cells;
+  for (int d = 0; d < dimension; ++d)
+    cells += fmt::format("{}{:.0f}", d > 0 ? " x " : "", grid.size[static_cast<std::size_t>(d)] / grid.cell);
+  return fmt::format("{} cells of {:g} m", cells, grid.cell);
+}
+
+std::string contact_text(const ContactSpec& contact) {
+  if (!contact.active) return "none: all bodies share one velocity field";
+  std::string law = std::visit([](const auto& one) { return std::string(one.kWord); }, contact.law.acts);
+  if (std::holds_alternative<Coulomb>(contact.law.acts))
+    law += fmt::format(", friction {:g}", contact.law.friction);
+  std::string pairs;
+  if (!contact.pairs.empty())
+    pairs = fmt::format(", and {} pair{} with laws of their own", contact.pairs.size(),
+                        contact.pairs.size() == 1 ? "" : "s");
+  return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
+}
+
+/// What lasts, then what comes to it, and the sum. @param step  that has advanced
+template <int Dim>
+std::string memory_text(const Step<Dim>& step, const Scene& scene) {
+  const State<Dim>& state = step.state();
+  const auto& particles = state.particles;
+  const std::size_t lasting = particles.bytes() + state.nodes.bytes() + state.tiling.bytes();
+  const ContactNeed contact = contact_need(step, scene);
+  const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()));
+  const double program = kProgramBytes + (scene.output.checkpoint.active ? kCheckpointBytes : 0);
+  std::string text = fmt::format(
+      "{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting, {} of the program,",
+      in_mebibytes(particles.bytes()),
+      particles.size() > 0 ? particles.planned_bytes() / particles.size() : 0,
+      in_mebibytes(state.nodes.bytes()), in_mebibytes(state.tiling.bytes()), in_mebibytes(program));
+  const std::string below = "\n" + std::string(18, ' ');
+  if (step.plan().contact)
+    text += below + fmt::format("{} of contact, should every surface meet another ({:.0f} nodes; {} now),",
+                                in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+  return text + below +
+         fmt::format("{} for a while for {}; {} at most", in_mebibytes(passing.bytes), passing.reason,
+                     in_mebibytes(static_cast<double>(lasting) + contact.bytes + passing.bytes + program));
+}
+
+template <int Dim>
+std::string describe(const Scene& scene) {
+  Step<Dim> step(scene);
+  std::string overlap;
+  if constexpr (Dim == 2) overlap = overlap_at_start(step.state(), scene).text;
+  const double dt = step.stable_dt(), steps = std::ceil(scene.time.end / dt);
+  std::string text = fmt::format("{}\n", scene.title.empty() ? scene.file.filename().string() : scene.title);
+  const auto line = [&](const char* name, const std::string& value) {
+    text += fmt::format("  {:<16}{}\n", name, value);
+  };
+
+  const std::string estimate = estimated_time(step, steps);
+
+  const auto& particles = step.state().particles;
+  std::string columns, nodal, fields, passes;
+  for (Quantity q : particles.quantities()) {
+    const auto& info = kQuantityTable[static_cast<std::size_t>(q)];
+    columns += fmt::format("\n    {:<22}{} x {} ({})", info.name, Particles<Dim>::components(q), info.unit,
+                           info.reason);
+  }
+  for (Nodal q : step.state().nodes.quantities())
+    nodal += fmt::format("\n    {:<22}({})", kNodalTable[static_cast<std::size_t>(q)].name,
+                         kNodalTable[static_cast<std::size_t>(q)].reason);
+  for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
+  for (const auto& p : step.plan().passes) passes += "\n    " + p;
+  const std::size_t planned = particles.planned_bytes();
+  line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
+  line("grid", grid_text(scene.grid, Dim));
+  line("particles", fmt::format("{}", particles.size()));
+  line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
+  if (step.plan().fields.size() > 1 || !scene.contact.active) line("contact", contact_text(scene.contact));
+  if (!overlap.empty()) line("overlap", overlap);
+  line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
+                                 step.state().tiling.node_tiles.size(), step.state().tiling.places()));
+  line("memory", memory_text(step, scene));
+  line("checkpoint",
+       checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
+  line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));
+  line("steps", fmt::format("{:.0f} at that step", steps));
+  line("estimated time", estimate);
+  line("passes", passes);
+  line("particle columns", columns);
+  line("nodal columns", nodal);
+  return text;
+}
+
+}  // namespace
+
+std::string describe_plan(const Scene& scene) {
+  return scene.dimension() == 3 ? describe<3>(scene) : describe<2>(scene);
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,73 @@
+#include "engine/run/make_row.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+template <int Dim>
+void fill_forces(const Step<Dim>& step, const Scene& scene, const RunCounters<Dim>& counters,
+                 HistoryRow& row) {
+  const Sums<Dim>&sums = step.sums(), &last = counters.last_sums;
+  const double elapsed = row.time - counters.last_row_time;
+  const auto mean_force = [&](const auto& now, const auto& before) {
+    Vec3 force{};
+    for (int d = 0; d < now.size() && elapsed > 0; ++d)
+      force[static_cast<std::size_t>(d)] = (now[d] - before[d]) / elapsed;
+    return force;
+  };
+  for (std::size_t b = 0; b < sums.boundary_impulse.size(); ++b)
+    row.boundary_force.push_back(mean_force(sums.boundary_impulse[b], last.boundary_impulse[b]));
+  row.rigid_force.assign(scene.bodies.size(), Vec3{});
+  row.rigid_moment.assign(scene.bodies.size(), Vec3{});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const auto f = static_cast<std::size_t>(step.plan().body_field[b]);
+    if (!step.plan().field_rigid[f]) continue;
+    row.rigid_force[b] = mean_force(sums.rigid_impulse[f], last.rigid_impulse[f]);
+    row.rigid_moment[b] = mean_force(sums.rigid_moment[f], last.rigid_moment[f]);
+  }
+  for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
+    row.pair_force.push_back(mean_force(sums.pair_impulse[k], last.pair_impulse[k]));
+  row.pair_friction = sums.pair_friction_work;
+}
+
+template <int Dim>
+std::optional<Overlap> overlap_of(const State<Dim>& state, const Scene& scene) {
+  if constexpr (Dim == 2)
+    if (scene.output.overlap)
+      return measure_overlap(particle_domains(state.particles, state.bodies, state.body_field),
+                             state.threads);
+  return std::nullopt;
+}
+
+}  // namespace
+
+template <int Dim>
+HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<Dim>& counters) {
+  const State<Dim>& state = step.state();
+  const Sums<Dim>& sums = step.sums();
+  step.find_stresses();
+  HistoryRow row;
+  row.step = state.step;
+  row.time = state.time;
+  row.dt = dt;
+  row.stored = step.stored_energy();
+  row.dissipated = step.dissipated_energy();
+  row.friction = sums.friction_work;
+  row.boundary_work = sums.boundary_work;
+  row.body_force_work = sums.body_force_work;
+  fill_particle_sums(state.particles, scene, row);
+  fill_forces(step, scene, counters, row);
+  row.overlap = counters.overlap = overlap_of(state, scene);
+  const Spacing spacing = widest_spacing(state.particles, scene);
+  if (spacing.cells > counters.spacing.cells) counters.spacing = spacing;
+  row.outflow = outflow_of(step, scene);
+  counters.last_sums = sums;
+  counters.last_row_time = state.time;
+  counters.last_row_step = state.step;
+  return row;
+}
+
+template HistoryRow make_row(Step<2>&, const Scene&, double, RunCounters<2>&);
+template HistoryRow make_row(Step<3>&, const Scene&, double, RunCounters<3>&);
+
+}  // namespace mpmfast

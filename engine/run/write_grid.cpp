@@ -1,0 +1,116 @@
+#include "engine/run/write_grid.hpp"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string_view>
+#include <vector>
+
+#include "engine/output/vtu.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kAxes{"X", "Y", "Z"};
+constexpr float kUnknown = std::numeric_limits<float>::quiet_NaN();
+
+/// Of one field on one node, with those it meets.
+struct Meeting {
+  std::array<float, 3> normal{}, impulse{};
+  float separation = kUnknown;
+  std::uint8_t touching = 0;
+};
+
+/// Takes up an entry; of several the nearest gives normal and separation. @param sign  −1 on the side of b
+template <int Dim>
+void include(const ContactEntry<Dim>& entry, float sign, Meeting& meeting) {
+  if (entry.touching) {
+    meeting.touching = 1;
+    for (int d = 0; d < Dim; ++d)
+      meeting.impulse[static_cast<std::size_t>(d)] += sign * static_cast<float>(entry.impulse[d]);
+  }
+  const auto separation = static_cast<float>(entry.separation);
+  if (entry.normal.squaredNorm() == 0 || meeting.separation <= separation) return;
+  meeting.separation = separation;
+  for (int d = 0; d < Dim; ++d)
+    meeting.normal[static_cast<std::size_t>(d)] = sign * static_cast<float>(entry.normal[d]);
+}
+
+/// By slot.
+template <int Dim>
+std::vector<Meeting> meetings_of(const Step<Dim>& step) {
+  const ContactList<Dim>& list = step.contact_list();
+  std::vector<Meeting> out(static_cast<std::size_t>(step.state().tiling.slots()));
+  for (const ContactNode<Dim>& node : list.nodes) {
+    const auto slot = [&](int k) {
+      return static_cast<std::size_t>(list.fields[static_cast<std::size_t>(node.field_begin + k)].slot);
+    };
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const ContactEntry<Dim>& entry = list.entries[static_cast<std::size_t>(e)];
+      include(entry, 1, out[slot(entry.a)]);
+      if (entry.b >= 0) include(entry, -1, out[slot(entry.b)]);
+    }
+  }
+  return out;
+}
+
+/// The columns of the file.
+struct GridColumns {
+  std::vector<double> points;
+  std::vector<std::uint16_t> field;
+  std::vector<double> mass;
+  std::vector<float> velocity, normal, separation, impulse;
+  std::vector<std::uint8_t> touching;
+};
+
+template <int Dim>
+void add(const Step<Dim>& step, int slot, int field, const NodeIndex<Dim>& node, const Meeting& meeting,
+         GridColumns& out) {
+  const State<Dim>& state = step.state();
+  const Vec<Dim> velocity = state.nodes.vector(Nodal::velocity, slot);
+  for (int d = 0; d < 3; ++d) {
+    const bool real = d < Dim;
+    const int k = real ? d : 0;
+    out.points.push_back(real ? state.grid.origin[k] + state.grid.cell * node[k] : 0);
+    out.velocity.push_back(real ? static_cast<float>(velocity[k]) : 0);
+    out.normal.push_back(meeting.normal[static_cast<std::size_t>(d)]);
+    out.impulse.push_back(meeting.impulse[static_cast<std::size_t>(d)]);
+  }
+  out.field.push_back(static_cast<std::uint16_t>(field));
+  out.mass.push_back(state.nodes.column(Nodal::mass)[slot]);
+  out.separation.push_back(meeting.separation);
+  out.touching.push_back(meeting.touching);
+}
+
+}  // namespace
+
+template <int Dim>
+void write_grid(const std::filesystem::path& vtu, const Step<Dim>& step) {
+  const State<Dim>& state = step.state();
+  const std::vector<Meeting> meetings = meetings_of(step);
+  const double* mass = state.nodes.column(Nodal::mass);
+  GridColumns columns;
+  for (const auto& stack : state.tiling.stacks)
+    for (int tile = stack.begin; tile < stack.end; ++tile)
+      for (int local = 0; local < kTileNodes<Dim>; ++local) {
+        const int slot = tile * kTileNodes<Dim> + local;
+        if (!(mass[slot] > 0)) continue;
+        add(step, slot, state.tiling.node_tiles[static_cast<std::size_t>(tile)].field,
+            state.tiling.node(stack, local), meetings[static_cast<std::size_t>(slot)], columns);
+      }
+  VtuFile file(columns.points);
+  file.add_point_data("field", columns.field);
+  file.add_point_data("mass", columns.mass);
+  file.add_point_data("velocity", columns.velocity, kAxes);
+  file.add_point_data("touching", columns.touching);
+  file.add_point_data("contact_normal", columns.normal, kAxes);
+  file.add_point_data("separation", columns.separation);
+  file.add_point_data("contact_impulse", columns.impulse, kAxes);
+  file.write(vtu, state.time);
+}
+
+template void write_grid(const std::filesystem::path&, const Step<2>&);
+template void write_grid(const std::filesystem::path&, const Step<3>&);
+
+}  // namespace mpmfast

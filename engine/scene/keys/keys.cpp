@@ -1,0 +1,351 @@
+#include "engine/scene/keys/keys.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace mpmfast {
+
+namespace {
+
+Form form_of(const Number& n) { return {Form::Kind::quantity, n.measure, n.limit}; }
+Form form_of(const Vector& v) { return {Form::Kind::vector, v.measure, v.limit, v.count, v.count}; }
+Form list_of(int least, int most) { return {Form::Kind::list, Measure::number, kAny, least, most}; }
+
+/// What is shown as a default: a scalar or a list of scalars that says something.
+std::optional<std::string> default_text(const Written& value) {
+  const bool simple = value.kind == Written::Kind::scalar ||
+                      (value.kind == Written::Kind::list && !value.items.empty() &&
+                       std::all_of(value.items.begin(), value.items.end(), [](const auto& item) {
+                         return item.second.kind == Written::Kind::scalar;
+                       }));
+  const std::string text = simple ? value.flow() : "";
+  return text.empty() || text == "\"\"" ? std::nullopt : std::optional(text);
+}
+
+}  // namespace
+
+std::string expected_of(const Number& form) { return expected_of(form.measure); }
+
+std::string expected_of(const Vector& form) {
+  const std::string name = kind_of(form.measure).name, noun = name.substr(name.find(' ') + 1);
+  const std::string many = noun.back() == 'y' ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
+  return fmt::format("a list of {} {}", form.count, many);
+}
+
+std::string expected_of(const Table& form) { return expected_of(form.measure) + "; or a table"; }
+
+bool Slot::take(double& out, const Number& form) {
+  offer(form_of(form));
+  if (writes()) out_->set(quantity_text(out, form.measure));
+  if (!reads()) return true;
+  const auto read = value_->quantity(form.measure, form.limit);
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(int& out, const Whole& form) {
+  offer({Form::Kind::whole, Measure::number, kAny, form.least, form.most});
+  if (writes()) out_->set(fmt::format("{}", out));
+  if (!reads()) return true;
+  const auto read = value_->integer(form.least, form.most);
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(bool& out, const Truth&) {
+  offer({Form::Kind::truth});
+  if (writes()) out_->set(out ? "true" : "false");
+  if (!reads()) return true;
+  const auto read = value_->boolean();
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(Vec3& out, const Vector& form) {
+  offer(form_of(form));
+  if (writes()) {
+    out_->kind = Written::Kind::list;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(form.count); ++k) {
+      Written component;
+      component.set(quantity_text(out[k], form.measure));
+      out_->add("", component);
+    }
+  }
+  if (!reads()) return true;
+  const auto read = value_->vector(form.measure, form.count, form.limit);
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(TimeTable& out, const Table& form) {
+  offer({Form::Kind::table, form.measure});
+  if (writes()) out_->set(table_text(out, form.measure));
+  if (!reads()) return true;
+  auto read = value_->table(form.measure);
+  if (read) out = std::move(*read);
+  return keep(read.has_value());
+}
+
+bool Slot::take(std::string& out, const Name&) {
+  offer({Form::Kind::name});
+  if (writes() && !out.empty()) out_->set(name_text(out));
+  if (!reads()) return true;
+  const auto read = value_->name();
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(std::string& out, const Text&) {
+  offer({Form::Kind::text});
+  if (writes()) out_->set(quoted_text(out));
+  if (!reads()) return true;
+  const auto read = value_->text();
+  if (read) out = *read;
+  return keep(read.has_value());
+}
+
+bool Slot::take(std::string& out, const std::vector<std::string>& words) {
+  for (const std::string& word : words) offer(word.c_str(), "");
+  if (writes()) out_->set(out);
+  if (!reads()) return true;
+  const int index = value_->word_index(words);
+  if (index >= 0) out = words[static_cast<std::size_t>(index)];
+  return keep(index >= 0);
+}
+
+bool Slot::reference(int& index, const std::vector<std::string>& names) {
+  offer({Form::Kind::name});
+  const auto known = static_cast<std::size_t>(index);
+  if (writes() && known < names.size()) out_->set(name_text(names[known]));
+  if (!reads()) return true;
+  const int read = value_->reference(names);
+  if (read >= 0) index = read;
+  return keep(read >= 0);
+}
+
+void Slot::offer(const char* word, const char* says) {
+  if (tells()) knowledge_->word(pattern_, word, says);
+}
+
+void Slot::offer(const Form& form) {
+  if (tells()) knowledge_->form(pattern_, form);
+}
+
+void Slot::write(std::string text) {
+  if (writes()) out_->set(std::move(text));
+}
+
+bool Slot::is_word(const char* word, bool chosen, const char* says) {
+  offer(word, says);
+  if (writes() && chosen) out_->set(word);
+  return (writes() && chosen) || (reads() && value_->is_word(word));
+}
+
+bool Slot::is_map(bool chosen, const MapBody& body) {
+  if (reads() ? !value_->is(Node::Kind::map) : !tells() && !chosen) return false;
+  map("a map", body);
+  return !tells();
+}
+
+bool Slot::is_list(bool chosen, const std::string& expected, int least, int most, std::size_t& count,
+                   const ItemBody& body) {
+  if (reads() ? !value_->is(Node::Kind::list) : !tells() && !chosen) return false;
+  list(expected, least, most, count, body);
+  return !tells();
+}
+
+bool Slot::map(const std::string& expected, const MapBody& body) {
+  offer({Form::Kind::map});
+  Keys keys = reads() ? Keys(*value_, expected) : writes() ? Keys(*out_) : Keys(*knowledge_, pattern_);
+  if (reads() && !keys.reader().valid()) return keep(false);
+  body(keys);
+  if (!keys.open_) keys.close();
+  return keep(keys.good());
+}
+
+bool Slot::list(const std::string& expected, int least, int most, std::size_t& count, const ItemBody& body) {
+  offer(list_of(least, most));
+  if (reads()) {
+    const auto size = value_->is(Node::Kind::list) ? value_->size() : 0;
+    if (!value_->is_list(least, most)) {
+      value_->complain("not " + expected);
+      return keep(false);
+    }
+    count = size;
+  }
+  if (tells()) count = 1;
+  if (writes()) out_->kind = Written::Kind::list;
+  for (std::size_t k = 0; k < count; ++k) {
+    Written item;
+    Slot slot = reads() ? Slot(value_->item(k)) : writes() ? Slot(item) : Slot(*knowledge_, pattern_ + "[]");
+    body(slot, k);
+    keep(slot.good());
+    if (writes()) out_->add("", std::move(item));
+  }
+  return good_;
+}
+
+void Slot::complain(const std::string& message, const std::string& hint) {
+  if (reads()) value_->complain(message, hint);
+  keep(!reads());
+}
+
+void Slot::report(const std::string& message, const std::string& hint) {
+  if (reads()) value_->report(message, hint);
+  keep(!reads());
+}
+
+Keys::Keys(Knowledge& knowledge, std::string pattern)
+    : knowledge_(&knowledge), pattern_(std::move(pattern)) {}
+
+bool Keys::at(const std::string& name, const char* says, const Slot::Body& body) {
+  if (reads()) return read(name, body);
+  describe(name, says, Presence::optional, body);
+  return true;
+}
+
+bool Keys::derived_at(const std::string& name, const char* says, const Slot::Body& body) {
+  if (reads()) return read(name, body);
+  describe(name, says, Presence::derived, body);
+  return true;
+}
+
+bool Keys::read(const std::string& name, const Slot::Body& body) {
+  const auto found = reader_->find(name);
+  if (!found) return true;
+  Slot slot(*found);
+  body(slot);
+  good_ = good_ && slot.good();
+  return slot.good();
+}
+
+bool Keys::need_at(const std::string& name, const char* says, const std::string& expected,
+                   const Slot::Body& body) {
+  if (!reads()) {
+    describe(name, says, Presence::needed, body);
+    return true;
+  }
+  const auto found = reader_->need(name, expected);
+  bool good = false;
+  if (found) {
+    Slot slot(*found);
+    body(slot);
+    good = slot.good();
+  }
+  good_ = good_ && good;
+  return good;
+}
+
+void Keys::describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
+  if (tells()) return tell(name, says, presence, body);
+  Written value;
+  Slot slot(value);
+  body(slot);
+  if (value.kind != Written::Kind::nothing) out_->add(name, std::move(value));
+}
+
+void Keys::tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
+  const bool itself = outside_ && name == condition_;  // its presence is the condition: the map may have it
+  const std::string map = itself ? *outside_ : pattern_, pattern = join(map, name);
+  const bool alternative =
+      std::find(alternatives_.begin(), alternatives_.end(), pattern) != alternatives_.end();
+  const bool needed = presence == Presence::needed && !alternative && !itself;
+  if (!itself && outside_ && knowledge_->tells(*outside_, name, needed)) return;
+  knowledge_->key(map, pattern, needed, says);
+  if (presence == Presence::optional) {
+    Written value;
+    Slot writing(value);
+    body(writing);
+    if (const auto standard = default_text(value)) knowledge_->standard(pattern, *standard);
+  }
+  Slot telling(*knowledge_, pattern);
+  body(telling);
+}
+
+std::size_t Keys::count(std::size_t written) const {
+  return reads() ? reader_->value().size() : writes() ? written : 1;
+}
+
+bool Keys::entry(std::size_t k, const std::string& word, const char* says, std::string& name,
+                 const Slot::Body& body) {
+  if (reads()) {
+    name = reader_->value().node().keys[k].text;
+    Slot slot(reader_->value().entry(k));
+    body(slot);
+    good_ = good_ && slot.good();
+    return slot.good();
+  }
+  describe(writes() ? name_text(name) : word, says, Presence::chosen, body);
+  return true;
+}
+
+Keys::Choice Keys::one_of(const KeyGroups& groups, int written) {
+  Choice choice;
+  choice.given_ = reads() ? reader_->one_of(groups) : written;
+  choice.all_ = tells();
+  if (!tells()) return choice;
+  const bool told = outside_ && knowledge_->has_groups(*outside_, groups);
+  if (!told) knowledge_->groups(pattern_, groups);
+  for (const auto& group : groups)
+    for (const std::string& name : group) {
+      alternatives_.push_back(child(name));
+      if (!told) knowledge_->key(pattern_, child(name), false, "");
+    }
+  return choice;
+}
+
+void Keys::under(const std::string& condition, bool holds, const std::function<void()>& body) {
+  if (!tells()) {
+    if (holds) body();
+    return;
+  }
+  const std::string pattern = pattern_, before = condition_;
+  const std::optional<std::string> outside = outside_;
+  pattern_ += "<" + condition + ">";
+  outside_ = pattern;
+  condition_ = condition;
+  body();
+  pattern_ = pattern;
+  outside_ = outside;
+  condition_ = before;
+}
+
+std::optional<Value> Keys::stated(const std::string& name) {
+  return reads() ? reader_->find(name) : std::nullopt;
+}
+
+void Keys::check(const std::string& name, const Slot::Body& body) {
+  if (reads()) read(name, body);
+}
+
+void Keys::refuse(const Value& value, const std::string& message, const std::string& hint) {
+  value.complain(message, hint);
+  good_ = false;
+}
+
+void Keys::report(const std::string& message, const std::string& hint) {
+  if (reads()) reader_->value().report(message, hint);
+  good_ = good_ && !reads();
+}
+
+void Keys::close() {
+  if (tells()) knowledge_->closed(pattern_);
+  if (closed_ || !reads()) return;
+  closed_ = true;
+  reader_->finish();
+}
+
+std::string table_text(const TimeTable& table, Measure measure) {
+  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], measure);
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < table.time.size(); ++k) {
+    parts.push_back(fmt::format("[{}, {}]", quantity_text(table.time[k], Measure::time),
+                                quantity_text(table.value[k], measure)));
+  }
+  return fmt::format("[{}]", fmt::join(parts, ", "));
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,84 @@
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "engine/scene/text/tree.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// The entry of a list or map that one part of the path names; a missing key of a map is added, and the
+/// reader says whether it may be there.
+Node* descend(Node& node, const std::string& part, const std::string& parent, const Place& place,
+              Problems& problems) {
+  if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;
+  if (node.kind == Node::Kind::map) {
+    int index = index_of(node, part);
+    if (index < 0) {
+      index = static_cast<int>(node.keys.size());
+      node.keys.push_back({part, place});
+      node.items.emplace_back();
+      node.items.back().place = place;
+    }
+    return &node.items[static_cast<std::size_t>(index)];
+  }
+  const std::string label = parent.empty() ? "the scene" : parent;
+  if (node.kind == Node::Kind::scalar) {
+    problems.add(place, join(parent, part), fmt::format("no such key ({} is {})", label, describe(node)));
+    return nullptr;
+  }
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), index);
+  if (error == std::errc() && end == part.data() + part.size() && index < node.items.size()) {
+    return &node.items[index];
+  }
+  std::string hint;
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    const int name = index_of(node.items[k], "name");
+    if (name >= 0 && node.items[k].items[static_cast<std::size_t>(name)].scalar == part)
+      hint = fmt::format("Did you mean '{}'?", join(parent, std::to_string(k)));
+  }
+  problems.add(place, join(parent, part),
+               fmt::format("no such entry ({} is a list, its entries are 0 to {})", label,
+                           static_cast<long>(node.items.size()) - 1),
+               hint);
+  return nullptr;
+}
+
+}  // namespace
+
+void apply_override(Node& root, const std::string& path, const std::string& value, int source,
+                    Problems& problems) {
+  const Place place{0, 0, source};
+  const std::vector<std::string> parts = split(path);
+  for (const std::string& part : parts) {
+    if (!part.empty()) continue;
+    problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
+    return;
+  }
+  std::optional<Node> parsed = parse_tree(value, source, problems, "no value after '='");
+  if (!parsed) return;
+  Node* node = &root;
+  std::string parent;
+  for (const std::string& part : parts) {
+    node = descend(*node, part, parent, place, problems);
+    if (!node) return;
+    parent = join(parent, part);
+  }
+  *node = std::move(*parsed);
+}
+
+}  // namespace mpmfast
