@@ -8,6 +8,7 @@
 #include "engine/errors.hpp"
 #include "engine/plan/memory.hpp"
 #include "engine/run/contact_memory.hpp"
+#include "engine/run/describe_bodies.hpp"
 #include "engine/run/overlap_at_start.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/keys/names.hpp"
@@ -103,8 +104,17 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
                      in_mebibytes(static_cast<double>(lasting) + contact.bytes + passing.bytes + program));
 }
 
+/// "2: left, right"; of many the first few.
+std::string fields_text(const std::vector<std::string>& fields, bool all) {
+  constexpr std::size_t kMost = 12, kShown = 6;
+  const std::size_t shown = all || fields.size() <= kMost ? fields.size() : kShown;
+  std::string names;
+  for (std::size_t k = 0; k < shown; ++k) names += (k > 0 ? ", " : "") + fields[k];
+  return fmt::format("{}: {}{}", fields.size(), names, shown < fields.size() ? ", …" : "");
+}
+
 template <int Dim>
-std::string describe(const Scene& scene) {
+std::string describe(const Scene& scene, bool verbose) {
   Step<Dim> step(scene);
   std::string overlap;
   if constexpr (Dim == 2) overlap = overlap_at_start(step.state(), scene).text;
@@ -114,10 +124,11 @@ std::string describe(const Scene& scene) {
     text += fmt::format("  {:<16}{}\n", name, value);
   };
 
+  const auto bodies = body_lines(scene, step.state().particles);
   const std::string estimate = estimated_time(step, steps);
 
   const auto& particles = step.state().particles;
-  std::string columns, nodal, fields, passes;
+  std::string columns, nodal, passes;
   for (Quantity q : particles.quantities()) {
     const auto& info = kQuantityTable[static_cast<std::size_t>(q)];
     columns += fmt::format("\n    {:<22}{} x {} ({})", info.name, Particles<Dim>::components(q), info.unit,
@@ -126,14 +137,21 @@ std::string describe(const Scene& scene) {
   for (Nodal q : step.state().nodes.quantities())
     nodal += fmt::format("\n    {:<22}({})", kNodalTable[static_cast<std::size_t>(q)].name,
                          kNodalTable[static_cast<std::size_t>(q)].reason);
-  for (const auto& f : step.plan().fields) fields += (fields.empty() ? "" : ", ") + f;
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
   line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
   line("grid", grid_text(scene.grid, Dim));
+  const auto list = [&](const std::vector<std::string>& lines) {
+    for (const std::string& one : folded(lines, verbose)) text += fmt::format("    {}\n", one);
+  };
+  line("bodies", fmt::format("{}", scene.bodies.size()));
+  list(bodies);
   line("particles", fmt::format("{}", particles.size()));
-  line("fields", fmt::format("{}: {}", step.plan().fields.size(), fields));
-  if (step.plan().fields.size() > 1 || !scene.contact.active) line("contact", contact_text(scene.contact));
+  line("fields", fields_text(step.plan().fields, verbose));
+  if (step.plan().fields.size() > 1 || !scene.contact.active) {
+    line("contact", contact_text(scene.contact));
+    list(pair_lines(scene));
+  }
   if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
@@ -143,6 +161,13 @@ std::string describe(const Scene& scene) {
   line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));
   line("steps", fmt::format("{:.0f} at that step", steps));
   line("estimated time", estimate);
+  if (!verbose) {
+    line("passes",
+         fmt::format("{} a step, over {} columns of particles and {} of nodes (--verbose names them)",
+                     step.plan().passes.size(), particles.quantities().size(),
+                     step.state().nodes.quantities().size()));
+    return text;
+  }
   line("passes", passes);
   line("particle columns", columns);
   line("nodal columns", nodal);
@@ -151,8 +176,8 @@ std::string describe(const Scene& scene) {
 
 }  // namespace
 
-std::string describe_plan(const Scene& scene) {
-  return scene.dimension() == 3 ? describe<3>(scene) : describe<2>(scene);
+std::string describe_plan(const Scene& scene, bool verbose) {
+  return scene.dimension() == 3 ? describe<3>(scene, verbose) : describe<2>(scene, verbose);
 }
 
 }  // namespace mpmfast

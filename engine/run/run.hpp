@@ -54,9 +54,9 @@ RunSummary run_scene(const Scene& scene, const RunOptions& options);
 /// also when checkpoint, scene and history do not belong together, SceneError when the scene was spoilt.
 std::optional<RunSummary> resume_run(const RunOptions& options);
 
-/// What `mpmfast check` prints: particles, nodes, fields, columns, passes, memory, time step, steps,
-/// estimated time. Throws SceneError when the scene cannot be set up (a particle outside the grid, a body
-/// without particles).
-std::string describe_plan(const Scene& scene);
+/// What `mpmfast check` prints: bodies, particles, nodes, fields, contact, memory, time step, steps,
+/// estimated time; verbose: all bodies, passes and columns. Throws SceneError when the scene cannot be set up
+/// (a particle outside the grid, a body without particles).
+std::string describe_plan(const Scene& scene, bool verbose = false);
 
 }  // namespace mpmfast

@@ -61,7 +61,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::plastic_strain, "plastic_strain", "-", 1, 1, "plastic flow"},
     {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening"},
     {Quantity::elastic_strain, "elastic_strain", "-", 4, 6,
-     "plastic flow (isochoric elastic B, xx yy zz xy yz xz)"},
+     "plastic flow (elastic B, of metals isochoric; xx yy zz xy yz xz)"},
     {Quantity::out_of_plane_stretch, "out_of_plane_stretch", "-", 1, 1,
      "plane stress, axisymmetry (F_zz; about the axis that of the hoop)"},
 }};

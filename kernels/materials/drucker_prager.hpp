@@ -24,6 +24,7 @@ struct DruckerPrager {
   static constexpr const char *kModel = "drucker_prager",
                               *kSays = "soil and sand: cohesion, friction, dilation, no or little tension";
   static constexpr StateColumns kColumns{true, false, true, false, true};
+  static constexpr bool kParts = true;  ///< grains leave each other: F tells nothing of neighbours
   static constexpr double start_temperature = 293;  ///< K, of no account
   double density = 0;                               ///< kg/m³, undeformed
   double bulk = 0, shear = 0;                       ///< K, G, Pa
@@ -34,25 +35,22 @@ struct DruckerPrager {
 
   template <class Keys>
   void describe(Keys& map) {
-    constexpr Number kAngle{Measure::angle, {"above 0 and below 90 deg", 0, 1.5707963, true, true}};
+    constexpr Number kAngle{Measure::angle, {"above 0 and below 90 deg", 1e-6, 1.5707963, true, true}};
     describe_density(map, density);
     describe_bulk_and_shear(map, bulk, shear);
-    map.need("friction_angle", "Of Mohr and Coulomb; `cone` says where it is met.", friction_angle, kAngle);
-    const Limit less{
-        "from 0 to the angle of friction", 0, map.tells() ? kInfinity : friction_angle, false, false, true};
+    bool known = map.need("friction_angle", "Of Mohr and Coulomb; `cone` says where it is met.",
+                          friction_angle, kAngle);
+    const auto upto = [&](const char* says, double most) {  // of what was read well
+      return Limit{says, 0, map.tells() || !known ? kInfinity : most, false, false, true};
+    };
     map.key("dilation_angle", "How much volume shear makes, as an angle.", dilation_angle,
-            Number{Measure::angle, less});
+            Number{Measure::angle, upto("from 0 to the angle of friction", friction_angle)});
     map.key("cone", "Where the strength is that of Mohr and Coulomb.", cone, kCones);
-    map.key("cohesion", "Shear strength where nothing presses.", cohesion, kStrength);
+    known = map.key("cohesion", "Shear strength where nothing presses.", cohesion, kStrength) && known;
     if (!map.writes()) tension = apex();
-    const Limit cut{"from 0 to the apex of the cone, cohesion/tan(friction_angle)",
-                    0,
-                    map.tells() ? kInfinity : apex(),
-                    false,
-                    false,
-                    true};
     map.derived("tension", "Largest mean tension; that of the cone's apex if not given.", tension,
-                Number{Measure::pressure, cut});
+                Number{Measure::pressure,
+                       upto("from 0 to the apex of the cone, cohesion/tan(friction_angle)", apex())});
   }
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return bulk + 4 * shear / 3; }
@@ -86,8 +84,8 @@ struct DruckerPrager {
     V dev[kSymmetric<Dim>];
     deviator<Dim>(b, dev);
     for (int c = 0; c < kSymmetric<Dim>; ++c) tau[c] = c < 3 ? shear * dev[c] - p : shear * dev[c];
-    // As in metal.hpp. Where the volume is open, the bound is that of the closed one.
-    const V trace = b[0] + b[1] + b[2], closed = smaller(volume, broadcast<V>(1.0));
+    // As in metal.hpp. Where the volume is open, the bound is that of the cut-off.
+    const V trace = b[0] + b[1] + b[2], closed = smaller(volume, broadcast<V>(opening()));
     const V smallest = smallest_stretch_squared<Dim>(b, broadcast<V>(1.0));
     const V stiffness =
         0.5 * bulk * (closed * closed + 1.0) + shear * (trace * (5.0 / 9.0) - smallest * (1.0 / 3.0));
@@ -134,11 +132,12 @@ struct DruckerPrager {
     const auto yields = rest > 1e-14 * measure;
     V low = zero, high = measure / stiffness, x = yields ? rest / stiffness : zero;
     if (eta == 0) return x;
-    constexpr int kMost = 60;  // bisection alone would need them; Newton takes about four
+    const double round_off = 1e-15 * m * bulk;  // of p, which is the small rest of 1 − J²
+    constexpr int kMost = 60;                   // bisection alone would need them; Newton takes about four
     for (int round = 0; round < kMost; ++round) {
       const V j = volume * exponential(-eta * x), p = pressure(j);
       const V g = measure - stiffness * x - strength(p);
-      const auto open = yields & (magnitude(g) > 1e-14 * measure);
+      const auto open = yields & (magnitude(g) > 1e-14 * measure + round_off);
       if (!any_open(open)) break;
       low = g > 0.0 ? x : low;
       high = g > 0.0 ? high : x;

@@ -23,7 +23,7 @@ struct MaterialState {
   V internal_energy;                  ///< of volume change and heat, per undeformed volume (ρ0 U), J/m³
   V plastic_strain;                   ///< equivalent plastic strain
   V temperature;                      ///< K
-  V elastic_strain[kSymmetric<Dim>];  ///< isochoric elastic left Cauchy–Green tensor, determinant 1
+  V elastic_strain[kSymmetric<Dim>];  ///< elastic left Cauchy–Green tensor; of metals isochoric
 };
 
 /// One step of strain, F ← (I + a) F.

@@ -434,7 +434,7 @@ check_wrong_study() {
 # Every starter is written as it is, runs for a few steps and gives no warning.
 check_new() {
   local kind
-  for kind in impact press sphere3d; do
+  for kind in impact press sphere3d axisymmetric soil; do
     run 0 new "scenes_$kind" --like "$kind"
     cmp -s "scenes_$kind.yaml" "$source_dir/configs/starters/$kind.yaml" || fail "new --like $kind writes another text"
     run 0 check "scenes_$kind.yaml"
@@ -454,7 +454,7 @@ check_new() {
     run 2 new -- "$kind"
   done
   run 2 new other --like impcat
-  says err "one of impact, press, sphere3d), got 'impcat'. Did you mean 'impact'?"
+  says err "one of impact, press, sphere3d, axisymmetric, soil), got 'impcat'. Did you mean 'impact'?"
   run 2 new
   says err 'NAME is required'
   run 4 new nowhere/scene

@@ -193,6 +193,19 @@ TEST_CASE_TEMPLATE("within the cone the stress is the slope of the energy", D, T
     }
 }
 
+TEST_CASE("where soil bears tension its waves are as fast as its tangent says") {
+  DruckerPrager clay{1600, 10e6, 1e6, 5 * kDegree, 0, 1e6, 0};
+  clay.tension = clay.apex();
+  Sample<3, DruckerPrager> sample(clay);
+  for (int k = 0; k < 100; ++k) sample.strain(diagonal<3>(0.2, 0.2, 0.2), 1e-2 / 1.2);
+  REQUIRE(pressure(sample) > -clay.tension);
+  auto more = sample;
+  more.strain(diagonal<3>(1, 0, 0), 1e-6);
+  const double tangent = (more.tau[0] - sample.tau[0]) / 1e-6 - sample.tau[0];  // dτ_nn − τ_nn
+  CHECK(sample.c2 * clay.density >= tangent * (1 - 1e-4));
+  CHECK(sample.c2 * clay.density < 1.1 * tangent);
+}
+
 TEST_CASE("lanes of soil get the results of one by one, whatever their neighbours do") {
   const DruckerPrager law = soil(1e3, 8);
   std::mt19937_64 draw(9);

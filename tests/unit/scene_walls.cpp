@@ -41,6 +41,10 @@ TEST_CASE("a piston that goes through the wall on the other side before the end 
   CHECK(holds(
       fault(with("top: {piston: [[0, 90 km/s], [0.4 us, 90 km/s], [0.401 us, -90 km/s]]}, bottom: wall")),
       "the piston goes through the bottom wall: 0.02 m apart at first, it has moved 0.036 m by 4e-07 s"));
+  // Also a wall that the scene leaves to the program: its written form states it.
+  const std::string left = replaced(plain_scene(), "cell: 1 mm", "cell: 1 mm, leaving: wall");
+  CHECK(holds(fault(left + "boundaries: {left: {piston: [[0, 0], [1 ns, 1e9 m/s]]}}\n"),
+              "the piston goes through the right wall"));
 }
 
 TEST_CASE("what is no YAML is told by what was done, at the place to mend") {

@@ -29,7 +29,7 @@ struct RawOptions {
   std::string scene, out, topic, like, threads, jobs, steps, until, title, x = "time_s", progress = "auto";
   std::string frame, range, x_label, y_label;
   std::vector<std::string> set, folders, columns, fields, labels;
-  bool force = false, markdown = false;
+  bool force = false, markdown = false, verbose = false;
 };
 
 void add_scene_options(CLI::App& command, RawOptions& raw) {
@@ -163,6 +163,8 @@ struct Commands {
     add_new_options(*begin, raw);
     add_scene_options(*run, raw);
     add_scene_options(*check, raw);
+    check->add_flag("--verbose", raw.verbose,
+                    "Also all bodies, the passes of a step, and what particles and nodes carry");
     add_resume_options(*resume, raw);
     add_study_options(*study, raw);
     add_plot_options(*plot, raw);
@@ -240,6 +242,7 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.range = raw.range;
   line.x = raw.x;
   line.force = raw.force;
+  line.verbose = raw.verbose;
   line.markdown = raw.markdown;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
   if (!raw.jobs.empty()) read_whole(raw.jobs, line.jobs);

@@ -34,6 +34,7 @@ struct CommandLine {
   ProgressStyle progress = ProgressStyle::automatic;
   bool force = false;
   bool markdown = false;  ///< the reference page in place of the schema
+  bool verbose = false;   ///< of a check: all bodies, passes and columns
   std::string text;       ///< the whole command, quoted for a shell
 
   std::vector<Override> overrides() const;

@@ -179,7 +179,7 @@ int resume_command(const CommandLine& line) {
 int check_command(const CommandLine& line) {
   std::vector<std::string> warnings;
   const Scene scene = read_and_warn(line, warnings);
-  std::string plan = describe_plan(scene);
+  std::string plan = describe_plan(scene, line.verbose);
   while (!plan.empty() && plan.back() == '\n') plan.pop_back();
   fmt::print("{}\n", plan);
   return 0;

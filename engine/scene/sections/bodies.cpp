@@ -249,7 +249,9 @@ BodyEntry bitmap_entry(const Scene& scene, std::size_t first, std::size_t last) 
   entry.bitmap.shape = std::get<BitmapShape>(body.shape);
   const BitmapShape& shape = entry.bitmap.shape;
   const std::string suffix = fmt::format("_{}", shape.grey);
-  if (body.field == body.name) body.field.clear();
+  const auto own = [&](const BodySpec& level) { return level.field == level.name; };
+  const auto at = [&](std::size_t b) { return scene.bodies.begin() + static_cast<std::ptrdiff_t>(b); };
+  if (std::all_of(at(first), at(last), own)) body.field.clear();
   body.name.erase(body.name.size() - suffix.size());
   entry.bitmap.extent = {extent_between(shape.lower[0], shape.upper[0]),
                          extent_between(shape.lower[1], shape.upper[1]), 0};

@@ -178,7 +178,8 @@ class Boundaries {
       map.need("from", "The corner that is lower in every direction.", spec.lower, corner);
       map.need("to", "The corner that is upper in every direction.", spec.upper, corner);
     });
-    for (std::size_t k = 0; slot.reads() && slot.good() && k < 3; ++k)
+    const bool good = slot.reads() && slot.good();
+    for (std::size_t k = 0; good && k < 3; ++k)
       if (spec.lower[k] > spec.upper[k])  // equal is a row of nodes
         slot.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
   }

@@ -28,10 +28,10 @@ void describe_head(Keys& top, Scene& scene) {
 /// What follows from several sections.
 void check_scene(MapReader& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
-  if (grid_known) check_walls(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
+  if (grid_known) check_walls(top, scene);  // also those that the scene leaves to us
 }
 
 }  // namespace
