@@ -129,7 +129,9 @@ TEST_CASE("slow: incline: normals of widest margin meet every slope, with domain
     CAPTURE(std::string(reached.basis));
     CAPTURE(reached.turned);
     const SlideErrors largest = slide_errors(reached.normal + method("flip", reached.basis), reached.turned);
-    CHECK(largest.steady < 0.003);  // 0.10 to 0.23 %: half a step that positions are ahead
+    // 0.10 to 0.23 %, half a step that positions are ahead; 0.34 % by single nodes' planes on uGIMP. The goal
+    // is 1 %.
+    CHECK(largest.steady < 0.004);
     CHECK(largest.sticking < reached.sticking);
   }
 }
