@@ -145,6 +145,12 @@ TEST_CASE("each grey level of a bitmap is a body, and the entry comes back as on
         std::get<BitmapShape>(scene.bodies[2].shape).image);
   check_fixed_point(two, file);
   check_fixed_point(replaced(two, "skip: [255, 7]", "field: all"), file);
+  // One field for all, named as the first level is: no default, though that level alone would say so.
+  const Scene shared = parse_scene(
+      parse_scene(replaced(two, "skip: [255, 7]", "skip: [255, 7], field: grain_10"), file).resolved_yaml,
+      file);
+  REQUIRE(shared.bodies.size() == 3);
+  CHECK(shared.bodies[2].field == "grain_10");
 }
 
 TEST_CASE("a bitmap that is none, or is coloured, or lacks what the scene says of it, is an error") {
