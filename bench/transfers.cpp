@@ -2,7 +2,7 @@
 
 #include "bench/support.hpp"
 #include "bench/work.hpp"
-#include "engine/scene/keys/names.hpp"
+#include "engine/scene/keys/basis_names.hpp"
 #include "kernels/transfer/update_rule.hpp"
 
 namespace {
@@ -159,7 +159,7 @@ void list_passes(BasisKind basis) {
   add("xpic_plain", xpic<Dim, false>);
   add("xpic_paired", xpic<Dim, true>);
   add("sort", sort<Dim>);
-  if (basis != BasisKind::bspline2 && basis != BasisKind::bspline3) return;
+  if (!(facts(basis).spread > 0)) return;  // no apic
   add("project_apic", project_affine<Dim>);
   add("update_apic", update_affine<Dim>);
 }

@@ -12,6 +12,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
+#include "kernels/basis/facts.hpp"
 
 namespace mpmfast::bench {
 
@@ -115,12 +116,8 @@ class PassWork {
   /// Counted in kernels/materials/neo_hookean.hpp, with 70 for the logarithm and the exponential.
   static constexpr int kNeoHookean = Dim == 2 ? 125 : 185;
 
-  bool is_convected() const { return basis_ == BasisKind::lcpdi || basis_ == BasisKind::qcpdi; }
-  int support() const {  // CPDI: of most of its domains
-    return basis_ == BasisKind::linear                                   ? 2
-           : basis_ == BasisKind::qcpdi || basis_ == BasisKind::bspline3 ? 4
-                                                                         : 3;
-  }
+  bool is_convected() const { return facts(basis_).convected; }
+  int support() const { return facts(basis_).usual_support; }
   int nodes() const { return power(support(), Dim); }
   double scatter(int components) const { return 2.0 * nodes() * components; }
 

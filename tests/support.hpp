@@ -19,6 +19,7 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/step.hpp"
+#include "kernels/basis/facts.hpp"
 #include "tests/source_folder.hpp"
 
 namespace mpmfast::test {
@@ -37,6 +38,21 @@ inline Scene scene_from(const std::string& yaml, const std::vector<Override>& ov
 
 inline Scene scene_file(const std::string& name, const std::vector<Override>& overrides = {}) {
   return read_scene(source_folder() / "configs" / name, overrides);
+}
+
+/// The words of all bases.
+inline std::vector<const char*> bases() {
+  std::vector<const char*> words;
+  for (const BasisFacts& basis : kBasisFacts) words.push_back(basis.word);
+  return words;
+}
+
+/// Of those that apic can use.
+inline std::vector<const char*> apic_bases() {
+  std::vector<const char*> words;
+  for (const BasisFacts& basis : kBasisFacts)
+    if (basis.spread > 0) words.push_back(basis.word);
+  return words;
 }
 
 template <int Dim>

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/scene/scene.hpp"
+#include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
 
@@ -27,9 +28,6 @@ inline WallRow wall_row(double plane, bool upper) {
 /// strained as one of this thickness is: it would need a smaller time step, the more so where supports are
 /// wide. Columns pressed at CFL 0.5 and 0.9 swing with less (0.01; splines 0.05) and have too little stress
 /// with more.
-inline double thinnest_cut(BasisKind basis) {
-  const bool narrow = basis == BasisKind::linear || basis == BasisKind::ugimp || basis == BasisKind::lcpdi;
-  return narrow ? 0.05 : 0.15;
-}
+inline double thinnest_cut(BasisKind basis) { return facts(basis).grid_reach > 1 ? 0.15 : 0.05; }
 
 }  // namespace mpmfast

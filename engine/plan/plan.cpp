@@ -5,6 +5,7 @@
 
 #include "engine/plan/contact_law.hpp"
 #include "engine/plan/materials.hpp"
+#include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
 
@@ -98,8 +99,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
-  if (plan.basis == BasisKind::lcpdi || plan.basis == BasisKind::qcpdi)
-    plan.particle_columns.push_back(Quantity::domain_edges);
+  if (facts(plan.basis).convected) plan.particle_columns.push_back(Quantity::domain_edges);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
   if (plan.depth != Depth::held) plan.particle_columns.push_back(Quantity::out_of_plane_stretch);

@@ -6,6 +6,7 @@
 
 #include "engine/contact/nodal/fit.hpp"
 #include "engine/contact/nodal/slabs.hpp"
+#include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
 
@@ -47,15 +48,13 @@ std::map<int, Surface> surfaces(const State<Dim>& state) {
 /// Particles that the functions of a node inside a body cover.
 template <int Dim>
 double particles_of_cloud(const Scene& scene) {
+  const BasisFacts& basis = facts(scene.method.basis);
   double most = 0;
   for (const BodySpec& body : scene.bodies) {
     double count = 1;
     for (std::size_t d = 0; d < Dim; ++d) {
       const double per_cell = body.particles_per_cell[d];
-      const double width = scene.method.basis == BasisKind::linear     ? 2
-                           : scene.method.basis == BasisKind::bspline2 ? 3
-                           : scene.method.basis == BasisKind::bspline3 ? 4
-                                                                       : 2 + 1 / per_cell;
+      const double width = 2 * basis.grid_reach + (basis.over_domain ? 1 / per_cell : 0);
       count *= width * per_cell;
     }
     most = std::max(most, count);

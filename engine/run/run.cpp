@@ -18,6 +18,7 @@
 #include "engine/run/write_grid.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/step.hpp"
+#include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
 
@@ -316,8 +317,7 @@ class Run {
     s.averaged_strain = scene_.method.strain == StrainKind::average;
     s.spacing = counters_.spacing.cells;
     // A domain's corners reach the nodes around them, which two domains of two cells still share.
-    const BasisKind basis = scene_.method.basis;
-    s.most_spacing = basis == BasisKind::lcpdi || basis == BasisKind::qcpdi ? 2 : 1;
+    s.most_spacing = facts(scene_.method.basis).convected ? 2 : 1;
     if (s.spacing > 0) s.spacing_body = scene_.bodies[counters_.spacing.body].name;
     s.command = origin_.command;
     s.overrides = origin_.overrides;

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/scene/keys/basis_names.hpp"
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/sections/describe.hpp"
 

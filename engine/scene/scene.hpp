@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "kernels/basis/bases.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/materials/laws.hpp"
 
@@ -21,7 +22,6 @@ namespace mpmfast {
 using Vec3 = std::array<double, 3>;
 
 enum class Space { plane_strain, plane_stress, axisymmetric, three_dimensional };
-enum class BasisKind { linear, ugimp, lcpdi, qcpdi, bspline2, bspline3 };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
 /// When the particles' strain is updated within a step (USF, USL, USAVG), and whether that which comes last
 /// is taken from the particles' new momenta (NN §2.8: USL+, USAVG+).

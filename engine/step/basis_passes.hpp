@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file The passes of the step for one basis: loops over tiles around the kernels. A new basis is a type in
-/// kernels/basis, a file like passes_ugimp.cpp, and a line in make_passes.
+/// @file The passes of the step for one basis: loops over tiles around the kernels. kernels/basis/bases.hpp
+/// lists the bases.
 
 #include <omp.h>
 
@@ -11,6 +11,7 @@
 
 #include "engine/contact/nodal/fit.hpp"
 #include "engine/step/passes.hpp"
+#include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/project.hpp"
 #include "kernels/transfer/re_extrapolate.hpp"
@@ -244,5 +245,10 @@ class BasisPasses final : public Passes<Dim> {
   std::vector<int> inverted_, outside_;
   ContactFit<Dim, Basis> fit_;
 };
+
+template <int Dim, BasisKind kind>
+std::unique_ptr<Passes<Dim>> make_passes_of() {
+  return std::make_unique<BasisPasses<Dim, typename BasisOf<kind>::template In<Dim>>>();
+}
 
 }  // namespace mpmfast

@@ -40,4 +40,8 @@ class Passes : public ContactFitter<Dim> {
 template <int Dim>
 std::unique_ptr<Passes<Dim>> make_passes(BasisKind basis);
 
+/// The same, of a basis that is known; each is compiled in a file of its own (passes_of.cpp.in).
+template <int Dim, BasisKind kind>
+std::unique_ptr<Passes<Dim>> make_passes_of();
+
 }  // namespace mpmfast

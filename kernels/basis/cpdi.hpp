@@ -16,6 +16,7 @@ namespace mpmfast {
 
 /// Linear grid functions.
 struct HatCorner {
+  static constexpr const char* kSays = "linear functions over the domain convected with the deformation";
   static constexpr int kSupport = 2;   ///< nodes on which a point has weight
   static constexpr double kReach = 1;  ///< cells: the function is non-zero at smaller distances
   static constexpr double kLead = 0;   ///< the first of these nodes is floor(x − kLead)
@@ -28,6 +29,8 @@ struct HatCorner {
 
 /// Quadratic B-splines: ½(3/2 − |t|)², less 3/2 (½ − |t|)² in the middle piece, where that makes ¾ − t².
 struct QuadraticCorner {
+  static constexpr const char* kSays =
+      "quadratic B-splines over the domain convected with the deformation: smooth";
   static constexpr int kSupport = 3;
   static constexpr double kReach = 1.5;
   static constexpr double kLead = 0.5;
@@ -43,8 +46,10 @@ struct QuadraticCorner {
 template <int Dim, class Corner>
 struct CpdiBasis {
   static constexpr int kMinSupport = Corner::kSupport + 1, kMaxSupport = Corner::kSupport + 2;
-  static constexpr bool kConvected = true;
+  static constexpr bool kConvected = true, kOverDomain = true;
+  static constexpr double kGridReach = Corner::kReach;
   static constexpr double kSpread = 0;  ///< differs from domain to domain
+  static constexpr const char* kSays = Corner::kSays;
   /// Half extent, in cells, beyond which a domain is scaled down: kMaxSupport nodes a side then always
   /// suffice.
   static constexpr double kMaxExtent = 0.999;

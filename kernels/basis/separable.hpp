@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic and cubic B-splines.
-/// To add one: a struct with kSupport, kSpread, first_node, weights and reach, and a line in
-/// engine/step/passes.cpp.
+/// To add one: a struct with kSays, kSupport, kSpread, first_node, weights and reach, an alias at the end of
+/// the file, and its line in bases.hpp.
 
 #include <cmath>
 
@@ -12,6 +12,7 @@ namespace mpmfast {
 
 /// Classic MPM: hat functions at the particle's point.
 struct LinearFunction {
+  static constexpr const char* kSays = "classic: linear functions at the particle's point; a baseline";
   static constexpr int kSupport = 2;
   /// Σ_i w_i (r_i − r)² in cells², where it is the same for every r; else 0.
   static constexpr double kSpread = 0;
@@ -28,14 +29,16 @@ struct LinearFunction {
     g[0] = broadcast<V>(-1.0);
     g[1] = broadcast<V>(1.0);
   }
-  /// The function is non-zero for |r − r_i| below this.
-  static double reach(double) { return 1.0; }
+  /// The function is non-zero for |r − r_i| below this; l: half-size in cells.
+  static constexpr double reach(double) { return 1.0; }
 };
 
 /// uGIMP: the hat averaged over an undeformed domain of half-size l ≤ ½ cell (N20 Eq. 2 with a top-hat χ_p).
 /// With s in [½, 3/2) the outer two nodes lie at distances a ≥ ½ ≥ l, where the average is 1 − a up to a = 1
 /// − l and (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
 struct UGimpFunction {
+  static constexpr const char* kSays =
+      "generalised interpolation over the undeformed particle domain (default)";
   static constexpr int kSupport = 3;
   static constexpr double kSpread = 0;
   template <class V>
@@ -51,7 +54,7 @@ struct UGimpFunction {
     g[0] = -g[0];
     g[1] = -(g[0] + g[2]);
   }
-  static double reach(double l) { return 1.0 + l; }
+  static constexpr double reach(double l) { return 1.0 + l; }
 
  private:
   template <class V>
@@ -64,6 +67,7 @@ struct UGimpFunction {
 
 /// Quadratic B-spline at the particle's point.
 struct BSpline2Function {
+  static constexpr const char* kSays = "quadratic B-splines at the particle's point";
   static constexpr int kSupport = 3;
   static constexpr double kSpread = 0.25;
   template <class V>
@@ -80,11 +84,12 @@ struct BSpline2Function {
     g[1] = -2.0 * middle;
     g[2] = above;
   }
-  static double reach(double) { return 1.5; }
+  static constexpr double reach(double) { return 1.5; }
 };
 
 /// Cubic B-spline at the particle's point.
 struct BSpline3Function {
+  static constexpr const char* kSays = "cubic B-splines at the particle's point";
   static constexpr int kSupport = 4;
   static constexpr double kSpread = 1.0 / 3.0;
   template <class V>
@@ -104,7 +109,7 @@ struct BSpline3Function {
     g[2] = below * (2.0 - 1.5 * below);
     g[3] = 0.5 * above2;
   }
-  static double reach(double) { return 2.0; }
+  static constexpr double reach(double) { return 2.0; }
 };
 
 /// Tensor product of a one-dimensional function.
@@ -112,7 +117,9 @@ template <int Dim, class Function>
 struct SeparableBasis {
   static constexpr int kMinSupport = Function::kSupport, kMaxSupport = Function::kSupport;
   static constexpr bool kConvected = false;  ///< needs no half-edge vectors
-  static constexpr double kSpread = Function::kSpread;
+  static constexpr bool kOverDomain = Function::reach(0.5) > Function::reach(0);
+  static constexpr double kSpread = Function::kSpread, kGridReach = Function::reach(0);
+  static constexpr const char* kSays = Function::kSays;
 
   template <int K>
   using Weights = ProductWeights<Dim, K>;

@@ -181,9 +181,9 @@ bodies: [{name: a, box: {from: [3.3 mm, 3.2 mm, 3.1 mm], to: [6.3 mm, 6.2 mm, 6.
 
 template <int Dim>
 void check_all_translations() {
-  for (const char* basis : {"linear", "ugimp", "lcpdi", "qcpdi", "bspline2", "bspline3"})
+  for (const char* basis : bases())
     for (const char* update : {"flip", "pic", "xpic(4)", "fmpm(4)"}) check_translation<Dim>(basis, update);
-  for (const char* basis : {"bspline2", "bspline3"}) check_translation<Dim>(basis, "apic");
+  for (const char* basis : apic_bases()) check_translation<Dim>(basis, "apic");
 }
 
 TEST_CASE("a translating block keeps its shape and velocity (2-D)") { check_all_translations<2>(); }

@@ -64,7 +64,7 @@ bodies:
 }
 
 TEST_CASE("the force that is projected with mass and momentum is that of a pass of its own") {
-  for (const char* basis : {"linear", "ugimp", "lcpdi", "qcpdi", "bspline2", "bspline3"}) {
+  for (const char* basis : bases()) {
     check_force<2>(basis);
     check_force<3>(basis);
   }

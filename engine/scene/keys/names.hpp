@@ -25,15 +25,6 @@ inline constexpr std::array<Word<LeavingKind>, 3> kLeaving{{
     {LeavingKind::wall, "wall", "each face that boundaries say nothing of is a wall without friction"},
 }};
 
-inline constexpr std::array<Word<BasisKind>, 6> kBases{{
-    {BasisKind::linear, "linear", "classic: linear functions at the particle's point; a baseline"},
-    {BasisKind::ugimp, "ugimp", "generalised interpolation over the undeformed particle domain (default)"},
-    {BasisKind::lcpdi, "lcpdi", "linear functions over the domain convected with the deformation"},
-    {BasisKind::qcpdi, "qcpdi", "quadratic B-splines over the domain convected with the deformation: smooth"},
-    {BasisKind::bspline2, "bspline2", "quadratic B-splines at the particle's point"},
-    {BasisKind::bspline3, "bspline3", "cubic B-splines at the particle's point"},
-}};
-
 /// xpic and fmpm are written with their order, xpic(5).
 inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
     {UpdateKind::flip, "flip", "particles take the grid's acceleration; no dissipation (default)"},

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cctype>
 #include <charconv>
 
+#include "engine/scene/keys/basis_names.hpp"
 #include "engine/scene/sections/describe.hpp"
 #include "engine/scene/text/suggest.hpp"
 
@@ -68,9 +70,12 @@ void describe_update(Slot& slot, MethodSpec& method) {
   slot.write(name);
   if (!slot.reads()) return;
   read_update(slot, method);
-  const bool spline = method.basis == BasisKind::bspline2 || method.basis == BasisKind::bspline3;
-  if (slot.good() && method.update == UpdateKind::apic && !spline)
-    slot.report("apic needs basis: bspline2 or bspline3 (the second moment of its weights must be constant)");
+  if (!slot.good() || method.update != UpdateKind::apic || facts(method.basis).spread > 0) return;
+  std::vector<std::string> good;
+  for (const BasisFacts& basis : kBasisFacts)
+    if (basis.spread > 0) good.emplace_back(basis.word);
+  slot.report(fmt::format("apic needs basis: {} (the second moment of its weights must be constant)",
+                          fmt::join(good, " or ")));
 }
 
 void check_position(Slot& slot, const MethodSpec& method) {
