@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 

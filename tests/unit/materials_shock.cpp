@@ -1,5 +1,6 @@
 /// The Mie–Grüneisen equation of state and artificial viscosity.
 
+#include <algorithm>
 #include "material_sample.hpp"
 
 using namespace mpmfast;

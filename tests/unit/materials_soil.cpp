@@ -1,6 +1,7 @@
 /// The cone of Drucker and Prager against closed solutions: triaxial and plane-strain paths, the cut-off,
 /// gaps that open and close.
 
+#include <vector>
 #include "kernels/materials/drucker_prager.hpp"
 #include "tests/unit/material_sample.hpp"
 

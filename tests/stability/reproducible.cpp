@@ -35,7 +35,7 @@ method: {update: flip}
 output: {frames: 0, history: 4}
 )";
 
-TEST_CASE("the checksum is the same on one thread, on two, on three and again" * doctest::skip(kSanitized)) {
+TEST_CASE("the checksum is the same on one thread, on two, on three and again") {
   for (const char* yaml : {kGrains2, kGrains3}) {
     const Scene scene = scene_from(yaml);
     const Outcome one = run(scene, 1), two = run(scene, 2), three = run(scene, 3), again = run(scene, 2);
