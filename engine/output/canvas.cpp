@@ -27,9 +27,8 @@ constexpr int kMostOfPath = 10000;
 constexpr double kFar = 100000;  // pixels: Cairo's numbers end at some millions of samples
 
 /// Where their bytes lie in the four of one of Cairo's pixels.
-constexpr std::array<std::size_t, 3> kRedGreenBlue = std::endian::native == std::endian::little
-                                                         ? std::array<std::size_t, 3>{2, 1, 0}
-                                                         : std::array<std::size_t, 3>{1, 2, 3};
+constexpr std::array<std::size_t, 3> kRedGreenBlue{2, 1, 0};
+static_assert(std::endian::native == std::endian::little);
 
 void require(cairo_status_t status) {
   if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
