@@ -1,162 +1,276 @@
 #include "engine/output/canvas.hpp"
 
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb_image_write.h>
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cassert>
 #include <cmath>
-#include <limits>
-#include <string>
+#include <new>
+#include <numbers>
 
+#include "engine/errors.hpp"
 #include "engine/output/files.hpp"
-#include "engine/output/font.hpp"
+#include "engine/scene/text/text_check.hpp"
 
 namespace mpmfast {
 namespace {
 
-constexpr double kDot = 2;  // pixels a font dot
-constexpr double kAdvance = kDot * (kGlyphWidth + 1);
+using Surface = CairoPointer<cairo_surface_t>;
+
+constexpr double kFontSize = 18, kCapital = 0.73 * kFontSize;  // pixels
+constexpr double kPointsOfPixel = 0.5;                         // in a PDF: as wide as a page of text
+constexpr int kMostOfPath = 10000;
+constexpr double kFar = 100000;  // pixels: Cairo's numbers end at some millions of samples
+
+/// Where their bytes lie in the four of one of Cairo's pixels.
+constexpr std::array<std::size_t, 3> kRedGreenBlue{2, 1, 0};
+static_assert(std::endian::native == std::endian::little);
+
+void require(cairo_status_t status) {
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  if (status != CAIRO_STATUS_SUCCESS)
+    throw FileError(fmt::format("cannot draw a picture: {}", cairo_status_to_string(status)));
+}
+
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned size) {
+  try {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (const std::bad_alloc&) {  // no exception may pass through Cairo
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+}
+
+Surface open_surface(int width, int height, PictureFormat format, std::string* bytes) {
+  if (format == PictureFormat::png)
+    return Surface(
+        cairo_image_surface_create(CAIRO_FORMAT_RGB24, width * Canvas::kSamples, height * Canvas::kSamples));
+  if (format == PictureFormat::svg) {
+    Surface surface(cairo_svg_surface_create_for_stream(append, bytes, width, height));
+    cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
+    return surface;
+  }
+  Surface surface(
+      cairo_pdf_surface_create_for_stream(append, bytes, width * kPointsOfPixel, height * kPointsOfPixel));
+  // Of one run always the same bytes.
+  cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
+  return surface;
+}
+
+CairoPointer<cairo_font_face_t> font_face() {
+  return CairoPointer<cairo_font_face_t>(
+      cairo_toy_font_face_create("sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL));
+}
+
+/// Letters that are as wide at any size.
+CairoPointer<cairo_font_options_t> font_options() {
+  CairoPointer<cairo_font_options_t> options(cairo_font_options_create());
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  return options;
+}
+
+/// Cairo and XML take no code points that are no characters.
+std::string readable(std::string_view text) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const CodePoint point = code_point(text, at);
+    const bool control = point.code < 0x20 || (point.code >= 0x7F && point.code < 0xA0);
+    const bool none = (point.code & 0xFFFE) == 0xFFFE || (point.code >= 0xFDD0 && point.code <= 0xFDEF);
+    if (point.bytes == 0 || none)
+      out += "\uFFFD";
+    else if (control)
+      out += ' ';
+    else
+      out += text.substr(at, point.bytes);
+    at += std::max<std::size_t>(point.bytes, 1);
+  }
+  return out;
+}
+
+std::string in_xml(std::string_view text) {
+  std::string out;
+  for (const char letter : text)
+    out += letter == '&' ? "&amp;" : letter == '<' ? "&lt;" : letter == '>' ? "&gt;" : std::string(1, letter);
+  return out;
+}
 
 }  // namespace
 
-Canvas::Canvas(int width, int height)
+std::optional<PictureFormat> picture_format(const std::filesystem::path& file) {
+  const std::string extension = file.extension().string();
+  if (extension == ".png") return PictureFormat::png;
+  if (extension == ".pdf") return PictureFormat::pdf;
+  return extension == ".svg" ? std::optional(PictureFormat::svg) : std::nullopt;
+}
+
+Canvas::Canvas(int width, int height, PictureFormat format)
     : width_(width),
       height_(height),
-      sample_(static_cast<std::size_t>(width * kSamples) * static_cast<std::size_t>(height * kSamples),
-              Colour{255, 255, 255}) {}
+      format_(format),
+      bytes_(std::make_unique<std::string>()),
+      context_(cairo_create(open_surface(width, height, format, bytes_.get()).get())) {
+  cairo_t* c = context_.get();
+  const double scale = format == PictureFormat::png   ? kSamples
+                       : format == PictureFormat::pdf ? kPointsOfPixel
+                                                      : 1;
+  cairo_scale(c, scale, scale);
+  if (!is_vector()) {
+    cairo_set_antialias(c, CAIRO_ANTIALIAS_NONE);
+    cairo_set_tolerance(c, 0.3);  // samples
+  }
+  cairo_set_font_face(c, font_face().get());
+  cairo_set_font_size(c, kFontSize);
+  cairo_set_font_options(c, font_options().get());
+  take({255, 255, 255});
+  cairo_paint(c);
+  require(cairo_status(c));
+}
 
-/// Fills the samples of one row whose centres lie in [from, to), in samples.
-void Canvas::fill_row(int row, double from, double to, Colour colour) {
-  const int columns = width_ * kSamples;
-  const double first = std::ceil(from - 0.5), last = std::ceil(to - 0.5);
-  if (!(first < last) || !(last > 0) || !(first < columns)) return;
-  const auto begin = static_cast<std::ptrdiff_t>(std::max(first, 0.0));
-  const auto end = static_cast<std::ptrdiff_t>(std::min(last, static_cast<double>(columns)));
-  const auto start = sample_.begin() + static_cast<std::ptrdiff_t>(row) * columns;
-  std::fill(start + begin, start + end, colour);
+/// Fills the polygons that wait, and takes the colour for what comes next.
+void Canvas::take(Colour colour) {
+  if (waiting_ > 0) cairo_fill(context_.get());
+  waiting_ = 0;
+  colour_ = colour;
+  cairo_set_source_rgb(context_.get(), colour.red / 255.0, colour.green / 255.0, colour.blue / 255.0);
 }
 
 void Canvas::fill_convex(std::span<const PixelPoint> corners, Colour colour) {
-  double top = std::numeric_limits<double>::infinity(), bottom = -top;
-  for (const auto& corner : corners) {
-    if (!std::isfinite(corner.x) || !std::isfinite(corner.y)) return;
-    top = std::min(top, corner.y * kSamples);
-    bottom = std::max(bottom, corner.y * kSamples);
+  double area = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const PixelPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    area += a.x * b.y - a.y * b.x;
   }
-  const double rows = height_ * kSamples;
-  if (!(bottom > 0) || !(top < rows)) return;
-  const int first = static_cast<int>(std::max(0.0, std::ceil(top - 0.5)));
-  const int last = static_cast<int>(std::min(rows, std::ceil(bottom - 0.5)));
-  for (int row = first; row < last; ++row) {
-    const double y = row + 0.5;
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const PixelPoint& a = corners[i];
-      const PixelPoint& b = corners[(i + 1) % corners.size()];
-      const double ya = a.y * kSamples, yb = b.y * kSamples;
-      if ((ya <= y) == (yb <= y)) continue;
-      const double x = kSamples * (a.x + (b.x - a.x) * (y - ya) / (yb - ya));
-      left = std::min(left, x);
-      right = std::max(right, x);
-    }
-    fill_row(row, left, right, colour);
+  if (!std::isfinite(area)) return;
+  if (waiting_ == kMostOfPath || colour != colour_) take(colour);
+  ++waiting_;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    // All turn the same way: where they overlap in one path, nothing cancels.
+    const PixelPoint& corner = area < 0 ? corners[corners.size() - 1 - i] : corners[i];
+    const double x = std::clamp(corner.x, -kFar, kFar), y = std::clamp(corner.y, -kFar, kFar);
+    if (i == 0)
+      cairo_move_to(context_.get(), x, y);
+    else
+      cairo_line_to(context_.get(), x, y);
   }
-}
-
-void Canvas::fill_rectangle(PixelPoint upper_left, PixelPoint lower_right, Colour colour) {
-  const std::array<PixelPoint, 4> corners{
-      {upper_left, {lower_right.x, upper_left.y}, lower_right, {upper_left.x, lower_right.y}}};
-  fill_convex(corners, colour);
+  cairo_close_path(context_.get());
 }
 
 void Canvas::fill_disc(PixelPoint centre, double radius, Colour colour) {
-  if (!std::isfinite(centre.x) || !std::isfinite(centre.y) || !std::isfinite(radius)) return;
-  const double x = centre.x * kSamples, y = centre.y * kSamples, r = radius * kSamples;
-  const double rows = height_ * kSamples;
-  if (!(y + r > 0) || !(y - r < rows)) return;
-  const int first = static_cast<int>(std::max(0.0, std::ceil(y - r - 0.5)));
-  const int last = static_cast<int>(std::min(rows, std::ceil(y + r - 0.5)));
-  for (int row = first; row < last; ++row) {
-    const double dy = row + 0.5 - y, half = std::sqrt(std::max(0.0, r * r - dy * dy));
-    fill_row(row, x - half, x + half, colour);
-  }
+  if (!(std::abs(centre.x) < kFar && std::abs(centre.y) < kFar && radius < kFar)) return;
+  take(colour);
+  cairo_arc(context_.get(), centre.x, centre.y, radius, 0, 2 * std::numbers::pi);
+  cairo_fill(context_.get());
 }
 
 void Canvas::line(PixelPoint from, PixelPoint to, double width, Colour colour) {
-  const double dx = to.x - from.x, dy = to.y - from.y, length = std::hypot(dx, dy);
-  if (!(length > 0)) return;
-  const double nx = -dy / length * width / 2, ny = dx / length * width / 2;
-  const std::array<PixelPoint, 4> corners{{{from.x + nx, from.y + ny},
-                                           {to.x + nx, to.y + ny},
-                                           {to.x - nx, to.y - ny},
-                                           {from.x - nx, from.y - ny}}};
-  fill_convex(corners, colour);
+  take(colour);
+  cairo_move_to(context_.get(), from.x, from.y);
+  cairo_line_to(context_.get(), to.x, to.y);
+  cairo_set_line_width(context_.get(), width);
+  cairo_stroke(context_.get());
 }
 
 void Canvas::frame(PixelPoint upper_left, PixelPoint lower_right, double width, Colour colour) {
-  const double left = upper_left.x, top = upper_left.y, right = lower_right.x, bottom = lower_right.y;
-  fill_rectangle({left - width, top - width}, {right + width, top}, colour);
-  fill_rectangle({left - width, bottom}, {right + width, bottom + width}, colour);
-  fill_rectangle({left - width, top}, {left, bottom}, colour);
-  fill_rectangle({right, top}, {right + width, bottom}, colour);
+  take(colour);
+  cairo_rectangle(context_.get(), upper_left.x - width / 2, upper_left.y - width / 2,
+                  lower_right.x - upper_left.x + width, lower_right.y - upper_left.y + width);
+  cairo_set_line_width(context_.get(), width);
+  cairo_stroke(context_.get());
 }
 
 double Canvas::text_width(std::string_view text) {
-  return kAdvance * static_cast<double>(printable(text).size()) - kDot;
+  cairo_matrix_t size, unscaled;
+  cairo_matrix_init_scale(&size, kFontSize, kFontSize);
+  cairo_matrix_init_identity(&unscaled);
+  const CairoPointer<cairo_scaled_font_t> font(
+      cairo_scaled_font_create(font_face().get(), &size, &unscaled, font_options().get()));
+  cairo_text_extents_t extents;
+  cairo_scaled_font_text_extents(font.get(), readable(text).c_str(), &extents);
+  require(cairo_scaled_font_status(font.get()));
+  return extents.x_advance;
 }
 
 void Canvas::text(PixelPoint anchor, Align align, std::string_view text, Colour colour) {
-  const double width = text_width(text);
-  double left = std::round(anchor.x - (align == Align::left     ? 0
-                                       : align == Align::centre ? width / 2
-                                                                : width));
-  const double top = std::round(anchor.y - kTextHeight / 2);
-  for (const char letter : printable(text)) {
-    for (int row = 0; row < kGlyphRows; ++row)
-      for (int column = 0; column < kGlyphWidth; ++column)
-        if (glyph_dot(letter, row, column)) {
-          const double x = left + kDot * column, y = top + kDot * row;
-          fill_rectangle({x, y}, {x + kDot, y + kDot}, colour);
-        }
-    left += kAdvance;
+  const std::string letters = readable(text);
+  const double width = text_width(letters);
+  const double left = anchor.x - (align == Align::left ? 0 : align == Align::centre ? width / 2 : width);
+  const double line = anchor.y + kCapital / 2;
+  if (format_ == PictureFormat::svg) {  // Cairo would draw outlines, which nobody can search or edit
+    svg_text_ += fmt::format(
+        "<text x=\"{:.2f}\" y=\"{:.2f}\" textLength=\"{:.2f}\" lengthAdjust=\"spacingAndGlyphs\" "
+        "fill=\"#{:02x}{:02x}{:02x}\">{}</text>\n",
+        left, line, width, colour.red, colour.green, colour.blue, in_xml(letters));
+    return;
   }
+  take(colour);
+  cairo_move_to(context_.get(), left, line);
+  // Where no font is installed Cairo has one of its own, of which PDF viewers show black boxes.
+  if (cairo_scaled_font_get_type(cairo_get_scaled_font(context_.get())) == CAIRO_FONT_TYPE_USER) {
+    cairo_text_path(context_.get(), letters.c_str());
+    cairo_fill(context_.get());
+  } else
+    cairo_show_text(context_.get(), letters.c_str());
 }
 
-std::vector<std::uint8_t> Canvas::pixels() const {
+void Canvas::set_title(std::string_view title) {
+  if (format_ == PictureFormat::pdf)
+    cairo_pdf_surface_set_metadata(cairo_get_target(context_.get()), CAIRO_PDF_METADATA_TITLE,
+                                   readable(title).c_str());
+}
+
+std::vector<std::uint8_t> Canvas::pixels() {
+  assert(!is_vector());
+  take({});
+  require(cairo_status(context_.get()));
+  cairo_surface_t* samples = cairo_get_target(context_.get());
+  cairo_surface_flush(samples);
+  const auto row = static_cast<std::size_t>(cairo_image_surface_get_stride(samples));
   const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
-  constexpr std::size_t kSide = kSamples;
-  std::vector<std::uint8_t> pixel(3 * width * height);
-  for (std::size_t y = 0; y < height; ++y)
-    for (std::size_t x = 0; x < width; ++x) {
-      unsigned red = 0, green = 0, blue = 0;
-      for (std::size_t j = 0; j < kSide; ++j)
-        for (std::size_t i = 0; i < kSide; ++i) {
-          const Colour& c = sample_[(kSide * y + j) * kSide * width + kSide * x + i];
-          red += c.red;
-          green += c.green;
-          blue += c.blue;
-        }
-      std::uint8_t* out = &pixel[3 * (width * y + x)];
-      constexpr unsigned kCount = kSide * kSide;
-      out[0] = static_cast<std::uint8_t>((red + kCount / 2) / kCount);
-      out[1] = static_cast<std::uint8_t>((green + kCount / 2) / kCount);
-      out[2] = static_cast<std::uint8_t>((blue + kCount / 2) / kCount);
-    }
-  return pixel;
+  constexpr unsigned kCount = kSamples * kSamples;
+  std::vector<std::uint16_t> sum(row);  // of a column of samples, by channel
+  std::vector<std::uint8_t> out(3 * width * height);
+  std::uint8_t* to = out.data();
+  const unsigned char* from = cairo_image_surface_get_data(samples);
+  for (std::size_t y = 0; y < height; ++y) {
+    std::fill(sum.begin(), sum.end(), 0);
+    for (int j = 0; j < kSamples; ++j, from += row)
+      for (std::size_t k = 0; k < row; ++k) sum[k] = static_cast<std::uint16_t>(sum[k] + from[k]);
+    for (std::size_t x = 0; x < width; ++x)
+      for (const std::size_t channel : kRedGreenBlue) {
+        unsigned of_pixel = kCount / 2;
+        for (std::size_t i = 0; i < kSamples; ++i) of_pixel += sum[4 * (kSamples * x + i) + channel];
+        *to++ = static_cast<std::uint8_t>(of_pixel / kCount);
+      }
+  }
+  return out;
 }
 
-void Canvas::write_png(const std::filesystem::path& path) const {
-  const std::vector<std::uint8_t> pixel = pixels();
-  std::string bytes;
-  const auto append = [](void* context, void* data, int size) {
-    static_cast<std::string*>(context)->append(static_cast<const char*>(data),
-                                               static_cast<std::size_t>(size));
-  };
-  if (stbi_write_png_to_func(append, &bytes, width_, height_, 3, pixel.data(), 3 * width_) == 0)
-    throw_file_error("encode", path, ENOMEM);
-  write_aside(path, bytes);
+void Canvas::write(const std::filesystem::path& path) {
+  if (!is_vector()) {
+    const std::vector<std::uint8_t> rgb = pixels();
+    std::vector<unsigned char> pixel(rgb.size() / 3 * 4);
+    for (std::size_t k = 0; k < rgb.size(); ++k) pixel[k / 3 * 4 + kRedGreenBlue[k % 3]] = rgb[k];
+    const Surface surface(
+        cairo_image_surface_create_for_data(pixel.data(), CAIRO_FORMAT_RGB24, width_, height_, 4 * width_));
+    require(cairo_surface_write_to_png_stream(surface.get(), append, bytes_.get()));
+  } else {
+    take({});
+    require(cairo_status(context_.get()));
+    cairo_surface_finish(cairo_get_target(context_.get()));
+    require(cairo_surface_status(cairo_get_target(context_.get())));
+  }
+  if (format_ == PictureFormat::svg)
+    bytes_->insert(
+        bytes_->rfind("</svg>"),
+        fmt::format("<g font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\">\n{}</g>\n",
+                    kFontSize, svg_text_));
+  write_aside(path, *bytes_);
 }
 
 }  // namespace mpmfast

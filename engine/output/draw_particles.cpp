@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/output/cover.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
@@ -103,8 +104,11 @@ Corners parallelogram(const Vec<2>& centre, const Mat<2>& edges) {
   return corners;
 }
 
-Corners shape_of(const Particles<2>& particles, const Scene& scene, std::size_t p) {
-  return parallelogram(particles.vector(Quantity::position, p), half_edges(particles, scene, p));
+/// @param beyond  how far it reaches beyond its edges, m
+Corners shape_of(const Particles<2>& particles, const Scene& scene, std::size_t p, double beyond = 0) {
+  Mat<2> edges = half_edges(particles, scene, p);
+  for (int d = 0; d < 2; ++d) edges.col(d) *= 1 + beyond / edges.col(d).norm();
+  return parallelogram(particles.vector(Quantity::position, p), edges);
 }
 
 std::array<Extent, 3> extents_of(const Particles<2>& particles, const Scene& scene) {
@@ -135,13 +139,21 @@ std::array<Extent, 3> extents_of(const Particles<3>& particles, const Scene& sce
 }
 
 Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring& colour,
-              const Framing& framing) {
+              const Framing& framing, PictureFormat format) {
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
   const double margin = 0.02 * std::max(x.width(), y.width());
   const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
-  Picture picture(wider(x), wider(y), colour.has_bar(), colour.longest);
-  for (const std::uint32_t p : order_by_id(particles)) {
-    Corners corners = shape_of(particles, scene, p);
+  Picture picture(wider(x), wider(y), colour.has_bar(), colour.longest, format);
+  std::vector<std::uint32_t> order = order_by_id(particles);
+  double beyond = 0;
+  if (format != PictureFormat::png) {
+    // Viewers smooth each shape by itself: between neighbours that only meet the page would show.
+    beyond = 0.4 / picture.pixels_per_metre();
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return colour(a) < colour(b); });
+  }
+  for (const std::uint32_t p : order) {
+    Corners corners = shape_of(particles, scene, p, beyond);
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
     picture.canvas().fill_convex(corners, colour(p));
   }
@@ -158,29 +170,38 @@ void draw_ball(Picture& picture, PixelPoint centre, double radius, Colour colour
 }
 
 Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring& colour,
-              const Framing& framing) {
-  struct Ball {
-    double depth;  ///< towards the eye
-    std::uint32_t particle;
-  };
-  const auto view_of = [&](std::uint32_t p) { return to_view(particles.vector(Quantity::position, p)); };
-  std::vector<Ball> balls;
-  balls.reserve(particles.size());
-  for (const std::uint32_t p : order_by_id(particles))
-    if (particles.vector(Quantity::position, p).allFinite() && std::isfinite(radius_of(particles, scene, p)))
-      balls.push_back({view_of(p)[2], p});
+              const Framing& framing, PictureFormat format) {
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
               z = box_range(framing, scene, 2);
   const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
-  Picture picture(view.across(), view.up(), colour.has_bar(), colour.longest);
+  Picture picture(view.across(), view.up(), colour.has_bar(), colour.longest, format);
   view.draw_edges(picture);
+  struct Ball {
+    double depth;  ///< towards the eye
+    std::uint32_t particle;
+    float x, y, radius;  ///< pixels
+    PixelPoint centre() const { return {x, y}; }
+  };
+  std::vector<Ball> balls;
+  balls.reserve(particles.size());
+  for (const std::uint32_t p : order_by_id(particles)) {
+    const Vec<3> view_of = to_view(particles.vector(Quantity::position, p));
+    const double radius = 1.15 * picture.pixels_per_metre() * radius_of(particles, scene, p);
+    if (!view_of.allFinite() || !std::isfinite(radius)) continue;
+    const PixelPoint at = picture.at(view_of[0], view_of[1]);
+    balls.push_back(
+        {view_of[2], p, static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(radius)});
+  }
   std::stable_sort(balls.begin(), balls.end(),
                    [](const Ball& a, const Ball& b) { return a.depth < b.depth; });
-  for (const Ball& ball : balls) {
-    const Vec<3> at = view_of(ball.particle);
-    const double radius = 1.15 * radius_of(particles, scene, ball.particle);
-    draw_ball(picture, picture.at(at[0], at[1]), radius * picture.pixels_per_metre(), colour(ball.particle));
-  }
+  Cover cover(picture.canvas().width(), picture.canvas().height());
+  std::vector<Ball> shown;  // most balls of a body are inside it
+  std::for_each(balls.rbegin(), balls.rend(), [&](const Ball& ball) {
+    if (cover.add(ball.centre(), ball.radius)) shown.push_back(ball);
+  });
+  std::for_each(shown.rbegin(), shown.rend(), [&](const Ball& ball) {
+    draw_ball(picture, ball.centre(), ball.radius, colour(ball.particle));
+  });
   view.draw_labels(picture, length_unit(scene));
   picture.draw_frame();
   return picture;
@@ -226,10 +247,10 @@ Framing framing_of(const Particles<Dim>& particles, const Scene& scene, const st
 
 template <int Dim>
 Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
-                       double time, const Framing& framing) {
+                       double time, const Framing& framing, PictureFormat format) {
   const FieldValues values = field_values(particles, scene, field);
   const Colouring colour(values, framing);
-  Picture picture = paint(particles, scene, colour, framing);
+  Picture picture = paint(particles, scene, colour, framing, format);
   PictureText text = picture_text(scene, values.label, time);
   if (colour.has_bar()) {
     picture.draw_colour_bar(colour.scale, values.unit);
@@ -243,17 +264,17 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
                     const std::string& field, double time) {
-  paint_particles(particles, scene, field, time, framing_of(particles, scene, field)).write_png(png);
+  paint_particles(particles, scene, field, time, framing_of(particles, scene, field)).write(png);
 }
 
 template Framing framing_of(const Particles<2>&, const Scene&, const std::string&);
-template Canvas paint_particles(const Particles<2>&, const Scene&, const std::string&, double,
-                                const Framing&);
+template Canvas paint_particles(const Particles<2>&, const Scene&, const std::string&, double, const Framing&,
+                                PictureFormat);
 template void draw_particles(const std::filesystem::path&, const Particles<2>&, const Scene&,
                              const std::string&, double);
 template Framing framing_of(const Particles<3>&, const Scene&, const std::string&);
-template Canvas paint_particles(const Particles<3>&, const Scene&, const std::string&, double,
-                                const Framing&);
+template Canvas paint_particles(const Particles<3>&, const Scene&, const std::string&, double, const Framing&,
+                                PictureFormat);
 template void draw_particles(const std::filesystem::path&, const Particles<3>&, const Scene&,
                              const std::string&, double);
 

@@ -39,6 +39,6 @@ Framing framing_of(const Particles<Dim>& particles, const Scene& scene, const st
 /// `field`, with title, equal axes and, where the field is a number, a colour bar with units.
 template <int Dim>
 Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
-                       double time, const Framing& framing);
+                       double time, const Framing& framing, PictureFormat format = PictureFormat::png);
 
 }  // namespace mpmfast

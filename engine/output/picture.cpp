@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "engine/output/font.hpp"
+#include "engine/scene/text/text_check.hpp"
 
 namespace mpmfast {
 namespace {
@@ -24,11 +25,17 @@ void widen(Range& range, double width) {
   range = {middle - 0.5 * width, middle + 0.5 * width};
 }
 
+/// The text, or as many of its letters as there is room for.
 std::string fitted(const std::string& text, double room) {
-  std::string letters = printable(text);
-  if (Canvas::text_width(letters) <= room) return letters;
-  while (!letters.empty() && Canvas::text_width(letters + "...") > room) letters.pop_back();
-  return letters + "...";
+  if (Canvas::text_width(text) <= room) return text;
+  std::size_t end = 0;
+  for (double width = Canvas::text_width("..."); end < text.size();) {
+    const std::size_t bytes = std::max<std::size_t>(code_point(text, end).bytes, 1);
+    width += Canvas::text_width(text.substr(end, bytes));
+    if (width > room) break;
+    end += bytes;
+  }
+  return text.substr(0, end) + "...";
 }
 
 double spacing_of(const std::vector<double>& ticks) { return ticks.size() > 1 ? ticks[1] - ticks[0] : 1; }
@@ -50,10 +57,10 @@ Picture::Layout Picture::make_layout(Range x, Range y, bool room_for_bar, std::s
   return layout;
 }
 
-Picture::Picture(Range x, Range y, bool room_for_bar, std::string_view longest)
-    : Picture(make_layout(x, y, room_for_bar, longest)) {}
+Picture::Picture(Range x, Range y, bool room_for_bar, std::string_view longest, PictureFormat format)
+    : Picture(make_layout(x, y, room_for_bar, longest), format) {}
 
-Picture::Picture(const Layout& layout)
+Picture::Picture(const Layout& layout, PictureFormat format)
     : x_(layout.x),
       y_(layout.y),
       scale_(layout.scale),
@@ -61,9 +68,10 @@ Picture::Picture(const Layout& layout)
       box_upper_left_{kLeft, layout.top()},
       box_lower_right_{kLeft + layout.x.width() * layout.scale,
                        layout.top() + layout.y.width() * layout.scale},
-      canvas_(layout.width, layout.height) {}
+      canvas_(layout.width, layout.height, format) {}
 
 void Picture::write_titles(const PictureText& text) {
+  canvas_.set_title(text.title);
   std::vector<std::string> lines{text.title, text.subtitle};
   if (note_below_)
     lines.push_back(text.note);
@@ -108,8 +116,10 @@ void Picture::draw_colour_bar(const ColourScale& scale, const std::string& si_un
   const int steps = static_cast<int>(height);
   for (int i = 0; i < steps; ++i) {
     const double value = range.lower + (i + 0.5) / steps * range.width();
-    canvas_.fill_rectangle({left, bottom - (i + 1) * height / steps}, {right, bottom - i * height / steps},
-                           scale(value));
+    const double from = bottom - i * height / steps;
+    // Each to the top, under those that come: viewers of vectors would show seams between them.
+    canvas_.fill_convex(std::array<PixelPoint, 4>{{{left, from}, {right, from}, {right, top}, {left, top}}},
+                        scale(value));
   }
   canvas_.frame({left, top}, {right, bottom}, kLineWidth, kInk);
   const DisplayUnit unit = display_unit(std::max(std::abs(range.lower), std::abs(range.upper)), si_unit);

@@ -22,7 +22,7 @@ class Picture {
  public:
   /// Widened about its middle where it is too narrow for labels.
   /// @param longest  the longest subtitle with its note that this picture or another of its series may have
-  Picture(Range x, Range y, bool room_for_bar, std::string_view longest);
+  Picture(Range x, Range y, bool room_for_bar, std::string_view longest, PictureFormat format);
 
   PixelPoint at(double x, double y) const {
     return {box_upper_left_.x + (x - x_.lower) * scale_, box_lower_right_.y - (y - y_.lower) * scale_};
@@ -46,7 +46,7 @@ class Picture {
     double top() const;  ///< of the box, pixels
   };
   static Layout make_layout(Range x, Range y, bool room_for_bar, std::string_view longest);
-  explicit Picture(const Layout& layout);
+  Picture(const Layout& layout, PictureFormat format);
 
   Range x_, y_;
   double scale_;

@@ -79,7 +79,7 @@ std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes 
 
 /// A picture in its samples and its pixels: as wide as high in space, of the grid's shape in the plane.
 double canvas_bytes(const Scene& scene) {
-  constexpr double kSquare = 32 << 20, kAround = 0.3;  // beside the box: numbers, titles, the colour bar
+  constexpr double kSquare = 40 << 20, kAround = 0.3;  // beside the box: numbers, titles, the colour bar
   const auto& size = scene.grid.size;
   const double ratio = scene.dimension() == 3 ? 1 : std::min(size[0], size[1]) / std::max(size[0], size[1]);
   return kSquare * std::max(0.5, kAround + (1 - kAround) * ratio);
@@ -94,7 +94,7 @@ PassingNeed passing_need(const Scene& scene, double particles) {
   // number of each.
   const bool plane = scene.dimension() == 2;
   const double frame = plane ? 95 : 145;
-  constexpr double kSearch = 145, kSearchAtStart = 80, kPicture = 36, kRow = 12;
+  constexpr double kSearch = 145, kSearchAtStart = 80, kPicture = 40, kRow = 12;
   PassingNeed most{kRow * particles, "a row of the history"};
   const auto need = [&](double bytes, const char* reason) {
     if (bytes > most.bytes) most = {bytes, reason};

@@ -122,6 +122,7 @@ if command -v dpkg-shlibdeps >/dev/null; then
   fi
   expect "the package says what it needs" dpkg-deb -f package/mpmfast_*.deb Depends
   says out libyaml-cpp
+  says out libcairo2
 fi
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]

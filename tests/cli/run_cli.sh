@@ -486,6 +486,7 @@ check_warnings() {
 
 # Several runs, one picture, and what does not go together.
 check_plot_of_several() {
+  local format
   run 0 run scene.yaml --steps 4 --out other/plotted --progress none
   run 2 plot plotted other/plotted
   says err 'several runs in one chart: --columns says what of each is drawn'
@@ -505,10 +506,10 @@ check_plot_of_several() {
   run 2 plot plotted --out figure.svg
   says err "--out: one file holds one picture (--columns, or one --field), got 'figure.svg'"
   run 2 plot plotted --columns block.vy --out figure.jpg
-  says err "--out: charts are drawn as svg, png or pdf, got 'figure.jpg'"
-  run 2 plot plotted --field speed --out figure.svg
-  says err "--out: particles are drawn as png, got 'figure.svg'"
-  [[ ! -e figure.svg ]] || fail 'a refused plot drew something'
+  says err "--out: a picture is drawn as svg, png or pdf, got 'figure.jpg'"
+  run 2 plot plotted --field speed --out figure.jpg
+  says err "--out: a picture is drawn as svg, png or pdf, got 'figure.jpg'"
+  [[ ! -e figure.svg && ! -e figure.jpg ]] || fail 'a refused plot drew something'
   run 2 plot plotted --columns blok.vy --out newdir
   run 2 plot plotted --field speed --frame 99 --out newdir
   run 2 plot plotted --field speed --range 5:1 --out newdir
@@ -522,6 +523,16 @@ check_plot_of_several() {
   rm bare.png units.png pascal.png
   run 0 plot plotted --field speed --frame last --out pictures/speed.png
   [[ $(head -c 4 pictures/speed.png) == $'\x89PNG' ]] || fail '--out FILE is no picture of the particles'
+  for format in pdf svg; do
+    run 0 plot plotted --field speed --frame last --out "pictures/last.$format"
+    run 0 plot plotted --field speed --out "pictures/speed.$format"
+    cmp -s pictures/{last,speed}.$format || fail "--out FILE.$format is not the last frame, or not twice the same"
+    run 0 plot plotted --field speed --frame first --out "pictures/first.$format"
+    cmp -s pictures/{last,first}.$format && fail "--out FILE.$format is of any frame the same"
+  done
+  [[ $(head -c 4 pictures/speed.pdf) == %PDF ]] || fail '--out FILE.pdf of the particles is no PDF'
+  grep -q '>speed at [^<]*</text>' pictures/speed.svg || fail 'an SVG of the particles has no text'
+  run 4 plot plotted --field speed --out /dev/null/speed.pdf
   if command -v gnuplot >/dev/null; then
     echo precious >figure.gp
     run 0 plot plotted other/plotted --columns kinetic_J --title 'Energy left' --out figure.svg

@@ -112,7 +112,7 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->type_name("FILE_OR_DIR");
   add_several("--field", raw.fields,
               "Animate the particles coloured by pressure, von_mises, stress_xx, speed, plastic_strain, "
-              "body, ...; may be repeated")
+              "body, ... (as .pdf and .svg the last frame); may be repeated")
       ->type_name("FIELD");
   command.add_option("--frame", raw.frame, "Draw this frame alone: first, last or its number")
       ->type_name("N");

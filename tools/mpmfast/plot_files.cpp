@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "engine/output/canvas.hpp"
 
 namespace mpmfast {
 
@@ -24,16 +25,13 @@ bool names_file(const CommandLine& line) {
 
 /// What is wrong with --out FILE; empty when nothing is.
 std::string wrong_file(const CommandLine& line) {
-  const std::string format = fs::path(line.out).extension().string();
   const std::size_t pictures = asks_for_particles(line) ? std::max<std::size_t>(line.fields.size(), 1) : 0;
-  const bool chart = !line.columns.empty();
-  if (pictures + (chart ? 1 : 0) != 1)
+  if (pictures + (line.columns.empty() ? 0 : 1) != 1)
     return fmt::format(
         "--out: one file holds one picture (--columns, or one --field), got '{}'. A folder takes all",
         line.out);
-  if (chart && format != ".svg" && format != ".png" && format != ".pdf")
-    return fmt::format("--out: charts are drawn as svg, png or pdf, got '{}'", line.out);
-  if (!chart && format != ".png") return fmt::format("--out: particles are drawn as png, got '{}'", line.out);
+  if (!picture_format(line.out))
+    return fmt::format("--out: a picture is drawn as svg, png or pdf, got '{}'", line.out);
   return "";
 }
 

@@ -113,10 +113,12 @@ class ParticlePlot {
     return 0;
   }
 
-  /// One picture of one frame, or the animation of all.
+  /// One picture of one frame, or the animation of all; vectors do not move, and show the last one.
   void draw(const std::string& field) {
     const auto colours = colours_of(field_values(Particles<Dim>(), scene_, field));
-    if (const auto k = frame_index(line_.frame, series_.size()))
+    const bool still = line_.frame.empty() && !files_.picture.empty() &&
+                       picture_format(files_.picture) != PictureFormat::png;
+    if (const auto k = frame_index(still ? "last" : line_.frame, series_.size()))
       draw_frame(field, *k, colours);
     else
       animate(field, colours);
@@ -133,7 +135,8 @@ class ParticlePlot {
     Framing framing = framing_of(particles, scene_, field);
     if (colours) framing.values = colours;
     const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, k));
-    paint_particles(particles, scene_, field, series_.time(k), framing).write_png(path);
+    const PictureFormat format = picture_format(path).value_or(PictureFormat::png);
+    paint_particles(particles, scene_, field, series_.time(k), framing, format).write(path);
     fmt::print("picture          {}\n", path.string());
   }
 
@@ -144,7 +147,7 @@ class ParticlePlot {
     if (colours) framing.values = colours;
     std::optional<AnimatedPng> animation;
     for (std::size_t k = 0; k < series_.size(); ++k) {
-      const Canvas canvas = paint_particles(series_.read(k), scene_, field, series_.time(k), framing);
+      Canvas canvas = paint_particles(series_.read(k), scene_, field, series_.time(k), framing);
       if (!animation) animation.emplace(canvas.width(), canvas.height(), kRate);
       animation->add(canvas.pixels());
     }

@@ -2,38 +2,30 @@
 
 #include <fmt/format.h>
 
-#include <cstddef>
-#include <cstdint>
-
 namespace mpmfast {
 
-namespace {
-
-/// Length of the UTF-8 sequence at `at`, 0 when it is none. Overlong forms and surrogates are none.
-std::size_t sequence_length(const std::string& text, std::size_t at) {
+CodePoint code_point(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i]));
   };
   const std::uint32_t first = byte(at);
-  if (first < 0x80) return 1;
+  if (first < 0x80) return {first, 1};
   const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return 0;
+  if (first < 0xC2 || first > 0xF4 || at + length > text.size()) return {};
   std::uint32_t code = first & (0xFFu >> (length + 1));
   for (std::size_t k = 1; k < length; ++k) {
-    if ((byte(at + k) & 0xC0) != 0x80) return 0;
+    if ((byte(at + k) & 0xC0) != 0x80) return {};
     code = (code << 6) | (byte(at + k) & 0x3F);
   }
   const bool overlong = (length == 3 && code < 0x800) || (length == 4 && (code < 0x10000 || code > 0x10FFFF));
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
-  return overlong || surrogate ? 0 : length;
+  return overlong || surrogate ? CodePoint{} : CodePoint{code, length};
 }
-
-}  // namespace
 
 bool check_text(const std::string& text, int source, Problems& problems) {
   int line = 1, column = 1;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = sequence_length(text, at);
+    const std::size_t length = code_point(text, at).bytes;
     const auto byte = static_cast<unsigned char>(text[at]);
     const bool control = (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7F;
     if (length == 0 || control) {

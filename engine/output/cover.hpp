@@ -1,0 +1,25 @@
+#pragma once
+
+/// @file Which discs of a picture show, where they are told from the front to the back.
+
+#include <cstdint>
+#include <vector>
+
+#include "engine/output/canvas.hpp"
+
+namespace mpmfast {
+
+/// The samples of a picture that discs cover.
+class Cover {
+ public:
+  Cover(int width, int height);
+
+  /// Covers what is under the disc. Returns whether some of it was free.
+  bool add(PixelPoint centre, double radius);
+
+ private:
+  int columns_, rows_;
+  std::vector<std::uint8_t> covered_;
+};
+
+}  // namespace mpmfast
