@@ -35,9 +35,10 @@ void print_passes(const RunSummary& summary) {
 void print_contact(const RunSummary::Contact& contact) {
   if (contact.nodes_peak == 0) return;
   fmt::print(
-      "contact          {} nodes at most, {} regressions of {:.2f} iterations, {} fallbacks, {} "
+      "contact          {} nodes at most, {} regressions of {:.2f} iterations, {} fallbacks ({} doubtful), "
+      "{} "
       "unconverged, {} nodes screened\n",
-      contact.nodes_peak, contact.regressions, contact.mean_iterations, contact.fallbacks,
+      contact.nodes_peak, contact.regressions, contact.mean_iterations, contact.fallbacks, contact.doubtful,
       contact.unconverged, contact.screened);
 }
 
