@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "engine/output/shown_units.hpp"
 #include "engine/scene/geometry/geometry.hpp"
 
 namespace mpmfast {
@@ -27,10 +28,8 @@ std::string extents_text(const Scene& scene, const Shape& shape) {
   return text + " m";
 }
 
-/// Of planes per metre of depth; of what turns about an axis for the full turn.
 std::string mass_text(const Scene& scene, double mass) {
-  const bool flat = scene.space == Space::plane_strain || scene.space == Space::plane_stress;
-  return flat ? fmt::format("{:.4g} kg/m", mass / scene.thickness) : fmt::format("{:.4g} kg", mass);
+  return fmt::format("{:.4g} {}", mass, shown_unit(scene, "kg"));
 }
 
 }  // namespace

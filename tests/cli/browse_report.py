@@ -118,7 +118,7 @@ def check_charts(browser, name):
     canvas = browser.find_element(By.CSS_SELECTOR, chart)
     ActionChains(browser).move_to_element(canvas).perform()
     tip = browser.find_element(By.CSS_SELECTOR, "#histories .tip")
-    check(tip.is_displayed() and "J" in tip.text, f"{name}: hovering over a chart shows '{tip.text}'")
+    check(tip.is_displayed() and "J/m" in tip.text, f"{name}: hovering over a chart shows '{tip.text}'")
     before = pixels(browser, chart)[1]
     browser.find_element(By.ID, "choose").click()
     browser.find_element(By.CSS_SELECTOR, "#histories .chooser input[value='left.mass_kg']").click()
