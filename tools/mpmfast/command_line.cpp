@@ -130,14 +130,16 @@ void add_report_options(CLI::App& command, RawOptions& raw) {
 }
 
 void add_new_options(CLI::App& command, RawOptions& raw) {
-  command.add_option("NAME", raw.scene, "The scene's name: NAME.yaml is written")->required()->type_name("");
+  command.add_option("NAME", raw.scene, "The name: NAME.yaml is written, of a study NAME_scene.yaml too")
+      ->required()
+      ->type_name("");
   std::vector<std::string> kinds;
   for (const Starter& starter : kStarters) kinds.emplace_back(starter.name);
   command
       .add_option("--like", raw.like,
-                  fmt::format("One of {}; {} if not given", fmt::join(kinds, ", "), kinds[0]))
-      ->type_name("KIND");
-  command.add_flag("--force", raw.force, "Replace a file of that name");
+                  fmt::format("What it is like: one of these scenes, or a study; {} if not given", kinds[0]))
+      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
+  command.add_flag("--force", raw.force, "Replace files of that name");
 }
 
 /// Builds the commands; `raw` receives the values.
@@ -149,7 +151,7 @@ struct Commands {
     app.set_version_flag("--version",
                          fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
     app.require_subcommand(1);
-    begin = app.add_subcommand("new", "Write a scene to begin with");
+    begin = app.add_subcommand("new", "Write a scene, or a study, to begin with");
     run = app.add_subcommand("run", "Run a scene");
     resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");
