@@ -32,7 +32,7 @@ TEST_CASE("check begins with the bodies: material, particles, mass, extents") {
   const std::string text = describe_plan(grains(2));
   CHECK(holds(text,
               "\n  bodies          2\n    g0  rubber (neo_hookean): 16 particles, 0.004 kg/m; "
-              "x 0 to 0.002, y 0.002 to 0.004 m\n    g1  tool (rigid): 16 particles; x 0.002"));
+              "x 0 to 2, y 2 to 4 mm\n    g1  tool (rigid): 16 particles; x 2 to 4"));
   const std::string deep = describe_plan(grains(2, "thickness: 20 mm\n"));
   CHECK(holds(deep, "\n    g0  rubber (neo_hookean): 16 particles, 8e-05 kg; x 0"));
   CHECK(holds(text, "\n    g0 and g1: stick\n"));

@@ -96,13 +96,12 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
   command.add_option("--title", raw.title, "The title of that chart")->type_name("TEXT");
-  add_several(
-      "--label", raw.labels,
-      "In the legend: the name of a run, or of a column of the one run; once for each, in their order")
+  add_several("--label", raw.labels,
+              "A name in the legend: of a run, or with one run of a column; once for each, in their order")
       ->type_name("TEXT");
-  command.add_option("--x-label", raw.x_label, "What stands on the axis below, before its unit")
+  command.add_option("--x-label", raw.x_label, "Label of the axis below; its unit follows")
       ->type_name("TEXT");
-  command.add_option("--y-label", raw.y_label, "What stands on the axis on the left, before its unit")
+  command.add_option("--y-label", raw.y_label, "Label of the axis on the left; its unit follows")
       ->type_name("TEXT");
   command
       .add_option(
