@@ -1,9 +1,15 @@
-# The scenes of configs/starters/ as C++ text, for `mpmfast new`; the first is the default.
+# The scenes of configs/starters/ and the study of configs/starters/study/ as C++ text, for `mpmfast new`; the first is the
+# default.
 set(STARTERS "")
+macro(read_starter file variable)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/configs/starters/${file})
+  file(READ ${PROJECT_SOURCE_DIR}/configs/starters/${file} ${variable})
+endmacro()
 foreach(name impact press sphere3d axisymmetric soil)
-  set(starter ${PROJECT_SOURCE_DIR}/configs/starters/${name}.yaml)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${starter})
-  file(READ ${starter} text)
-  string(APPEND STARTERS "    {\"${name}\", R\"scene(${text})scene\"},\n")
+  read_starter(${name}.yaml text)
+  string(APPEND STARTERS "    {\"${name}\", R\"scene(${text})scene\", \"\"},\n")
 endforeach()
+read_starter(study/study.yaml text)
+read_starter(impact.yaml scene)
+string(APPEND STARTERS "    {\"study\", R\"scene(${text})scene\", R\"scene(${scene})scene\"},\n")
 configure_file(${PROJECT_SOURCE_DIR}/cmake/starters.hpp.in ${PROJECT_BINARY_DIR}/generated/starters.hpp @ONLY)

@@ -28,6 +28,8 @@ nlohmann::ordered_json contact_json(const RunSummary::Contact& contact) {
           {"mean_iterations", contact.mean_iterations},
           {"fallbacks", contact.fallbacks},
           {"unconverged", contact.unconverged},
+          {"touching", contact.touching},
+          {"doubtful", contact.doubtful},
           {"pair_nodes", contact.pair_nodes},
           {"pair_fallbacks", contact.pair_fallbacks},
           {"meetings", contact.meetings},

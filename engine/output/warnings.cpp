@@ -32,13 +32,14 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
          fmt::format("{:.2g} % of the contact normals did not converge (usual: below {:g} %); a larger "
                      "contact.tolerance or contact.max_iterations may help",
                      100 * part, 100 * kMostUnconverged)});
-  if (const double part = share(contact.fallbacks, contact.regressions); part > kMostFallbacks)
+  if (const double part = share(contact.doubtful, contact.touching); part > kMostDoubtful)
     out.push_back(
         {"fallbacks",
          fmt::format(
-             "{:.2g} % of the contact normals fell back on a simpler method (usual: below {:g} %): the "
-             "clouds of touching bodies overlap, or hold too few particles",
-             100 * part, 100 * kMostFallbacks)});
+             "{:.2g} % of the normals of touching surfaces fell back on a simpler method, and nothing "
+             "around bears them out (usual: below {:g} %): the bodies have too few particles there, or "
+             "overlap; smaller cells help",
+             100 * part, 100 * kMostDoubtful)});
   if (const double part = share(contact.pair_fallbacks, contact.pair_nodes); part > kMostPairFallbacks)
     out.push_back(
         {"pairs",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "engine/output/paint.hpp"
 #include "engine/plan/memory.hpp"
 #include "engine/run/contact_memory.hpp"
 #include "engine/run/describe_bodies.hpp"
@@ -61,12 +62,14 @@ std::string estimated_time(Step<Dim>& step, double steps) {
       *middle * steps, *middle * 1e3, walls.size());
 }
 
-/// "80 x 40 cells of 0.00025 m"
-std::string grid_text(const GridSpec& grid, int dimension) {
+/// "80 x 40 cells of 0.25 mm"
+std::string grid_text(const Scene& scene) {
+  const GridSpec& grid = scene.grid;
+  const DisplayUnit unit = length_unit(scene);
   std::string cells;
-  for (int d = 0; d < dimension; ++d)
+  for (int d = 0; d < scene.dimension(); ++d)
     cells += fmt::format("{}{:.0f}", d > 0 ? " x " : "", grid.size[static_cast<std::size_t>(d)] / grid.cell);
-  return fmt::format("{} cells of {:g} m", cells, grid.cell);
+  return fmt::format("{} cells of {:.6g} {}", cells, grid.cell / unit.in_si, unit.name);
 }
 
 std::string contact_text(const ContactSpec& contact) {
@@ -140,7 +143,7 @@ std::string describe(const Scene& scene, bool verbose) {
   for (const auto& p : step.plan().passes) passes += "\n    " + p;
   const std::size_t planned = particles.planned_bytes();
   line("dimension", fmt::format("{} ({})", Dim, name_of(kSpaces, scene.space)));
-  line("grid", grid_text(scene.grid, Dim));
+  line("grid", grid_text(scene));
   const auto list = [&](const std::vector<std::string>& lines) {
     for (const std::string& one : folded(lines, verbose)) text += fmt::format("    {}\n", one);
   };
@@ -158,7 +161,9 @@ std::string describe(const Scene& scene, bool verbose) {
   line("memory", memory_text(step, scene));
   line("checkpoint",
        checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
-  line("time step", fmt::format("{:.4g} s at first (it follows the wave speed)", dt));
+  const DisplayUnit unit = display_unit(dt, "s");
+  line("time step",
+       fmt::format("{:.4g} {} at first (it follows the wave speed)", dt / unit.in_si, unit.name));
   line("steps", fmt::format("{:.0f} at that step", steps));
   line("estimated time", estimate);
   if (!verbose) {

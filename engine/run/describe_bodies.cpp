@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "engine/output/paint.hpp"
+#include "engine/output/shown_units.hpp"
 #include "engine/scene/geometry/geometry.hpp"
 
 namespace mpmfast {
@@ -18,19 +20,19 @@ std::string law_text(const SurfaceLaw& law) {
   return text;
 }
 
-/// "x 0.003 to 0.009, y 0.002 to 0.008 m"
+/// "x 3 to 9, y 2 to 8 mm": in the unit of the pictures.
 std::string extents_text(const Scene& scene, const Shape& shape) {
   const Bounds box = bounds(shape);
+  const DisplayUnit unit = length_unit(scene);
   std::string text;
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k)
-    text += fmt::format("{}{} {:.6g} to {:.6g}", k > 0 ? ", " : "", "xyz"[k], box.lower[k], box.upper[k]);
-  return text + " m";
+    text += fmt::format("{}{} {:.6g} to {:.6g}", k > 0 ? ", " : "", "xyz"[k], box.lower[k] / unit.in_si,
+                        box.upper[k] / unit.in_si);
+  return text + " " + unit.name;
 }
 
-/// Of planes per metre of depth; of what turns about an axis for the full turn.
 std::string mass_text(const Scene& scene, double mass) {
-  const bool flat = scene.space == Space::plane_strain || scene.space == Space::plane_stress;
-  return flat ? fmt::format("{:.4g} kg/m", mass / scene.thickness) : fmt::format("{:.4g} kg", mass);
+  return fmt::format("{:.4g} {}", mass, shown_unit(scene, "kg"));
 }
 
 }  // namespace

@@ -7,16 +7,22 @@
 
 namespace mpmfast {
 
+namespace {
+
+std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
+
+}  // namespace
+
 RunLog::RunLog(const std::filesystem::path& folder, const RunSummary& figures)
     : file_(folder / "run.log", figures.resumes > 0 ? std::ios::app : std::ios::trunc) {
   if (figures.resumes > 0) {
-    fmt::print(file_, "goes on from step {} at {:.6g} s ({}, {} threads)\n", figures.steps, figures.time,
-               program_text(), figures.threads);
+    fmt::print(file_, "goes on from step {} at {:.6g} s ({}, {})\n", figures.steps, figures.time,
+               program_text(), threads_text(figures.threads));
     return;
   }
-  fmt::print(file_, "{}\n{}\n{}: {} particles in {} velocity fields, {}-D, {} threads\n", program_text(),
+  fmt::print(file_, "{}\n{}\n{}: {} particles in {} velocity fields, {}-D, {}\n", program_text(),
              figures.command, figures.scene_name, figures.particles, figures.fields, figures.dimension,
-             figures.threads);
+             threads_text(figures.threads));
   for (const std::string& warning : figures.scene_warnings) fmt::print(file_, "{}\n", warning);
   fmt::print(file_, "{:>10} {:>12} {:>12} {:>10} {:>17} {:>13}\n", "step", "time (s)", "dt (s)", "wall (s)",
              "particle-steps/s", "energy error");

@@ -36,6 +36,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
   archive.number("contact/iterations", c.iterations);
   archive.number("contact/fallbacks", c.fallbacks);
   archive.number("contact/unconverged", c.unconverged);
+  archive.number("contact/touching_normals", c.touching);
+  archive.number("contact/doubtful_normals", c.doubtful);
   archive.number("contact/pair_nodes", c.pair_nodes);
   archive.number("contact/pair_fallbacks", c.pair_fallbacks);
   archive.number("contact/meetings", c.meetings);

@@ -107,7 +107,8 @@ return count;
 """
 
 
-def check_charts(browser, name):
+def check_charts(browser, name, energy):
+    """@param energy  how the lines of the tip end: of a plane J are those of a metre"""
     for chart in ["#histories .chart canvas", "#energy .chart canvas"]:
         browser.execute_async_script(SETTLED)
         check(browser.execute_script(CURVE, chart) > 100, f"{name}: {chart} has no curve")
@@ -118,7 +119,7 @@ def check_charts(browser, name):
     canvas = browser.find_element(By.CSS_SELECTOR, chart)
     ActionChains(browser).move_to_element(canvas).perform()
     tip = browser.find_element(By.CSS_SELECTOR, "#histories .tip")
-    check(tip.is_displayed() and "J" in tip.text, f"{name}: hovering over a chart shows '{tip.text}'")
+    check(tip.is_displayed() and re.search(f" [kµm]?{energy}$", tip.text, flags=re.M), f"{name}: hovering over a chart shows '{tip.text}'")
     before = pixels(browser, chart)[1]
     browser.find_element(By.ID, "choose").click()
     browser.find_element(By.CSS_SELECTOR, "#histories .chooser input[value='left.mass_kg']").click()
@@ -152,7 +153,7 @@ def check_plane(browser, program, folder, shots):
     check_key(browser, "plane")
     check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
     check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
-    check_charts(browser, "plane")
+    check_charts(browser, "plane", "J/m")
     check_words(browser, out)
     quiet(browser, "plane")
 
@@ -185,7 +186,7 @@ def check_space(browser, program, folder, shots):
     check_bodies(browser, "space", "#picture canvas")
     check_key(browser, "space")
     check_hover(browser, out, "velocity_z", 3, lambda arrays: arrays["velocity"][:, 2], ["left", "right"])
-    check_charts(browser, "space")
+    check_charts(browser, "space", "J")
     quiet(browser, "space")
 
 
@@ -243,7 +244,8 @@ def check_outflow(browser, program, folder, shots):
     browser.execute_script("player.go(player.frames.times.length - 1)")
     pixels(browser, "#picture canvas")
     check(browser.execute_script(SEEN) == [1], "outflow: what left is still shown")
-    check("16 particles" in browser.find_element(By.ID, "figures").text, "outflow: what left is not counted")
+    gone = browser.find_element(By.ID, "figures").text
+    check("16 particles" in gone and "kg/m and" in gone and "J/m" in gone, f"outflow: what left is not counted: '{gone}'")
     check_hover(browser, out, "velocity_x", 2, lambda arrays: arrays["velocity"][:, 0], ["missile", "rest"], every=3)
     picture_of(browser, shots, "outflow")
     quiet(browser, "outflow")

@@ -335,7 +335,7 @@ vary: {time.cfl: [0.2, 0.4], method.update: [flip]}
 quantities: {fall: -block.vy, least: {quantity: block.vy, over: min}}
 STUDY
   run 0 study scene_study.yaml --out study
-  says out '| time.cfl | method.update | fall | least | reached |'
+  says out '| time.cfl | method.update | fall (m/s) | least (m/s) | reached (µs) |'
   says err '[2/2] cfl=0.4, flip'
   [[ -f study/cfl=0.2_flip/run.json && ! -e study/study.gp ]] || fail 'a plain study has other folders, or a chart of cost'
   [[ $(head -n 1 study/study.csv) == *,reason,fall,least ]] || fail 'study.csv does not end with the quantities'
@@ -431,6 +431,31 @@ check_wrong_study() {
   run 4 study scene_nowhere.yaml
 }
 
+# A study comes with its scene, whose name follows its own; neither replaces a file unasked.
+check_new_study() {
+  local starters=$source_dir/configs/starters
+  run 0 new study --like study
+  says out 'mpmfast study study.yaml'
+  says out 'mpmfast check study_scene.yaml'
+  sed 's|\.\./impact\.yaml|study_scene.yaml|' "$starters/study/study.yaml" | cmp -s study.yaml ||
+    fail 'new --like study writes another study'
+  cmp -s study_scene.yaml "$starters/impact.yaml" || fail 'new --like study writes another scene'
+  rm study.yaml
+  run 2 new study --like study
+  says err 'study_scene.yaml exists (--force replaces it)'
+  [[ ! -e study.yaml ]] || fail 'a refused new wrote a study'
+  mkdir sub
+  run 0 new 'sub/#one"' --like study
+  run 0 check 'sub/#one"_scene.yaml'
+  sed -i 's/end: 300 us/end: 30 us/' 'sub/#one"_scene.yaml'
+  sed -i 's/^  grid.cell: .*/  grid.cell: [1 mm]/; s/0.125 mm/0.5 mm/' 'sub/#one".yaml'
+  run 0 study 'sub/#one".yaml' --out sub/out --progress none
+  says out '| variant | grid.cell | error (%) | value (m/s) | energy left in % | reached (µs) | wall time (s) |'
+  [[ $(grep -c finished sub/out/study.csv) == 4 ]] || fail 'the study that new writes does not run'
+  [[ -s sub/out/study.gp && -s sub/out/energy.gp ]] || fail 'the study that new writes draws no charts'
+  rm -rf study.yaml study_scene.yaml sub
+}
+
 # Every starter is written as it is, runs for a few steps and gives no warning.
 check_new() {
   local kind
@@ -441,6 +466,7 @@ check_new() {
     grep -q warning err && fail "a starter gives warnings"
     run 0 run "scenes_$kind.yaml" --steps 3 --progress none
   done
+  check_new_study
   run 0 new plain
   says out 'mpmfast run plain.yaml'
   cmp -s plain.yaml "$source_dir/configs/starters/impact.yaml" || fail 'the first starter is not the default'
@@ -454,7 +480,7 @@ check_new() {
     run 2 new -- "$kind"
   done
   run 2 new other --like impcat
-  says err "one of impact, press, sphere3d, axisymmetric, soil), got 'impcat'. Did you mean 'impact'?"
+  says err "one of impact, press, sphere3d, axisymmetric, soil, study), got 'impcat'. Did you mean 'impact'?"
   run 2 new
   says err 'NAME is required'
   run 4 new nowhere/scene
@@ -536,7 +562,7 @@ check_plot_of_several() {
   if command -v gnuplot >/dev/null; then
     echo precious >figure.gp
     run 0 plot plotted other/plotted --columns kinetic_J --title 'Energy left' --out figure.svg
-    for words in 'Energy left' '>plotted<' '>other/plotted<' 'time (ns)' 'kinetic ('; do
+    for words in 'Energy left' '>plotted<' '>other/plotted<' 'time (ns)' 'kinetic (mJ/m)'; do
       grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
     done
     run 0 plot plotted other/plotted --columns block.vy --columns kinetic_J --label coarse --label fine \

@@ -48,6 +48,9 @@ TEST_CASE("the checksum is the same on one thread, on two, on three and again") 
     CHECK(one.summary.checksum == three.summary.checksum);
     CHECK(two.summary.checksum == again.summary.checksum);
     CHECK(one.summary.energy_error == two.summary.energy_error);
+    CHECK(one.summary.contact.fallbacks == three.summary.contact.fallbacks);
+    CHECK(one.summary.contact.touching == three.summary.contact.touching);
+    CHECK(one.summary.contact.doubtful == three.summary.contact.doubtful);
   }
 }
 

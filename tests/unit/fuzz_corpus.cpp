@@ -42,6 +42,7 @@ TEST_CASE("the scene reader takes the fuzzers' corpus and every scene of the rep
 TEST_CASE("the study reader takes the fuzzers' corpus and every study of the repository") {
   CHECK(replay("tests/fuzz/corpus/study", fuzz::read_study_bytes) >= 2);
   CHECK(replay("configs/studies", fuzz::read_study_bytes) > 5);
+  CHECK(replay("configs/starters/study", fuzz::read_study_bytes) == 1);
 }
 
 TEST_CASE("the readers of pictures and surfaces take the fuzzers' corpus, and each other's") {

@@ -73,8 +73,8 @@ TEST_CASE("run.json has the keys of the output contract") {
                           "command",
                           "overrides"})
     CHECK_MESSAGE(json.contains(key), key);
-  for (const char* key :
-       {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged", "meetings", "screened"})
+  for (const char* key : {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged",
+                          "touching", "doubtful", "meetings", "screened"})
     CHECK_MESSAGE(json["contact"].contains(key), key);
   CHECK(json["status"] == "failed");
   CHECK(json["steps"] == 12);
@@ -172,7 +172,9 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   RunSummary good;
   good.contact.regressions = 10000;
   good.contact.unconverged = 100;
-  good.contact.fallbacks = 2000;
+  good.contact.fallbacks = 9000;
+  good.contact.touching = 4000;
+  good.contact.doubtful = 120;
   good.contact.pair_nodes = 1000;
   good.contact.pair_fallbacks = 50;
   good.contact.meetings = 5000;
@@ -183,7 +185,7 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   CHECK(run_warnings(RunSummary{}).empty());
   RunSummary doubtful = good;
   doubtful.contact.unconverged = 110;
-  doubtful.contact.fallbacks = 2500;
+  doubtful.contact.doubtful = 400;
   doubtful.contact.pair_fallbacks = 60;
   doubtful.contact.screened = 1500;
   doubtful.energy_error = -0.25;
@@ -192,7 +194,7 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   const auto warnings = run_warnings(doubtful);
   REQUIRE(warnings.size() == 6);
   const char* const said[] = {"1.1 % of the contact normals did not converge",
-                              "25 % of the contact normals fell back",
+                              "10 % of the normals of touching surfaces fell back",
                               "on 6 % of the nodes",
                               "30 % of the nodes where bodies meet",
                               "particles of body 'bar' came 1.7 cells apart",
@@ -200,7 +202,8 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   for (std::size_t k = 0; k < 6; ++k) CHECK(warnings[k].text.find(said[k]) == 0);
   RunSummary few = doubtful;  // too few meetings for a share to mean anything
   few.contact = {};
-  few.contact.regressions = few.contact.unconverged = few.contact.fallbacks = kEnoughToJudge - 1;
+  few.contact.regressions = few.contact.unconverged = few.contact.touching = few.contact.doubtful =
+      kEnoughToJudge - 1;
   CHECK(run_warnings(few).size() == 2);
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);

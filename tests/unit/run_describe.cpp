@@ -12,9 +12,10 @@ namespace {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-Scene grains(int count) {
+Scene grains(int count, const std::string& thickness = "") {
   std::string text =
-      "space: plane_strain\nthickness: 2 m\ngrid: {size: [40 mm, 10 mm], cell: 1 mm}\ntime: {end: 1 us}\n"
+      "space: plane_strain\n" + thickness +
+      "grid: {size: [40 mm, 10 mm], cell: 1 mm}\ntime: {end: 1 us}\n"
       "materials:\n  rubber: {model: neo_hookean, density: 1000 kg/m^3, young: 1 MPa, poisson: 0.3}\n"
       "  tool: {model: rigid}\nbodies:\n";
   for (int k = 0; k < count; ++k)
@@ -27,11 +28,13 @@ Scene grains(int count) {
 
 }  // namespace
 
-TEST_CASE("check begins with the bodies: material, particles, mass of a metre of depth, extents") {
+TEST_CASE("check begins with the bodies: material, particles, mass, extents") {
   const std::string text = describe_plan(grains(2));
   CHECK(holds(text,
               "\n  bodies          2\n    g0  rubber (neo_hookean): 16 particles, 0.004 kg/m; "
-              "x 0 to 0.002, y 0.002 to 0.004 m\n    g1  tool (rigid): 16 particles; x 0.002"));
+              "x 0 to 2, y 2 to 4 mm\n    g1  tool (rigid): 16 particles; x 2 to 4"));
+  const std::string deep = describe_plan(grains(2, "thickness: 20 mm\n"));
+  CHECK(holds(deep, "\n    g0  rubber (neo_hookean): 16 particles, 8e-05 kg; x 0"));
   CHECK(holds(text, "\n    g0 and g1: stick\n"));
   CHECK(holds(text, " a step, over "));
   CHECK_FALSE(holds(text, "deformation_gradient"));

@@ -145,19 +145,19 @@ TEST_CASE("a study sets the variables of its scene, and its values may name them
 }
 
 TEST_CASE("the studies that come with the program can be read and expanded") {
-  const std::filesystem::path studies = test::source_folder() / "configs/studies";
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(studies)) {
-    if (entry.path().extension() != ".yaml") continue;
-    CAPTURE(entry.path().string());
-    ++count;
-    try {
-      CHECK(!expand_study(read_study(entry.path())).variants.empty());
-    } catch (const SceneError& error) {
-      FAIL_CHECK(error.what());
+  for (const char* folder : {"configs/studies", "configs/starters/study"})
+    for (const auto& entry : std::filesystem::directory_iterator(test::source_folder() / folder)) {
+      if (entry.path().extension() != ".yaml") continue;
+      CAPTURE(entry.path().string());
+      ++count;
+      try {
+        CHECK(!expand_study(read_study(entry.path())).variants.empty());
+      } catch (const SceneError& error) {
+        FAIL_CHECK(error.what());
+      }
     }
-  }
-  CHECK(count >= 6);
+  CHECK(count >= 7);
 }
 
 TEST_CASE(

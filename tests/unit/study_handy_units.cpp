@@ -33,6 +33,19 @@ TEST_CASE(
   CHECK(quantity_in("kg m/s").empty());
 }
 
+TEST_CASE("beside its unit a column is named without it, any other expression as it is") {
+  const auto beside = [](const std::string& text) {
+    const auto expression = std::get<Expression>(Expression::parse(text));
+    return name_beside(expression, unit_of(expression));
+  };
+  CHECK(beside("kinetic_J") == "kinetic");
+  CHECK(beside("time_s") == "time");
+  CHECK(beside("`A+B.force_x_N`") == "A+B.force_x");
+  CHECK(beside("block.vy") == "block.vy");
+  CHECK(beside("kinetic_J + stored_J") == "kinetic_J + stored_J");
+  CHECK(beside("time_s * 1e3") == "time_s * 1e3");
+}
+
 TEST_CASE("a handy unit leaves the largest number between 1 and 1000") {
   CHECK(shown("s", 300e-6) == "300 µs");
   CHECK(shown("s", 2e-3) == "2 ms");
@@ -43,4 +56,6 @@ TEST_CASE("a handy unit leaves the largest number between 1 and 1000") {
   CHECK(shown("J", 0.25) == "250 mJ");
   CHECK(shown("kg", 5000) == "5000 kg");
   CHECK(shown("N", 0) == "0 N");
+  CHECK(shown("J/m", 81900) == "82 kJ/m");
+  CHECK(shown("kg/m", 5000) == "5000 kg/m");
 }

@@ -71,8 +71,13 @@ TEST_CASE("results are the errors and costs of the runs that have ended; the fro
         "c,0.2,160,3,800,0,c,finished,-8,1e-05,0,0,0,0.25,,2\n"
         "d,0,160,0.5,800,0,d,failed,-10,1e-05,0,0,0,0.25,it fell | out,0\n");
   const std::string table = study_table(study, runs, results);
-  CHECK(table.find("| b, \\| | 5 | 50.00 % | -15 |") != std::string::npos);
-  CHECK(table.find("1e-05, failed") != std::string::npos);
+  CHECK(table.rfind("| variant | by itself (m/s) | error (%) | value (m/s) | reached (µs) | wall time (s) | "
+                    "speed (million particle-steps/s) | iterations a regression | doubtful normals (%) | "
+                    "energy error (%) | front |\n|---|",
+                    0) == 0);
+  CHECK(table.find("\n| b, \\| | 5 | 50.00 | -15 | 10 | 1.00 | 0.0008 | 0.00 | 0 | 25 | yes |\n") !=
+        std::string::npos);
+  CHECK(table.find("| 0 | 0 | -10 | 10, failed |") != std::string::npos);
   CHECK(table.find("\nd failed: it fell \\| out\n") != std::string::npos);
 }
 
@@ -209,8 +214,9 @@ TEST_CASE("quantities without an error make a plain table: no front and no chart
   CHECK(study_csv(study, runs, results)
             .find(",reason,speed,largest,smallest,mean\ncfl=0.1,,160,1,800,0,0.1,") != std::string::npos);
   const std::string table = study_table(study, runs, results);
-  CHECK(table.rfind("| time.cfl | speed | largest | smallest | mean | reached |", 0) == 0);
-  CHECK(table.find("| 0.2 | 3 | 0 | -3 | -3 | 1e-05 |") != std::string::npos);
+  CHECK(table.rfind("| time.cfl | speed (m/s) | largest (m/s) | smallest (m/s) | mean | reached (µs) |", 0) ==
+        0);
+  CHECK(table.find("| 0.2 | 3 | 0 | -3 | -3 | 10 |") != std::string::npos);
   CHECK(table.find("front") == std::string::npos);
   CHECK(write_report(study, runs, results, folder.path()).empty());
   CHECK_FALSE(std::filesystem::exists(folder.path() / "study.gp"));
@@ -224,7 +230,7 @@ TEST_CASE("quantities stand beside the error where there is one") {
   const StudyResults results = collect_results(study, runs, folder.path());
   CHECK(study_csv(study, runs, results).find(",by itself,speed\na,0.1,") != std::string::npos);
   CHECK(study_csv(study, runs, results).find(",1,-5.5\n") != std::string::npos);
-  CHECK(study_table(study, runs, results).find("| a | 1 | 10.00 % | -11 | -5.5 |") != std::string::npos);
+  CHECK(study_table(study, runs, results).find("| a | 1 | 10.00 | -11 | -5.5 |") != std::string::npos);
 }
 
 TEST_CASE("a reference may be an expression of the run's own columns or a table beside the study") {
@@ -283,5 +289,6 @@ TEST_CASE("a chart of curves shows its window and names a run by what differs") 
   const std::string script{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   CHECK(script.find("$curve0 << EOD\n1e-05 6\nEOD\n") != std::string::npos);  // the row at 0 s is outside
   CHECK(script.find("title 'a'") != std::string::npos);
+  CHECK(script.find("set xlabel 'time (s)'\nset ylabel '2 * block.vy'") != std::string::npos);
   CHECK(script.find("$curve1") == std::string::npos);
 }

@@ -96,13 +96,12 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
       ->type_name("EXPR");
   command.add_option("--x", raw.x, "What they are drawn against; time_s if not given")->type_name("EXPR");
   command.add_option("--title", raw.title, "The title of that chart")->type_name("TEXT");
-  add_several(
-      "--label", raw.labels,
-      "In the legend: the name of a run, or of a column of the one run; once for each, in their order")
+  add_several("--label", raw.labels,
+              "A name in the legend: of a run, or with one run of a column; once for each, in their order")
       ->type_name("TEXT");
-  command.add_option("--x-label", raw.x_label, "What stands on the axis below, before its unit")
+  command.add_option("--x-label", raw.x_label, "Label of the axis below; its unit follows")
       ->type_name("TEXT");
-  command.add_option("--y-label", raw.y_label, "What stands on the axis on the left, before its unit")
+  command.add_option("--y-label", raw.y_label, "Label of the axis on the left; its unit follows")
       ->type_name("TEXT");
   command
       .add_option(
@@ -130,14 +129,16 @@ void add_report_options(CLI::App& command, RawOptions& raw) {
 }
 
 void add_new_options(CLI::App& command, RawOptions& raw) {
-  command.add_option("NAME", raw.scene, "The scene's name: NAME.yaml is written")->required()->type_name("");
+  command.add_option("NAME", raw.scene, "The name: NAME.yaml is written, of a study NAME_scene.yaml too")
+      ->required()
+      ->type_name("");
   std::vector<std::string> kinds;
   for (const Starter& starter : kStarters) kinds.emplace_back(starter.name);
   command
       .add_option("--like", raw.like,
-                  fmt::format("One of {}; {} if not given", fmt::join(kinds, ", "), kinds[0]))
-      ->type_name("KIND");
-  command.add_flag("--force", raw.force, "Replace a file of that name");
+                  fmt::format("What it is like: one of these scenes, or a study; {} if not given", kinds[0]))
+      ->type_name(fmt::format("{}", fmt::join(kinds, "|")));
+  command.add_flag("--force", raw.force, "Replace files of that name");
 }
 
 /// Builds the commands; `raw` receives the values.
@@ -149,7 +150,7 @@ struct Commands {
     app.set_version_flag("--version",
                          fmt::format("mpmfast {} ({})\n{}, {}", kVersion, kGit, kCompiler, kFlags));
     app.require_subcommand(1);
-    begin = app.add_subcommand("new", "Write a scene to begin with");
+    begin = app.add_subcommand("new", "Write a scene, or a study, to begin with");
     run = app.add_subcommand("run", "Run a scene");
     resume = app.add_subcommand("resume", "Go on with a run that was stopped, from its last checkpoint");
     check = app.add_subcommand("check", "Validate a scene and print the plan, without running it");

@@ -42,6 +42,43 @@ std::optional<fs::path> file_of(const std::string& name) {
   return file;
 }
 
+/// As YAML takes it for a text, whatever the name holds.
+std::string yaml_text(const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-' || c == '.';
+  };
+  if (std::all_of(name.begin(), name.end(), plain)) return name;
+  std::string out = "\"";
+  for (const char c : name) out += c == '"' ? std::string("\\\"") : std::string(1, c);
+  return out + "\"";
+}
+
+struct NewFile {
+  fs::path path;
+  std::string text;
+};
+
+/// What is written under a name: the scene, or the study and the scene that it varies.
+std::vector<NewFile> files_of(const Starter& starter, const fs::path& file) {
+  std::string text(starter.text);
+  if (starter.scene.empty()) return {{file, text}};
+  fs::path scene = file;
+  scene.replace_filename(file.stem().string() + "_scene" + file.extension().string());
+  text.replace(text.find(kStudyScene), kStudyScene.size(), yaml_text(scene.filename().string()));
+  return {{file, text}, {scene, std::string(starter.scene)}};
+}
+
+void print_next(const std::vector<NewFile>& files) {
+  const auto command = [](const char* name, const NewFile& file) {
+    return fmt::format("mpmfast {} {}", name, shell_text(file.path.string()));
+  };
+  for (const NewFile& file : files) fmt::print("{}\n", file.path.string());
+  const bool study = files.size() > 1;
+  fmt::print("to see its plan  {}\nto run it        {}\n", command("check", files.back()),
+             command(study ? "study" : "run", files.front()));
+}
+
 }  // namespace
 
 int new_command(const CommandLine& line) {
@@ -54,20 +91,21 @@ int new_command(const CommandLine& line) {
   }
   if (!starter) {
     const std::string hint = did_you_mean(kind, known);
-    return refuse(fmt::format("--like: no such scene (one of {}), got '{}'{}", fmt::join(known, ", "), kind,
+    return refuse(fmt::format("--like: not known here (one of {}), got '{}'{}", fmt::join(known, ", "), kind,
                               hint.empty() ? "" : ". " + hint));
   }
   const auto file = file_of(line.scene);
   if (!file)
     return refuse(
         fmt::format("not a name for a scene (such as impact or scenes/impact), got '{}'", line.scene));
-  std::error_code error;
-  if (!line.force && fs::exists(fs::symlink_status(*file, error)))
-    return refuse(fmt::format("{} exists (--force replaces it)", file->string()));
-  write_aside(*file, starter->text);
-  fmt::print("{}\n", file->string());
-  fmt::print("to see its plan  mpmfast check {}\nto run it        mpmfast run {}\n",
-             shell_text(file->string()), shell_text(file->string()));
+  const std::vector<NewFile> files = files_of(*starter, *file);
+  for (const NewFile& one : files) {
+    std::error_code error;
+    if (!line.force && fs::exists(fs::symlink_status(one.path, error)))
+      return refuse(fmt::format("{} exists (--force replaces it)", one.path.string()));
+  }
+  for (const NewFile& one : files) write_aside(one.path, one.text);
+  print_next(files);
   return 0;
 }
 

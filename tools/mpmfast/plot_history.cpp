@@ -10,8 +10,10 @@
 #include <vector>
 
 #include "complain.hpp"
+#include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/output.hpp"
+#include "engine/output/shown_units.hpp"
 #include "exit_codes.hpp"
 #include "tools/study/column_names.hpp"
 #include "tools/study/handy_units.hpp"
@@ -60,14 +62,25 @@ std::optional<Expression> strain_of(const Table& history) {
 struct RunHistory {
   std::string folder, name;  ///< as given, and in a legend
   Table table;
+  bool per_metre;  ///< its masses, forces and energies
 };
+
+/// Nothing is lost where the scene cannot be read again, such as when its picture was moved away: SI then, as
+/// the columns say.
+bool is_per_metre(const fs::path& folder) {
+  try {
+    return is_per_metre(read_scene(folder / "scene.yaml"));
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 /// The last parts of their paths tell runs apart, or else the paths as given.
 std::vector<RunHistory> read_histories(const std::vector<std::string>& folders) {
   std::vector<RunHistory> out;
   for (const std::string& folder : folders)
     out.push_back({folder, fs::absolute(fs::path(folder) / "").lexically_normal().parent_path().filename(),
-                   read_table(fs::path(folder) / "history.csv", Unended::torn)});
+                   read_table(fs::path(folder) / "history.csv", Unended::torn), is_per_metre(folder)});
   const auto is_taken = [&](const std::string& name) {
     return std::count_if(out.begin(), out.end(), [&](const RunHistory& run) { return run.name == name; }) > 1;
   };
@@ -119,18 +132,16 @@ std::string shown(const Expression& expression) {
   return out;
 }
 
-/// A column on an axis, which has its unit beside it: kinetic_J is kinetic.
-std::string without_unit(const std::string& column, const std::string& unit) {
-  const std::string end = "_" + unit;
-  const bool is_one = column.find(' ') == std::string::npos && !unit.empty() && column.ends_with(end);
-  return is_one ? column.substr(0, column.size() - end.size()) : column;
-}
-
 class Plot {
  public:
   Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x,
        const CommandLine& line)
-      : runs_(runs), files_(files), x_(x), line_(line) {}
+      : runs_(runs),
+        files_(files),
+        x_(x),
+        line_(line),
+        per_metre_(
+            std::all_of(runs.begin(), runs.end(), [](const RunHistory& run) { return run.per_metre; })) {}
 
   bool draw(const UsualChart& usual) const {
     std::vector<Expression> columns;
@@ -150,15 +161,16 @@ class Plot {
     const auto chosen = [](const std::string& asked, const std::string& usual) {
       return asked.empty() ? usual : asked;
     };
-    const std::string of_x = shown(x_) == "time_s" ? "time" : shown(x_);
-    chart.x_label = axis_label(chosen(line_.x_label, of_x), make_handy(unit_of(x_), x));
-    const std::string of_y =
-        stands_on_axis(columns) ? without_unit(shown(columns[0]), unit) : quantity_in(unit);
-    chart.y_label = axis_label(chosen(line_.y_label, of_y), make_handy(unit, y));
+    const std::string of_x = name_beside(x_, unit_of(x_));
+    chart.x_label = axis_label(chosen(line_.x_label, of_x), make_handy(shown_unit(unit_of(x_)), x));
+    const std::string of_y = stands_on_axis(columns) ? name_beside(columns[0], unit) : quantity_in(unit);
+    chart.y_label = axis_label(chosen(line_.y_label, of_y), make_handy(shown_unit(unit), y));
     return draw(stem, chart);
   }
 
  private:
+  std::string shown_unit(const std::string& unit) const { return per_metre_ ? unit_per_metre(unit) : unit; }
+
   /// Then the legend names the runs alone.
   bool stands_on_axis(const std::vector<Expression>& columns) const {
     return runs_.size() > 1 && columns.size() == 1;
@@ -199,6 +211,7 @@ class Plot {
   const PlotFiles& files_;
   const Expression& x_;
   const CommandLine& line_;
+  bool per_metre_;  ///< all runs
 };
 
 /// That of all of them, or none.

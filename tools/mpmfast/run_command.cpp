@@ -35,10 +35,11 @@ void print_passes(const RunSummary& summary) {
 void print_contact(const RunSummary::Contact& contact) {
   if (contact.nodes_peak == 0) return;
   fmt::print(
-      "contact          {} nodes at most, {} regressions of {:.2f} iterations, {} fallbacks, {} "
-      "unconverged, {} nodes screened\n",
-      contact.nodes_peak, contact.regressions, contact.mean_iterations, contact.fallbacks,
-      contact.unconverged, contact.screened);
+      "contact          {} nodes at most, {} screened in all; {} normals of {:.2f} iterations: {} did not "
+      "converge, {} fell back "
+      "({} doubtful)\n",
+      contact.nodes_peak, contact.screened, contact.regressions, contact.mean_iterations, contact.unconverged,
+      contact.fallbacks, contact.doubtful);
 }
 
 /// Where to look at the results.

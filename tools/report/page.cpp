@@ -13,6 +13,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/paint.hpp"
+#include "engine/output/shown_units.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 #include "frames.hpp"
@@ -203,6 +204,8 @@ ReportResult write_report(const fs::path& folder, const fs::path& html) {
     const DisplayUnit unit = length_unit(*scene);
     json["length"] = {{"name", unit.name}, {"size", unit.in_si}};
   }
+  for (const char* unit : {"J", "N", "kg", "N m", "kg m/s"})
+    json["units"][unit] = scene ? shown_unit(*scene, unit) : unit;
   json["axisymmetric"] = scene && scene->space == Space::axisymmetric;
   json["picture"] = scene ? scene->output.picture : "pressure";
   json["failed_file"] = fs::exists(folder / "failed.vtu", error);

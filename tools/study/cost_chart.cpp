@@ -10,6 +10,7 @@
 
 #include "gnuplot.hpp"
 #include "report.hpp"
+#include "study_units.hpp"
 
 namespace mpmfast {
 
@@ -178,6 +179,13 @@ std::string explanation(bool failed) {
   return out;
 }
 
+std::string error_label(const Study& study, const StudyRuns& runs) {
+  if (!study.error) return "error (of the bound)";
+  if (study.error->rule.relative != Relative::absolute) return "error (%)";
+  const std::string unit = measured_unit(runs, *study.error);
+  return unit.empty() ? "error" : fmt::format("error ({})", unit);
+}
+
 }  // namespace
 
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
@@ -195,8 +203,7 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
       "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
       "plot $front with lines lw 5 lc rgb '#cccccc' title '{}'",
       gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
-      gnuplot_text(percent == 100 ? "error (%)" : "error"), points.across.commands('x'),
-      points.up.commands('y'),
+      gnuplot_text(error_label(study, runs)), points.across.commands('x'), points.up.commands('y'),
       cost == study.costs.front() ? "Pareto front" : "Pareto front of the first cost");
   std::size_t blocks = 0;
   for (const auto& [choice, joined] : points.methods) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
 namespace mpmfast {
 
@@ -54,8 +55,18 @@ std::string unit_of(const Expression& expression) {
   return alike ? unit : "";
 }
 
+std::string name_beside(const Expression& expression, const std::string& unit) {
+  std::string name = expression.text();
+  name.erase(std::remove(name.begin(), name.end(), '`'), name.end());
+  if (name == "time_s") return "time";
+  const std::string end = "_" + unit;
+  const bool is_one = name.find(' ') == std::string::npos && !unit.empty() && name.ends_with(end);
+  return is_one ? name.substr(0, name.size() - end.size()) : name;
+}
+
 HandyUnit handy_unit(const std::string& unit, double largest) {
-  const bool prefixed = unit == "s" || unit == "J" || unit == "N" || unit == "Pa" || unit == "m";
+  constexpr std::array<std::string_view, 7> kPrefixed{"s", "J", "N", "Pa", "m", "J/m", "N/m"};
+  const bool prefixed = std::find(kPrefixed.begin(), kPrefixed.end(), unit) != kPrefixed.end();
   if (!prefixed || !(largest > 0) || !std::isfinite(largest)) return {1, unit};
   const int highest = unit == "s" ? kNoPrefix : static_cast<int>(kPrefixes.size()) - 1;
   const int thousands = static_cast<int>(std::floor(std::log10(largest) / 3));

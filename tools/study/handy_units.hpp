@@ -15,6 +15,10 @@ std::string unit_of_column(const std::string& name);
 /// know.
 std::string unit_of(const Expression& expression);
 
+/// A column on an axis that has its unit beside it: kinetic_J is kinetic. Any other expression is as it is,
+/// without backquotes.
+std::string name_beside(const Expression& expression, const std::string& unit);
+
 /// "energy" for J: what columns of that unit are; empty where it is not known.
 std::string quantity_in(const std::string& unit);
 

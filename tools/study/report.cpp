@@ -9,6 +9,7 @@
 #include "engine/output/files.hpp"
 #include "line_chart.hpp"
 #include "stability_map.hpp"
+#include "study_units.hpp"
 
 namespace mpmfast {
 
@@ -22,23 +23,6 @@ std::string csv_text(const std::string& text) {
 }
 
 std::string csv_number(double number) { return std::isnan(number) ? "" : fmt::format("{:.9g}", number); }
-
-std::string markdown_text(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '|' ? std::string("\\|") : std::string(1, c == '\n' ? ' ' : c);
-  return out;
-}
-
-std::string percent(double error, Relative relative) {
-  if (std::isnan(error)) return "–";
-  if (relative == Relative::absolute) return fmt::format("{:.3g}", error);
-  return 100 * error < 0.1 ? fmt::format("{:.2g} %", 100 * error) : fmt::format("{:.2f} %", 100 * error);
-}
-
-bool looks_for_value(const Study& study) {
-  return study.error && (study.error->rule.compare == Compare::final_value ||
-                         study.error->rule.compare == Compare::crossing);
-}
 
 ChartCurve curve_of(const StudyRun& run, const std::filesystem::path& folder, const CurveSpec& spec) {
   const double from = spec.from ? evaluate(spec.from->expression, run.let) : -INFINITY;
@@ -71,8 +55,8 @@ class CurveChart {
 
   std::string draw() {
     chart_.title = spec_.title.empty() ? study_.title : spec_.title;
-    chart_.x_label = spec_.x_label.empty() ? spec_.x->expression.text() : spec_.x_label;
-    chart_.y_label = spec_.y_label.empty() ? spec_.y->expression.text() : spec_.y_label;
+    chart_.x_label = spec_.x_label.empty() ? axis_label(runs_, spec_.x->expression) : spec_.x_label;
+    chart_.y_label = spec_.y_label.empty() ? axis_label(runs_, spec_.y->expression) : spec_.y_label;
     const std::size_t panels = spec_.panels ? study_.axes[*spec_.panels].choices.size() : 1;
     for (const StudyRun& run : runs_.variants)  // the colours in the order of the study
       if (goes_with(study_.axes, run.choice, spec_.only)) colour_of(name_in_panel(study_, run, spec_));
@@ -159,57 +143,6 @@ std::string study_csv(const Study& study, const StudyRuns& runs, const StudyResu
     for (const double number : r.quantities) cells.push_back(csv_number(number));
     out += fmt::format("{}\n", fmt::join(cells, ","));
   }
-  return out;
-}
-
-std::string study_table(const Study& study, const StudyRuns& runs, const StudyResults& results) {
-  std::vector<std::string> head;
-  for (const Axis& axis : study.axes)
-    head.push_back(markdown_text(axis.name == "variants" ? "variant" : axis.name));
-  for (const ErrorSpec& spec : study.more) head.push_back(markdown_text(spec.name));
-  const bool judged = has_error(study);
-  if (judged) head.push_back("error");
-  if (looks_for_value(study)) head.push_back("value");
-  for (const QuantitySpec& quantity : study.quantities) head.push_back(markdown_text(quantity.name));
-  for (const char* name : {"reached", "wall s", "million particle-steps a second", "iterations a regression",
-                           "fallbacks", "energy error"})
-    head.emplace_back(name);
-  if (judged) head.push_back("front");
-  std::string out = fmt::format("| {} |\n|{}\n", fmt::join(head, " | "), [&] {
-    std::string rule;
-    for (std::size_t k = 0; k < head.size(); ++k) rule += "---|";
-    return rule;
-  }());
-  for (std::size_t k = 0; k < runs.variants.size(); ++k) {
-    const StudyResult& r = results.variants[k];
-    if (r.status.empty()) continue;
-    std::vector<std::string> cells;
-    for (std::size_t axis = 0; axis < study.axes.size(); ++axis)
-      cells.push_back(markdown_text(study.axes[axis].choices[runs.variants[k].choice[axis]].name));
-    const auto error = [&](std::size_t n, Relative relative) {
-      return n < r.errors.size() ? percent(r.errors[n], relative) : std::string("–");
-    };
-    for (std::size_t n = 0; n < study.more.size(); ++n)
-      cells.push_back(error(n + 1, study.more[n].rule.relative));
-    if (judged) cells.push_back(error(0, study.error ? study.error->rule.relative : Relative::absolute));
-    if (looks_for_value(study)) cells.push_back(fmt::format("{:.6g}", r.value));
-    for (const double number : r.quantities) cells.push_back(fmt::format("{:.6g}", number));
-    cells.push_back(fmt::format("{:.4g}{}", r.reached, r.status == "failed" ? ", failed" : ""));
-    cells.push_back(fmt::format("{:.2f}", r.wall));
-    cells.push_back(fmt::format("{:.2f}", r.speed / 1e6));
-    cells.push_back(fmt::format("{:.2f}", r.mean_iterations));
-    cells.push_back(fmt::format("{}", r.fallbacks));
-    cells.push_back(fmt::format("{:.1e}", r.energy_error));
-    if (judged) cells.push_back(r.pareto ? "yes" : "");
-    out += fmt::format("| {} |\n", fmt::join(cells, " | "));
-  }
-  for (std::size_t k = 0; k < runs.variants.size(); ++k)
-    if (const StudyResult& r = results.variants[k]; r.status == "failed")
-      out += fmt::format("\n{} failed: {}\n", markdown_text(runs.variants[k].name), markdown_text(r.reason));
-  out +=
-      fmt::format("\n{}, mpmfast {}, {} thread{}.{}\n", results.machine.cpu, results.machine.version,
-                  results.machine.threads, results.machine.threads == 1 ? "" : "s",
-                  results.reference_failed ? " A reference run failed: errors are of what it reached." : "");
   return out;
 }
 

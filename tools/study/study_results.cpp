@@ -57,6 +57,7 @@ void read_summary(const nlohmann::json& json, StudyResult& result) {
   result.mean_iterations = number(*contact, "mean_iterations");
   result.fallbacks = count(*contact, "fallbacks");
   result.unconverged = count(*contact, "unconverged");
+  result.doubtful = number(*contact, "doubtful") / number(*contact, "touching");
 }
 
 double constant(const std::optional<Formula>& formula, double otherwise, const Constants& constants) {

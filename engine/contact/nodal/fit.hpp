@@ -23,6 +23,7 @@ namespace mpmfast {
 /// What one thread counts; summed in any order, since whole numbers do not round.
 struct alignas(64) FitTally {
   std::uint64_t regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
+  std::uint64_t touching = 0, doubtful = 0;
 };
 
 /// What a scene's contact asks of the clouds.
@@ -103,11 +104,19 @@ class ContactFit {
       const FieldRanges fields = ranges(node, cloud.count);
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
-        if (choice.regress && !entry.settled)
-          fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry, room.tally);
+        const bool fits = choice.regress && !entry.settled;
+        const bool fell_back =
+            fits && fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry,
+                        room.tally);
         if (choice.separate)
           entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
-        if (choice.smooth) raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry);
+        const bool touches = fits && (!choice.separate || entry.separation < 0);
+        const bool doubted = touches && fell_back;
+        room.tally.touching += touches;
+        if (choice.smooth)
+          raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry, doubted);
+        else
+          room.tally.doubtful += doubted;
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
@@ -267,21 +276,24 @@ class ContactFit {
     return true;
   }
 
-  static void fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry,
+  /// @return whether the normal is that of a simpler method
+  static bool fit(const FitChoice& choice, bool warm, const CloudView<Dim>& cloud, ContactEntry<Dim>& entry,
                   FitTally& tally) {
     ++tally.regressions;
     if (choice.margin) {
-      if (part(cloud, warm, entry, tally)) return;
+      if (part(cloud, warm, entry, tally)) return false;
       warm = false;  // what is kept of the last step is a normal, not a plane
-      ++tally.fallbacks;
     }
     const Regression<Dim> result = fit_normal<Dim>(cloud, choice.rule, warm ? entry.plane : nullptr);
     using Outcome = typename Regression<Dim>::Outcome;
     entry.normal = result.outcome == Outcome::failed ? cloud_gradient(cloud) : result.normal;
     std::memcpy(entry.plane, result.plane, sizeof entry.plane);
     tally.iterations += static_cast<std::uint64_t>(result.iterations);
-    tally.fallbacks += result.outcome == Outcome::centroid_fallback || result.outcome == Outcome::failed;
+    const bool fell_back =
+        choice.margin || result.outcome == Outcome::centroid_fallback || result.outcome == Outcome::failed;
+    tally.fallbacks += fell_back;
     tally.unconverged += result.outcome == Outcome::unconverged;
+    return fell_back;
   }
 
   /// The last resort, where one class is missing or the centroids coincide: the gradient normal with
@@ -307,6 +319,8 @@ class ContactFit {
       for (int e = node.entry_begin; e < node.entry_end; ++e) {
         auto& entry = contact.entries[static_cast<std::size_t>(e)];
         const Vec<Dim>& sum = room.sums[static_cast<std::size_t>(e - node.entry_begin)];
+        const RawNormal<Dim>& raw = raw_[static_cast<std::size_t>(e)];
+        room.tally.doubtful += raw.doubted && !is_borne_out(raw, sum);
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
         if (choice.separate)
@@ -323,6 +337,8 @@ class ContactFit {
       counters.iterations += t.iterations;
       counters.fallbacks += t.fallbacks;
       counters.unconverged += t.unconverged;
+      counters.touching += t.touching;
+      counters.doubtful += t.doubtful;
     }
   }
 

@@ -39,9 +39,19 @@ template <int Dim>
 struct RawNormal {
   Vec<Dim> weighted;  ///< normal times the smaller of the two masses, kg
   bool touches;       ///< its surfaces overlap
+  bool doubted;       ///< it touches and is that of a simpler method
   int a;              ///< velocity field
   int pair;           ///< of velocity fields, or of a and a lump: rises with a, then with b
 };
+
+/// Do the normals around bear one out? Not where there are none.
+/// @param sum  of all of them, its own among them
+template <int Dim>
+bool is_borne_out(const RawNormal<Dim>& own, const Vec<Dim>& sum) {
+  constexpr double kCosine = 0.984807753012208;  // of 10 degrees
+  const Vec<Dim> others = sum - own.weighted;
+  return own.weighted.dot(others) > kCosine * own.weighted.norm() * others.norm();
+}
 
 template <int Dim>
 class NormalMean {
@@ -65,10 +75,10 @@ class NormalMean {
     return places;
   }
 
-  RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const {
+  RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, bool doubted) const {
     const double w = pairs_ ? weight(node, entry.a, entry.b) : weight(node, entry.a);
     const int a = field(node, entry.a), b = entry.b < 0 ? 0 : field(node, entry.b) + 1;
-    return {w * entry.normal, entry.separation < 0, a, a * (state_.fields() + 1) + b};
+    return {w * entry.normal, entry.separation < 0, doubted, a, a * (state_.fields() + 1) + b};
   }
 
   /// Sums of the entries of a node over the touching ones of the nodes around and this one, weighted by the

@@ -24,7 +24,7 @@ function energyWords(history, error) {
     const change = column ? column[last] - column[first] : 0;
     return Math.abs(change) > 1e-9 * most ? change : 0;  // the rest is round-off
   };
-  const energy = joule => valueText(Math.abs(joule), 'J', 3);
+  const energy = joule => valueText(Math.abs(joule), shownUnit('J'), 3);
   const parts = [], came = change('boundary_work_J') + change('body_force_work_J');
   if (came !== 0) parts.push(came > 0 ? `Boundaries and body forces put ${energy(came)} in.` : `Boundaries and body forces took ${energy(came)} out.`);
   const where = [['kinetic_J', 'kinetic energy'], ['stored_J', 'stored energy']]

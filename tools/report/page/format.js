@@ -2,10 +2,13 @@
 
 const PREFIXES = [['T', 1e12], ['G', 1e9], ['M', 1e6], ['k', 1e3], ['', 1], ['m', 1e-3], ['\u00b5', 1e-6], ['n', 1e-9]];
 
+// Of this run: "J/m" for J where it is a metre of a plane.
+function shownUnit(unit) { return report.units[unit] ?? unit; }
+
 // Nobody writes ks, Mm or mPa.
 function usualPrefix(prefix, unit) {
   if (unit === 'Pa') return ['T', 'G', 'M', 'k', ''].includes(prefix);
-  if (['J', 'N', 'J/m^3', 'W'].includes(unit)) return prefix !== 'n';
+  if (['J', 'N', 'J/m', 'N/m', 'J/m^3', 'W'].includes(unit)) return prefix !== 'n';
   if (unit === 'm' && prefix === 'k') return true;
   return ['', 'm', '\u00b5', 'n'].includes(prefix);
 }
@@ -14,7 +17,7 @@ function usualPrefix(prefix, unit) {
 // Lengths have one unit on the whole page.
 function displayUnit(size, unit) {
   if (unit === 'm' && report.length) return report.length;
-  if (!['m', 's', 'Pa', 'J', 'N', 'W', 'J/m^3'].includes(unit) || !(size > 0) || !isFinite(size))
+  if (!['m', 's', 'Pa', 'J', 'N', 'J/m', 'N/m', 'W', 'J/m^3'].includes(unit) || !(size > 0) || !isFinite(size))
     return {name: prettyUnit(unit), size: 1};
   let smallest = {name: prettyUnit(unit), size: 1};
   for (const [prefix, factor] of PREFIXES) {

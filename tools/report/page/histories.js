@@ -14,7 +14,7 @@ const MOST_CURVES = 10;  // more cannot be told apart
 function columnUnit(name) {
   const units = [[/_m2$/, 'm^2'], [/_Pa$/, 'Pa'], [/_J$/, 'J'], [/_Nm$/, 'N m'], [/_N$/, 'N'], [/_kg$/, 'kg'], [/_m$/, 'm'], [/_s$/, 's'],
     [/momentum_[xyz]$/, 'kg m/s'], [/\.v[xyz]$/, 'm/s']];
-  return units.find(([end]) => end.test(name))?.[1] ?? '';
+  return shownUnit(units.find(([end]) => end.test(name))?.[1] ?? '');
 }
 
 function columnLabel(name) {

@@ -50,7 +50,7 @@ function figuresCard() {
     ['speed', `${significant(run.particle_steps_per_s / 1e6, 3)} million particle-steps a second`], ['memory', memoryText(run.peak_memory_bytes)],
     ['time step', run.dt_min_s > 0 ? `${timeText(run.dt_min_s)} to ${timeText(run.dt_max_s)}` : undefined],
     ['velocity fields', run.fields], ['active nodes', run.nodes_active_peak && `${run.nodes_active_peak.toLocaleString('en')} at most`],
-    ['left the grid', run.outflow && `${run.outflow.particles.toLocaleString('en')} particles with ${significant(run.outflow.kg)} kg and ${valueText(run.outflow.J, 'J')}`],
+    ['left the grid', run.outflow && `${run.outflow.particles.toLocaleString('en')} particles with ${valueText(run.outflow.kg, shownUnit('kg'))} and ${valueText(run.outflow.J, shownUnit('J'))}`],
     ['resumed', run.resumes > 0 ? `${run.resumes} times` : undefined], ['checksum', run.checksum && element('code', {}, run.checksum)]];
   return element('section', {class: 'card', id: 'figures'}, element('h2', {}, 'The run'), facts(rows));
 }
@@ -63,6 +63,8 @@ function contactCard() {
     ['iterations', `${significant(contact.mean_iterations, 3)} in the mean`],
     ['did not converge', whole(contact.unconverged) + share(contact.unconverged, contact.regressions)],
     ['fell back', whole(contact.fallbacks) + share(contact.fallbacks, contact.regressions)],
+    ['of touching surfaces', contact.touching ? whole(contact.touching) : undefined],
+    ['of these doubtful', contact.touching ? whole(contact.doubtful) + share(contact.doubtful, contact.touching) : undefined],
     ['screened', contact.meetings !== undefined ? whole(contact.screened) + share(contact.screened, contact.meetings) : undefined],
     ['nodes of pairs', contact.pair_nodes ? whole(contact.pair_nodes) : undefined],
     ['pairs left to the lump', contact.pair_nodes ? whole(contact.pair_fallbacks) + share(contact.pair_fallbacks, contact.pair_nodes) : undefined]];

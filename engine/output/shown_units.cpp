@@ -1,0 +1,19 @@
+#include "engine/output/shown_units.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace mpmfast {
+
+bool is_per_metre(const Scene& scene) {
+  const bool plane = scene.space == Space::plane_strain || scene.space == Space::plane_stress;
+  return plane && scene.thickness == 1;
+}
+
+std::string unit_per_metre(const std::string& unit) {
+  constexpr std::array<const char*, 4> kGrow{"J", "N", "kg", "N m"};
+  if (unit == "kg m/s") return unit + " per m";  // a second stroke would be read as a product
+  return std::find(kGrow.begin(), kGrow.end(), unit) == kGrow.end() ? unit : unit + "/m";
+}
+
+}  // namespace mpmfast
