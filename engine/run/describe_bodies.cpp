@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 namespace mpmfast {
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <set>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {

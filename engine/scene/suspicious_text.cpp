@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {

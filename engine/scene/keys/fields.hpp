@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/keys/known.hpp"
 #include "engine/scene/keys/names.hpp"
-#include "engine/scene/quantities/quantity.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/problems.hpp"
 #include "engine/scene/text/tree.hpp"

@@ -244,7 +244,4 @@ class Keys {
   bool good_ = true, open_ = false, closed_ = false;
 };
 
-/// A table that is one value at time zero is written as that value.
-std::string table_text(const TimeTable& table, Measure measure);
-
 }  // namespace mpmfast

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/scene/geometry/load.hpp"
+#include "engine/geometry/load.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -100,7 +100,7 @@ void describe_counts(Slot& slot, int dimension, std::array<int, 3>& counts) {
   if (slot.take(counts[0], kCount)) std::fill(counts.begin(), last, counts[0]);
 }
 
-void describe_seeding(Slot& slot, SeedingSpec& seeding) {
+void describe_seeding(Slot& slot, Seeding& seeding) {
   if (slot.is_word(kSeedings[0].name, !seeding.turned(), kSeedings[0].says)) return;
   if (slot.is_word(kSeedings[1].name, seeding.rings, kSeedings[1].says)) {
     seeding.rings = true;

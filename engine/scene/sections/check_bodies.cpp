@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

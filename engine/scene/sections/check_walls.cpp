@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/time_table.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

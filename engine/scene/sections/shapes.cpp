@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "engine/scene/geometry/load.hpp"
-#include "engine/scene/geometry/polygon.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/load.hpp"
+#include "engine/geometry/polygon.hpp"
+#include "engine/geometry/surface.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

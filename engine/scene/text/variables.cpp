@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/scene/quantities/expression.hpp"
+#include "engine/quantities/expression.hpp"
 #include "engine/scene/text/suggest.hpp"
 
 namespace mpmfast {

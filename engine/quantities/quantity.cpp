@@ -1,4 +1,4 @@
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

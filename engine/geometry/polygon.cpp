@@ -1,4 +1,4 @@
-#include "engine/scene/geometry/polygon.hpp"
+#include "engine/geometry/polygon.hpp"
 
 #include <fmt/format.h>
 

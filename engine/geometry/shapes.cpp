@@ -1,11 +1,11 @@
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "engine/scene/geometry/polygon.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/polygon.hpp"
+#include "engine/geometry/surface.hpp"
 
 namespace mpmfast {
 

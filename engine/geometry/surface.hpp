@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 namespace mpmfast {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/quantities/quantity.hpp"
-#include "engine/scene/text/suggest.hpp"
+#include "engine/quantities/closest.hpp"
+#include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
 
@@ -117,8 +117,8 @@ QuantityError unknown_unit(const std::string& symbol, const std::string& whole, 
   }
   std::string hint = other_spelling(symbol);
   if (hint.empty()) hint = other_signs(whole, kind);
-  if (hint.empty()) hint = did_you_mean(symbol, same_kind);
-  if (hint.empty()) hint = did_you_mean(symbol, all);
+  if (hint.empty()) hint = closest_hint(symbol, same_kind);
+  if (hint.empty()) hint = closest_hint(symbol, all);
   return {fmt::format("unknown unit '{}' ({}{})", symbol, kind.name,
                       *kind.units ? fmt::format(": {}", kind.units) : " without a unit"),
           hint};
