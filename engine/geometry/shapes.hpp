@@ -5,12 +5,17 @@
 #include <array>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
 namespace mpmfast {
 
 using Vec3 = std::array<double, 3>;
+
+/// The vector with length 1; one that has it to round-off is kept as it is, so that reading what was written
+/// changes nothing. Nothing for a zero vector.
+std::optional<Vec3> unit_vector(const Vec3& vector);
 
 struct BoxShape {
   Vec3 lower{}, upper{};
@@ -35,6 +40,9 @@ struct PolygonShape {
 struct GreyImage {
   int width = 0, height = 0;
   std::vector<unsigned char> pixel;
+
+  /// Which levels it has.
+  std::array<bool, 256> levels() const;
 };
 /// The pixels of one grey level of an image stretched over a rectangle (2-D).
 struct BitmapShape {

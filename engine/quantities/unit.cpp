@@ -177,6 +177,21 @@ std::optional<Factor> next_factor(const std::string& text, std::size_t& at) {
 
 const QuantityKind& kind_of(Measure quantity) { return kKinds[static_cast<std::size_t>(quantity)]; }
 
+std::string noun_of(Measure quantity) {
+  const std::string name = kind_of(quantity).name;
+  return name.substr(name.find(' ') + 1);
+}
+
+std::string plural_of(Measure quantity) {
+  const std::string noun = noun_of(quantity);
+  return noun.back() == 'y' ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
+}
+
+std::string expected_of(Measure quantity) {
+  const QuantityKind& kind = kind_of(quantity);
+  return *kind.units ? fmt::format("{}: {}", kind.name, kind.units) : kind.name;
+}
+
 std::vector<std::string> unit_symbols(Measure quantity) {
   std::vector<std::string> out;
   for (const NamedUnit& named : kUnits)

@@ -75,9 +75,6 @@ class Knowledge {
   std::vector<std::string> chosen_;
 };
 
-/// The pattern without its conditions.
-std::string unconditional(const std::string& pattern);
-
 /// All that a scene may say.
 const std::map<std::string, Known>& known_values();
 

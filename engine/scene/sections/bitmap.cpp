@@ -12,19 +12,6 @@ namespace {
 
 constexpr int kLevels = 256;
 
-/// The path as written; made absolute from the folder of the scene.
-void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) {
-  std::string text = file.string();
-  if (slot.take(text, Text{}) && slot.reads())
-    file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
-}
-
-std::array<bool, kLevels> levels_of(const GreyImage& image) {
-  std::array<bool, kLevels> present{};
-  for (const unsigned char grey : image.pixel) present[grey] = true;
-  return present;
-}
-
 /// A grey level that heads a material, as a value.
 std::optional<int> read_level(const Slot& material, const Key& key,
                               const std::array<bool, kLevels>& present) {
@@ -58,6 +45,12 @@ void describe_materials(Keys& map, const std::vector<std::string>& names,
 }
 
 }  // namespace
+
+void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) {
+  std::string text = file.string();
+  if (slot.take(text, Text{}) && slot.reads())
+    file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
+}
 
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
   std::filesystem::path& file = entry.shape.file;
@@ -95,7 +88,7 @@ void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std:
   });
   std::array<bool, kLevels> present{};
   present.fill(true);  // when the image is unknown, so is what it lacks
-  if (entry.shape.image) present = levels_of(*entry.shape.image);
+  if (entry.shape.image) present = entry.shape.image->levels();
   for (const int level : entry.skip) present[static_cast<std::size_t>(level)] = false;
   for (int level = 0; body.reads() && entry.shape.image && level < kLevels; ++level)
     if (present[static_cast<std::size_t>(level)]) entry.levels.push_back(level);

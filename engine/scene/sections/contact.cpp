@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/sections/pairs.hpp"
 
 namespace mpmfast {
 

@@ -24,12 +24,21 @@ Vector lengths(const Scene& scene, const Limit& limit = kAny) {
   return {Measure::length, scene.dimension(), limit};
 }
 
+}  // namespace
+
+void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper) {
+  const Vector corner{Measure::length, dimension};
+  slot.map("a map {from, to}", [&](Keys& map) {
+    map.need("from", "The corner that is lower in every direction.", lower, corner);
+    map.need("to", "The corner that is upper in every direction.", upper, corner);
+  });
+}
+
+namespace {
+
 void describe_box(Slot& slot, Shape& shape, const Scene& scene) {
   auto box = held<BoxShape>(shape);
-  slot.map("a map {from, to}", [&](Keys& map) {
-    map.need("from", "The corner that is lower in every direction.", box.lower, lengths(scene));
-    map.need("to", "The corner that is upper in every direction.", box.upper, lengths(scene));
-  });
+  describe_corners(slot, scene.dimension(), box.lower, box.upper);
   for (std::size_t k = 0; slot.reads() && slot.good() && k < static_cast<std::size_t>(scene.dimension()); ++k)
     if (box.lower[k] >= box.upper[k])
       slot.report(fmt::format("'to' must lie above 'from' in {}, but {} m is not above {} m", "xyz"[k],
@@ -132,9 +141,8 @@ void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
   slot.map("a map {file, scale, angle, axis, translate}", [&](Keys& map) {
     map.need_at("file", "Path, counted from the folder of the scene.", "an STL file, text or binary",
                 [&](Slot& file) {
-                  std::string text = stl.file.string();
-                  if (!file.take(text, Text{}) || !file.reads()) return;
-                  stl.file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
+                  describe_file(file, scene, stl.file);
+                  if (!file.reads() || !file.good()) return;
                   std::string why_not;
                   surface = load_stl(stl.file, why_not);
                   if (!surface)
@@ -152,37 +160,31 @@ void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
   shape = stl;
 }
 
-template <class S>
-std::size_t index_of_shape() {
-  return Shape(S{}).index();
-}
-
 }  // namespace
 
 const std::vector<ShapeKind>& shape_kinds() {
   static const std::vector<ShapeKind> kKinds{
       {"box", 0, "edges along the axes; its volume is exact", "A box along the axes.", describe_box,
-       index_of_shape<BoxShape>(), true},
-      {"disk", 2, "2-D", "A disk, in 2-D.", describe_round, index_of_shape<EllipsoidShape>(), false},
-      {"sphere", 3, "3-D", "A sphere, in 3-D.", describe_round, index_of_shape<EllipsoidShape>(), false},
-      {"ellipse", 2, "2-D, turned by angle", "An ellipse, in 2-D.", describe_ellipsoid,
-       index_of_shape<EllipsoidShape>(), true},
+       BoxShape{}, true},
+      {"disk", 2, "2-D", "A disk, in 2-D.", describe_round, EllipsoidShape{}, false},
+      {"sphere", 3, "3-D", "A sphere, in 3-D.", describe_round, EllipsoidShape{}, false},
+      {"ellipse", 2, "2-D, turned by angle", "An ellipse, in 2-D.", describe_ellipsoid, EllipsoidShape{},
+       true},
       {"ellipsoid", 3, "3-D, turned by angle about z", "An ellipsoid, in 3-D.", describe_ellipsoid,
-       index_of_shape<EllipsoidShape>(), true},
-      {"ring", 2, "2-D", "A ring, in 2-D.", describe_ring, index_of_shape<RingShape>(), true},
+       EllipsoidShape{}, true},
+      {"ring", 2, "2-D", "A ring, in 2-D.", describe_ring, RingShape{}, true},
       {"tube", 3, "3-D, along z; a cylinder when inner is 0", "A tube or a cylinder along z, in 3-D.",
-       describe_ring, index_of_shape<RingShape>(), true},
+       describe_ring, RingShape{}, true},
       {"polygon", 0, "simple, closed by itself; in 3-D extruded along z",
        "A polygon by its corners, closed by itself; in 3-D a map, extruded along z.", describe_polygon,
-       index_of_shape<PolygonShape>(), true},
+       PolygonShape{}, true},
       {"bitmap", 2,
        "2-D, an 8-bit grey PNG (beside it extent, origin, skip, materials): each grey level is a body "
        "NAME_LEVEL",
-       "A grey PNG with 8 bits, in 2-D: each grey level is a body NAME_LEVEL.", nullptr,
-       index_of_shape<BitmapShape>(), true},
+       "A grey PNG with 8 bits, in 2-D: each grey level is a body NAME_LEVEL.", nullptr, BitmapShape{}, true},
       {"stl", 3,
        "3-D, a closed surface: scale is the length of the file's unit; turned about its origin, then moved",
-       "A closed surface from a file, in 3-D.", describe_stl, index_of_shape<StlShape>(), true},
+       "A closed surface from a file, in 3-D.", describe_stl, StlShape{}, true},
   };
   return kKinds;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 namespace mpmfast {
@@ -28,59 +29,46 @@ std::string home_of(std::string_view key) {
 
 namespace {
 
-/// A word of other programs, or of everyday speech, for one of ours.
-struct Synonym {
-  std::string_view word, ours;
+/// One of our words, and what other programs or everyday speech have in its place.
+struct Synonyms {
+  std::string_view ours;
+  std::array<std::string_view, 4> others;
   std::string_view says = "";  ///< in place of "Did you mean …?"
 };
 
-constexpr Synonym kSynonyms[] = {
-    {"circle", "disk"},
-    {"cylinder", "tube"},
-    {"rectangle", "box"},
-    {"square", "box"},
-    {"cube", "box"},
-    {"block", "box"},
-    {"ball", "sphere"},
-    {"elastic", "linear_elastic"},
-    {"hyperelastic", "neo_hookean"},
-    {"plastic", "j2_plasticity"},
-    {"elastoplastic", "j2_plasticity"},
-    {"von_mises", "j2_plasticity"},
-    {"clamped", "fixed"},
-    {"sticky", "fixed"},
-    {"no_slip", "fixed"},
-    {"roller", "wall"},
-    {"slip", "wall"},
-    {"rigid", "wall"},
-    {"open", "free"},
-    {"periodic", "symmetry", "No face is periodic; 'symmetry' mirrors what is before it"},
-    {"mu", "friction"},
-    {"mu", "shear"},
-    {"g", "shear"},
-    {"k", "bulk"},
-    {"e", "young"},
-    {"nu", "poisson"},
-    {"rho", "density"},
-    {"dt", "cfl", "The step follows from the waves: 'cfl' is its share of the stable one"},
-    {"timestep", "cfl", "The step follows from the waves: 'cfl' is its share of the stable one"},
-    {"dx", "cell"},
-    {"h", "cell"},
-    {"spacing", "cell"},
-    {"t_end", "end"},
-    {"duration", "end"},
-    {"ppc", "particles_per_cell"},
-    {"v", "velocity"},
-    {"v0", "velocity"},
-    {"center", "centre"},
-    {"colour", "picture"},
-    {"color", "picture"},
+constexpr Synonyms kSynonyms[] = {
+    {"disk", {"circle"}},
+    {"tube", {"cylinder"}},
+    {"box", {"rectangle", "square", "cube", "block"}},
+    {"sphere", {"ball"}},
+    {"linear_elastic", {"elastic"}},
+    {"neo_hookean", {"hyperelastic"}},
+    {"j2_plasticity", {"plastic", "elastoplastic", "von_mises"}},
+    {"fixed", {"clamped", "sticky", "no_slip"}},
+    {"wall", {"roller", "slip", "rigid"}},
+    {"free", {"open"}},
+    {"symmetry", {"periodic"}, "No face is periodic; 'symmetry' mirrors what is before it"},
+    {"friction", {"mu"}},
+    {"shear", {"mu", "g"}},
+    {"bulk", {"k"}},
+    {"young", {"e"}},
+    {"poisson", {"nu"}},
+    {"density", {"rho"}},
+    {"cfl", {"dt", "timestep"}, "The step follows from the waves: 'cfl' is its share of the stable one"},
+    {"cell", {"dx", "h", "spacing"}},
+    {"end", {"t_end", "duration"}},
+    {"particles_per_cell", {"ppc"}},
+    {"velocity", {"v", "v0"}},
+    {"centre", {"center"}},
+    {"picture", {"colour", "color"}},
 };
 
 /// What a synonym stands for among the known words.
 std::string hint_of_synonym(std::string_view word, std::span<const std::string> known) {
-  for (const auto& [other, ours, says] : kSynonyms) {
-    if (lower_case(word) != other || std::find(known.begin(), known.end(), ours) == known.end()) continue;
+  const std::string small = lower_case(word);
+  for (const auto& [ours, others, says] : kSynonyms) {
+    const bool meant = !small.empty() && std::find(others.begin(), others.end(), small) != others.end();
+    if (!meant || std::find(known.begin(), known.end(), ours) == known.end()) continue;
     return says.empty() ? fmt::format("Did you mean '{}'?", ours) : std::string(says);
   }
   return "";
