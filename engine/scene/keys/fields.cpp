@@ -170,27 +170,15 @@ std::optional<std::size_t> Value::word_index(std::span<const std::string> known)
   return std::nullopt;
 }
 
-bool Value::increasing(const std::vector<double>& times) const {
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    if (times[k] > times[k - 1]) continue;
-    report(fmt::format("times must increase, but {} s follows {} s", times[k], times[k - 1]));
-    return false;
-  }
-  return true;
-}
-
-std::optional<TimeTable> Value::table_of_columns(Measure kind) const {
+bool Value::read_columns(Measure kind, TimeTable& table) const {
   MapReader map(*this);
-  TimeTable table;
   bool good = true;
   const auto read_column = [&](const char* key, Measure column_kind, std::vector<double>& out) {
     const auto column = map.need(key, "a list");
-    if (!column || !column->is_list(1)) {
-      if (column) column->complain("not a list of one or more");
-      good = false;
-      return;
-    }
-    for (std::size_t k = 0; k < column->size(); ++k) {
+    const bool list = column && column->is_list(1);
+    if (column && !list) column->complain("not a list of one or more");
+    good = good && list;
+    for (std::size_t k = 0; list && k < column->size(); ++k) {
       const auto entry = column->item(k).quantity(column_kind);
       good = good && entry;
       out.push_back(entry.value_or(0));
@@ -199,17 +187,14 @@ std::optional<TimeTable> Value::table_of_columns(Measure kind) const {
   read_column("times", Measure::time, table.time);
   read_column("values", kind, table.value);
   map.finish();
-  if (!good) return std::nullopt;
-  if (table.time.size() != table.value.size()) {
+  if (good && table.time.size() != table.value.size()) {
     report(fmt::format("{} times but {} values", table.time.size(), table.value.size()));
-    return std::nullopt;
+    return false;
   }
-  if (!increasing(table.time)) return std::nullopt;
-  return table;
+  return good;
 }
 
-std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
-  TimeTable table;
+bool Value::read_pairs(Measure kind, TimeTable& table) const {
   bool good = size() > 0;
   if (!good) complain("not a table (one or more pairs [time, value])");
   for (std::size_t k = 0; k < size(); ++k) {
@@ -225,16 +210,22 @@ std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
     table.time.push_back(time.value_or(0));
     table.value.push_back(value.value_or(0));
   }
-  if (!good || !increasing(table.time)) return std::nullopt;
-  return table;
+  return good;
 }
 
 std::optional<TimeTable> Value::table(Measure kind) const {
-  if (is(Node::Kind::map)) return table_of_columns(kind);
-  if (is(Node::Kind::list)) return table_of_pairs(kind);
-  const auto constant = quantity(kind);
-  if (!constant) return std::nullopt;
-  return TimeTable{{0}, {*constant}};
+  if (!is(Node::Kind::map) && !is(Node::Kind::list)) {
+    const auto constant = quantity(kind);
+    return constant ? std::optional(TimeTable{{0}, {*constant}}) : std::nullopt;
+  }
+  TimeTable table;
+  if (!(is(Node::Kind::map) ? read_columns(kind, table) : read_pairs(kind, table))) return std::nullopt;
+  for (std::size_t k = 1; k < table.time.size(); ++k) {
+    if (table.time[k] > table.time[k - 1]) continue;
+    report(fmt::format("times must increase, but {} s follows {} s", table.time[k], table.time[k - 1]));
+    return std::nullopt;
+  }
+  return table;
 }
 
 MapReader::MapReader(const Value& value, const std::string& expected)

@@ -81,9 +81,8 @@ class Value {
   std::optional<std::size_t> reference(std::span<const std::string> known) const;
 
  private:
-  bool increasing(const std::vector<double>& times) const;
-  std::optional<TimeTable> table_of_columns(Measure kind) const;
-  std::optional<TimeTable> table_of_pairs(Measure kind) const;
+  bool read_columns(Measure kind, TimeTable& table) const;
+  bool read_pairs(Measure kind, TimeTable& table) const;
 
   const Node* node_;
   std::string path_;

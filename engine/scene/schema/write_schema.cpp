@@ -173,10 +173,9 @@ class SchemaWriter {
     const std::string inner = map + "<" + condition + ">";
     const bool absent = condition[0] == '!';
     const std::size_t equals = condition.find('=');
-    const std::string key = condition.substr(absent, equals - (absent && equals != std::string::npos));
-    Json test = required({equals == std::string::npos ? key : condition.substr(0, equals)});
-    if (equals != std::string::npos)
-      test["properties"][condition.substr(0, equals)] = {{"const", condition.substr(equals + 1)}};
+    const std::string key = condition.substr(absent ? 1 : 0, equals);
+    Json test = required({key});
+    if (equals != std::string::npos) test["properties"][key] = {{"const", condition.substr(equals + 1)}};
     Json then, otherwise;
     if (known_at(inner).closed) {
       then = object(inner);

@@ -2,8 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "engine/geometry/shapes.hpp"
@@ -12,13 +10,6 @@
 namespace mpmfast {
 
 namespace {
-
-/// What one entry of `bodies` says: one body, or one for each grey level of a bitmap.
-struct BodyEntry {
-  BodySpec body;
-  BitmapEntry bitmap;
-  bool shaped = false, made = false;  ///< has it a good shape, and a material?
-};
 
 /// A body has one of them.
 KeyGroups shape_keys() {
@@ -212,63 +203,6 @@ void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
     if (has_own) body.material = own->second;
     if (has_own ? own->second >= 0 : entry.made) add(body, place, scene, places);
   }
-}
-
-/// The extent that, added to `lower`, rounds to `upper` again.
-double extent_between(double lower, double upper) {
-  const double extent = upper - lower;
-  double more = extent, less = extent;
-  for (int tries = 0; tries < 8; ++tries) {
-    if (lower + more == upper) return more;
-    if (lower + less == upper) return less;
-    more = std::nextafter(more, kInfinity);
-    less = std::nextafter(less, 0.0);
-  }
-  return extent;
-}
-
-/// The entry of the bodies first … last − 1, the grey levels of one bitmap.
-BodyEntry bitmap_entry(const Scene& scene, std::size_t first, std::size_t last) {
-  BodyEntry entry;
-  entry.body = scene.bodies[first];
-  BodySpec& body = entry.body;
-  entry.bitmap.shape = std::get<BitmapShape>(body.shape);
-  const BitmapShape& shape = entry.bitmap.shape;
-  const std::string suffix = fmt::format("_{}", shape.grey);
-  const auto own = [&](const BodySpec& level) { return level.field == level.name; };
-  const auto at = [&](std::size_t b) { return scene.bodies.begin() + static_cast<std::ptrdiff_t>(b); };
-  if (std::all_of(at(first), at(last), own)) body.field.clear();
-  body.name.erase(body.name.size() - suffix.size());
-  entry.bitmap.extent = {extent_between(shape.lower[0], shape.upper[0]),
-                         extent_between(shape.lower[1], shape.upper[1]), 0};
-  std::array<bool, 256> skipped = shape.image->levels();
-  for (std::size_t b = first; b < last; ++b) {
-    const int grey = std::get<BitmapShape>(scene.bodies[b].shape).grey;
-    skipped[static_cast<std::size_t>(grey)] = false;
-    entry.bitmap.materials.emplace_back(std::to_string(grey), scene.bodies[b].material);
-  }
-  for (int grey = 0; grey < 256; ++grey)
-    if (skipped[static_cast<std::size_t>(grey)]) entry.bitmap.skip.push_back(grey);
-  return entry;
-}
-
-/// The bodies as the entries that they came from.
-std::vector<BodyEntry> entries_of(const Scene& scene) {
-  std::vector<BodyEntry> out;
-  for (std::size_t first = 0, last = 0; first < scene.bodies.size(); first = last) {
-    const auto* bitmap = std::get_if<BitmapShape>(&scene.bodies[first].shape);
-    last = first + 1;
-    if (!bitmap) {
-      out.push_back({scene.bodies[first], {}, true, true});
-      continue;
-    }
-    for (; last < scene.bodies.size(); ++last) {
-      const auto* next = std::get_if<BitmapShape>(&scene.bodies[last].shape);
-      if (!next || next->image != bitmap->image) break;
-    }
-    out.push_back(bitmap_entry(scene, first, last));
-  }
-  return out;
 }
 
 /// For those who name the bodies by keys, or forgot the dashes.

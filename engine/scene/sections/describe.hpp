@@ -47,6 +47,8 @@ void describe_boundaries(Keys& top, bool grid_known, Scene& scene);
 
 /// A direction: x, +x, -x, left, up, out … or (when `any`) a vector, made a unit vector.
 void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction);
+/// A vector, made a unit vector where it is read.
+void take_unit_vector(Slot& slot, int dimension, Vec3& direction);
 /// {from, to}: the corners of a box along the axes.
 void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper);
 /// A path as written; made absolute from the folder of the scene where it is read.
@@ -90,6 +92,15 @@ struct BitmapEntry {
   std::vector<int> levels;                             ///< that are read and not skipped
   std::vector<std::pair<std::string, int>> materials;  ///< grey level, index of its material; −1: unknown
 };
+/// What one entry of `bodies` says: one body, or one for each grey level of a bitmap.
+struct BodyEntry {
+  BodySpec body;
+  BitmapEntry bitmap;
+  bool shaped = false, made = false;  ///< has it a good shape, and a material?
+};
+
+/// The bodies as the entries that they came from.
+std::vector<BodyEntry> entries_of(const Scene& scene);
 /// `bitmap` itself, and what stands beside it.
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry);
 void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,

@@ -13,11 +13,10 @@ namespace {
 
 constexpr const char* kMiddle = "Its middle.";
 
-/// What `shape` holds, or what a shape of this kind begins with.
+/// `shape` as one of this kind, which it becomes where it is another.
 template <class S>
-S held(const Shape& shape) {
-  const S* found = std::get_if<S>(&shape);
-  return found ? *found : S{};
+S& as(Shape& shape) {
+  return std::holds_alternative<S>(shape) ? std::get<S>(shape) : shape.emplace<S>();
 }
 
 Vector lengths(const Scene& scene, const Limit& limit = kAny) {
@@ -37,38 +36,35 @@ void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper) {
 namespace {
 
 void describe_box(Slot& slot, Shape& shape, const Scene& scene) {
-  auto box = held<BoxShape>(shape);
+  auto& box = as<BoxShape>(shape);
   describe_corners(slot, scene.dimension(), box.lower, box.upper);
   for (std::size_t k = 0; slot.reads() && slot.good() && k < static_cast<std::size_t>(scene.dimension()); ++k)
     if (box.lower[k] >= box.upper[k])
       slot.report(fmt::format("'to' must lie above 'from' in {}, but {} m is not above {} m", "xyz"[k],
                               box.upper[k], box.lower[k]));
-  shape = box;
 }
 
 void describe_round(Slot& slot, Shape& shape, const Scene& scene) {
-  auto round = held<EllipsoidShape>(shape);
+  auto& round = as<EllipsoidShape>(shape);
   slot.map("a map {centre, radius}", [&](Keys& map) {
     map.need("centre", kMiddle, round.centre, lengths(scene));
     map.need("radius", "Its radius.", round.radii[0], Number{Measure::length, kPositive});
   });
   round.radii = {round.radii[0], round.radii[0], scene.dimension() == 3 ? round.radii[0] : 0.0};
-  shape = round;
 }
 
 void describe_ellipsoid(Slot& slot, Shape& shape, const Scene& scene) {
-  auto round = held<EllipsoidShape>(shape);
+  auto& round = as<EllipsoidShape>(shape);
   slot.map("a map {centre, radii, angle}", [&](Keys& map) {
     map.need("centre", kMiddle, round.centre, lengths(scene));
     map.need("radii", "Its radii along the axes, before it is turned.", round.radii,
              lengths(scene, kPositive));
     map.key("angle", "Turns it about z.", round.angle, Number{Measure::angle});
   });
-  shape = round;
 }
 
 void describe_ring(Slot& slot, Shape& shape, const Scene& scene) {
-  auto ring = held<RingShape>(shape);
+  auto& ring = as<RingShape>(shape);
   const bool tube = scene.dimension() == 3;
   slot.map(tube ? "a map {centre, inner, outer, length}" : "a map {centre, inner, outer}", [&](Keys& map) {
     map.need("centre", kMiddle, ring.centre, lengths(scene));
@@ -81,7 +77,6 @@ void describe_ring(Slot& slot, Shape& shape, const Scene& scene) {
   if (slot.reads() && slot.good() && ring.inner >= ring.outer)
     slot.report(fmt::format("the inner radius must be smaller than the outer, but {} m is not below {} m",
                             ring.inner, ring.outer));
-  shape = ring;
 }
 
 void describe_points(Slot& slot, std::vector<std::array<double, 2>>& points) {
@@ -106,11 +101,10 @@ void describe_heights(Slot& slot, PolygonShape& polygon) {
 }
 
 void describe_polygon(Slot& slot, Shape& shape, const Scene& scene) {
-  auto polygon = held<PolygonShape>(shape);
+  auto& polygon = as<PolygonShape>(shape);
   const bool prism = scene.dimension() == 3;
   if (!prism && (slot.tells() || (slot.reads() && slot.value()->is(Node::Kind::list)))) {
     describe_points(slot, polygon.points);
-    shape = polygon;
     if (!slot.tells()) return;
   }
   slot.map(prism ? "a map {points, z: [lower, upper]}" : "a list of points or a map {points}",
@@ -122,7 +116,6 @@ void describe_polygon(Slot& slot, Shape& shape, const Scene& scene) {
                            [&](Slot& ends) { describe_heights(ends, polygon); });
              });
            });
-  shape = polygon;
 }
 
 /// The surface of a file that was read, where it lies in the scene.
@@ -136,7 +129,7 @@ void place_surface(Slot& slot, StlShape& shape, const Surface& surface) {
 }
 
 void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
-  auto stl = held<StlShape>(shape);
+  auto& stl = as<StlShape>(shape);
   std::shared_ptr<const Surface> surface;
   slot.map("a map {file, scale, angle, axis, translate}", [&](Keys& map) {
     map.need_at("file", "Path, counted from the folder of the scene.", "an STL file, text or binary",
@@ -157,7 +150,6 @@ void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
     map.key("translate", "Moves it, after it is turned.", stl.translate, Vector{Measure::length, 3});
   });
   if (slot.reads() && slot.good()) place_surface(slot, stl, *surface);
-  shape = stl;
 }
 
 }  // namespace
