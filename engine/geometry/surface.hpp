@@ -3,7 +3,6 @@
 /// @file A closed surface of triangles, and where lines along x pass through it.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>

@@ -1,7 +1,5 @@
 #include "engine/scene/catalogue.hpp"
 
-#include <utility>
-
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/sections/describe.hpp"
 

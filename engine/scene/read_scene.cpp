@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "engine/errors.hpp"
 #include "engine/scene/sections/describe.hpp"

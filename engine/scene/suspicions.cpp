@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <ranges>
 #include <set>
 
@@ -162,9 +161,9 @@ class Suspicions {
 
   /// The least extent; infinite where it is not known.
   double thickness(const BodySpec& body) const {
-    if (std::holds_alternative<BitmapShape>(body.shape)) return std::numeric_limits<double>::infinity();
+    if (std::holds_alternative<BitmapShape>(body.shape)) return kInfinity;
     const Bounds box = bounds(body.shape);
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < static_cast<std::size_t>(scene_.dimension()); ++k)
       if (!at_wall(box, k)) least = std::min(least, box.upper[k] - box.lower[k]);
     if (const auto* ring = std::get_if<RingShape>(&body.shape))
@@ -173,7 +172,7 @@ class Suspicions {
   }
 
   void times() {
-    double crossing = std::numeric_limits<double>::infinity(), fastest = 0;
+    double crossing = kInfinity, fastest = 0;
     for (const BodySpec& body : scene_.bodies) {
       const double speed = speed_[static_cast<std::size_t>(body.material)];
       if (speed == 0) continue;

@@ -2,7 +2,6 @@
 
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "engine/quantities/quantity.hpp"

@@ -1,7 +1,6 @@
 #include "engine/scene/keys/keys.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,3 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {

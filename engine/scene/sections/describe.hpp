@@ -3,8 +3,6 @@
 /// @file The sections of a scene: each is described once, and read, written and told of by its description
 /// (keys.hpp). What follows from several sections is checked after they are read.
 
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
