@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/conditions/wall_row.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/quantities/time_table.hpp"
 
 namespace mpmfast {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/time_table.hpp"
 
 namespace mpmfast {
 

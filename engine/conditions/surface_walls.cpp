@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/conditions/wall_row.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/quantities/time_table.hpp"
 
 namespace mpmfast {
 

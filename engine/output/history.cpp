@@ -8,7 +8,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/quantities/time_table.hpp"
 
 namespace mpmfast {
 namespace {

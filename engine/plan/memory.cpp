@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"

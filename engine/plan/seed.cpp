@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry/shapes.hpp"
 #include "engine/plan/materials.hpp"
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/quantities/time_table.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 
 namespace mpmfast {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <variant>
 
+#include "engine/geometry/shapes.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/output/shown_units.hpp"
-#include "engine/scene/geometry/geometry.hpp"
 
 namespace mpmfast {
 

@@ -1,7 +1,5 @@
 #include "engine/scene/catalogue.hpp"
 
-#include <utility>
-
 #include "engine/scene/keys/basis_names.hpp"
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/sections/describe.hpp"
@@ -52,6 +50,12 @@ std::vector<CatalogueEntry> seedings() {
   return out;
 }
 
+std::vector<CatalogueEntry> pictures() {
+  std::vector<CatalogueEntry> out;
+  for (const char* picture : kPictures) out.push_back({picture, "", ""});
+  return out;
+}
+
 std::vector<CatalogueEntry> keys_of(const std::string& map) {
   std::vector<CatalogueEntry> out;
   for (const KnownKey& key : all_keys(map)) {
@@ -62,38 +66,40 @@ std::vector<CatalogueEntry> keys_of(const std::string& map) {
   return out;
 }
 
+struct Topic {
+  const char* name;
+  std::vector<CatalogueEntry> (*entries)();
+};
+constexpr Topic kTopics[] = {
+    {"spaces", [] { return words_of(kSpaces); }},
+    {"materials", [] { return kinds_of(material_kinds(), "materials.NAME<model=", ">"); }},
+    {"bases", [] { return words_of(kBases); }},
+    {"updates", [] { return words_of(kUpdates); }},
+    {"strains", [] { return words_of(kStrains); }},
+    {"deformation_terms", [] { return words_of(kDeformationTerms); }},
+    {"positions", [] { return words_of(kPositions); }},
+    {"normals", [] { return words_of(kNormals); }},
+    {"separations", [] { return words_of(kSeparations); }},
+    {"detections", [] { return words_of(kDetections); }},
+    {"laws", laws},
+    {"areas", [] { return words_of(kAreas); }},
+    {"fields", [] { return words_of(kManyFields); }},
+    {"shapes", [] { return kinds_of(shape_kinds(), "bodies[]."); }},
+    {"seedings", seedings},
+    {"boundaries", boundaries},
+    {"leaving", [] { return words_of(kLeaving); }},
+    {"output", [] { return keys_of("output"); }},
+    {"pictures", pictures},
+};
+
 }  // namespace
 
-std::vector<std::string> catalogue_topics() {
-  return {"spaces",    "materials", "bases",       "updates",    "strains", "deformation_terms",
-          "positions", "normals",   "separations", "detections", "laws",    "areas",
-          "fields",    "shapes",    "seedings",    "boundaries", "leaving", "output",
-          "pictures"};
-}
+std::vector<std::string> catalogue_topics() { return names_of(kTopics); }
 
-std::vector<CatalogueEntry> catalogue(const std::string& topic) {
-  if (topic == "spaces") return words_of(kSpaces);
-  if (topic == "materials") return kinds_of(material_kinds(), "materials.NAME<model=", ">");
-  if (topic == "bases") return words_of(kBases);
-  if (topic == "updates") return words_of(kUpdates);
-  if (topic == "strains") return words_of(kStrains);
-  if (topic == "deformation_terms") return words_of(kDeformationTerms);
-  if (topic == "positions") return words_of(kPositions);
-  if (topic == "normals") return words_of(kNormals);
-  if (topic == "separations") return words_of(kSeparations);
-  if (topic == "detections") return words_of(kDetections);
-  if (topic == "laws") return laws();
-  if (topic == "areas") return words_of(kAreas);
-  if (topic == "fields") return words_of(kManyFields);
-  if (topic == "shapes") return kinds_of(shape_kinds(), "bodies[].");
-  if (topic == "seedings") return seedings();
-  if (topic == "boundaries") return boundaries();
-  if (topic == "leaving") return words_of(kLeaving);
-  if (topic == "output") return keys_of("output");
-  std::vector<CatalogueEntry> out;
-  if (topic != "pictures") return out;
-  for (const char* picture : kPictures) out.push_back({picture, "", ""});
-  return out;
+std::vector<CatalogueEntry> catalogue(const std::string& name) {
+  for (const Topic& topic : kTopics)
+    if (topic.name == name) return topic.entries();
+  return {};
 }
 
 }  // namespace mpmfast

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "engine/errors.hpp"
 #include "engine/scene/sections/describe.hpp"
@@ -73,13 +72,16 @@ std::optional<Node> read_tree(const std::string& text, const std::filesystem::pa
   return root;
 }
 
-void read_sections(const Node& root, Scene& scene, Problems& problems) {
+/// @return the places of the bodies
+std::vector<BodyPlace> read_sections(const Node& root, Scene& scene, Problems& problems) {
   Keys top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
-  if (!top.reader().valid()) return;
-  if (index_of(root, "scene") >= 0 && index_of(root, "bodies") < 0)
-    return top.report("this is a study, not a scene", "Run it with 'mpmfast study'");
+  if (!top.reader().valid()) return {};
+  if (find_value(root, "scene") && !find_value(root, "bodies")) {
+    top.report("this is a study, not a scene", "Run it with 'mpmfast study'");
+    return {};
+  }
   scene.title = scene.file.stem().string();
-  describe_scene(top, scene);
+  return describe_scene(top, scene);
 }
 
 }  // namespace
@@ -97,10 +99,10 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file,
   Scene scene;
   scene.file = file;
   const auto root = read_tree(text, file, overrides, problems);
-  if (root) read_sections(*root, scene, problems);
+  const auto places = root ? read_sections(*root, scene, problems) : std::vector<BodyPlace>();
   if (!problems.empty()) throw SceneError(problems.sorted());
   if (warnings) {
-    find_suspicions(*root, scene, problems);
+    find_suspicions(*root, scene, places, problems);
     *warnings = problems.sorted();
   }
   scene.resolved_yaml = write_scene(scene);

@@ -7,19 +7,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "engine/geometry/fill.hpp"
+#include "engine/quantities/time_table.hpp"
 #include "kernels/basis/bases.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/materials/laws.hpp"
 
 namespace mpmfast {
-
-using Vec3 = std::array<double, 3>;
 
 enum class Space { plane_strain, plane_stress, axisymmetric, three_dimensional };
 enum class UpdateKind { flip, pic, xpic, fmpm, apic };
@@ -64,12 +63,6 @@ enum class ManyFields { lump, pairs, simultaneous };
 /// walls let none come there.
 enum class LeavingKind { stop, outflow, wall };
 
-/// A quantity tabulated in time: linear between the points, constant before the first and after the last.
-struct TimeTable {
-  std::vector<double> time;   ///< s, strictly increasing, at least one entry
-  std::vector<double> value;  ///< as many entries as `time`
-};
-
 struct GridSpec {
   Vec3 origin{0, 0, 0};  ///< m, lower corner of the domain that particles may occupy; a node lies there
   Vec3 size{0, 0, 0};    ///< m
@@ -107,46 +100,6 @@ struct MaterialSpec {
   MaterialModel model;
 };
 
-struct BoxShape {
-  Vec3 lower{}, upper{};
-};
-/// Disk, sphere, ellipse, ellipsoid: radii along the axes, turned by `angle` about z.
-struct EllipsoidShape {
-  Vec3 centre{}, radii{};
-  double angle = 0;  ///< rad
-};
-/// Ring (2-D) or tube along z (3-D, between the z values of lower and upper).
-struct RingShape {
-  Vec3 centre{};
-  double inner = 0, outer = 0;  ///< m
-  double half_length = 0;       ///< m, along z, 3-D only
-};
-/// Simple closed polygon in the xy plane; in 3-D extruded from z_lower to z_upper.
-struct PolygonShape {
-  std::vector<std::array<double, 2>> points;  ///< m
-  double z_lower = 0, z_upper = 0;
-};
-/// The pixels of one grey level of an image stretched over a rectangle (2-D).
-struct BitmapShape {
-  std::filesystem::path file;
-  Vec3 lower{}, upper{};  ///< m
-  int grey = 0;           ///< the level that belongs to this body
-  std::shared_ptr<const struct GreyImage> image;
-};
-
-/// The inside of a closed surface from an STL file: scaled, turned about an axis through the file's origin,
-/// moved (3-D).
-struct StlShape {
-  std::filesystem::path file;
-  double scale = 1;                              ///< m, a length of 1 in the file
-  Vec3 axis{0, 0, 1};                            ///< unit
-  double angle = 0;                              ///< rad, right-handed about the axis
-  Vec3 translate{};                              ///< m
-  std::shared_ptr<const class Surface> surface;  ///< where it lies in the scene
-};
-
-using Shape = std::variant<BoxShape, EllipsoidShape, RingShape, PolygonShape, BitmapShape, StlShape>;
-
 /// About an axis through a point that moves with the body's velocity; the speed of a deformable body is that
 /// at the start.
 struct RotationSpec {
@@ -155,21 +108,13 @@ struct RotationSpec {
   TimeTable speed;     ///< rad/s, right-handed about the axis
 };
 
-/// How the particles of a body lie: on a lattice along the axes, on one turned about z, or on rings.
-struct SeedingSpec {
-  bool rings = false;
-  double angle = 0;  ///< rad, of the lattice
-
-  bool turned() const { return rings || angle != 0; }
-};
-
 struct BodySpec {
   std::string name;
   Shape shape;
   int material = 0;   ///< index into Scene::materials
   std::string field;  ///< bodies with the same name here share a velocity field; default: own name
   std::array<int, 3> particles_per_cell{2, 2, 2};  ///< per cell side
-  SeedingSpec seeding;
+  Seeding seeding;
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
   std::optional<RotationSpec> rotation;
@@ -310,6 +255,12 @@ inline double density_of(const MaterialSpec& material) {
 /// Is the body made of a rigid material?
 inline bool is_rigid(const Scene& scene, const BodySpec& body) {
   return std::holds_alternative<Rigid>(scene.materials[static_cast<std::size_t>(body.material)].model);
+}
+
+/// The particles that fill a body.
+inline Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension) {
+  const CellLattice lattice{grid.origin, grid.size, grid.cell, body.particles_per_cell};
+  return fill(body.shape, body.seeding, lattice, dimension);
 }
 
 }  // namespace mpmfast

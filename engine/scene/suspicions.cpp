@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
+#include <ranges>
 #include <set>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {
@@ -22,8 +22,8 @@ double wave_speed(const MaterialSpec& material) {
 /// What makes a reader of the scene raise an eyebrow: unit mistakes above all.
 class Suspicions {
  public:
-  Suspicions(const Node& root, const Scene& scene, Problems& found)
-      : root_(root), scene_(scene), found_(found) {
+  Suspicions(const Node& root, const Scene& scene, const std::vector<BodyPlace>& places, Problems& found)
+      : root_(root), scene_(scene), places_(places), found_(found) {
     for (const MaterialSpec& material : scene.materials) speed_.push_back(wave_speed(material));
   }
 
@@ -50,19 +50,14 @@ class Suspicions {
   /// What stands at a path, or at as much of it as the scene states.
   const Node& node_at(const std::string& path) const {
     const Node* node = &root_;
-    for (std::size_t at = 0; at <= path.size();) {
-      const std::size_t end = std::min(path.find('.', at), path.size());
-      const std::string part = path.substr(at, end - at);
-      const int key = index_of(*node, part);
-      if (key >= 0) {
-        node = &node->items[static_cast<std::size_t>(key)];
-      } else if (node->kind == Node::Kind::list && !part.empty() &&
-                 std::isdigit(static_cast<unsigned char>(part[0])) && std::stoul(part) < node->items.size()) {
-        node = &node->items[std::stoul(part)];
-      } else {
-        break;
-      }
-      at = end + 1;
+    for (const auto part : std::views::split(path, '.')) {
+      const std::string key(part.begin(), part.end());
+      const Node* inner = find_value(*node, key);
+      if (node->kind == Node::Kind::list && !key.empty() &&
+          std::isdigit(static_cast<unsigned char>(key[0])) && std::stoul(key) < node->items.size())
+        inner = &node->items[std::stoul(key)];
+      if (!inner) break;
+      node = inner;
     }
     return *node;
   }
@@ -131,46 +126,25 @@ class Suspicions {
     return "";
   }
 
-  /// The entry of the list that each body comes from; those of a bitmap share one.
-  std::vector<std::string> body_paths() const {
-    std::vector<std::string> out;
-    const int index = index_of(root_, "bodies");
-    if (index < 0) return out;
-    const Node& list = root_.items[static_cast<std::size_t>(index)];
-    for (std::size_t k = 0; k < list.items.size() && out.size() < scene_.bodies.size(); ++k) {
-      const std::string path = fmt::format("bodies.{}", k);
-      const bool bitmap = index_of(list.items[k], "bitmap") >= 0;
-      const int name = index_of(list.items[k], "name");
-      const std::string stem = name < 0 ? fmt::format("body{}", k + 1)
-                                        : list.items[k].items[static_cast<std::size_t>(name)].scalar;
-      do {
-        out.push_back(path);
-      } while (bitmap && out.size() < scene_.bodies.size() &&
-               scene_.bodies[out.size()].name.rfind(stem + "_", 0) == 0);
-    }
-    out.resize(scene_.bodies.size(), "bodies");
-    return out;
-  }
-
   void bodies() {
-    const std::vector<std::string> paths = body_paths();
     for (std::size_t b = 0; b < scene_.bodies.size(); ++b) {
       const BodySpec& body = scene_.bodies[b];
       const double speed = speed_[static_cast<std::size_t>(body.material)];
       if (speed == 0) continue;
+      const std::string& path = places_[b].entry.path();
       const double moves = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
       if (moves > speed)
-        say(paths[b] + ".velocity",
+        say(path + ".velocity",
             fmt::format("body '{}' flies at {:.4g} m/s, faster than waves in it ({:.4g} m/s)", body.name,
                         moves, speed));
       if (const double cells = thickness(body) / scene_.grid.cell; cells < kFewestCells * (1 - 1e-9))
-        say(paths[b],
+        say(path,
             fmt::format("body '{}' is only {:.2g} cells thick, which the grid hardly sees", body.name, cells),
             "Smaller cells");
       const auto fewest = std::min_element(body.particles_per_cell.begin(),
                                            body.particles_per_cell.begin() + scene_.dimension());
       if (*fewest < 2)
-        say(paths[b] + ".particles_per_cell",
+        say(path + ".particles_per_cell",
             fmt::format("body '{}' has one particle along a cell's side: holes open early (2 is usual)",
                         body.name));
     }
@@ -187,9 +161,9 @@ class Suspicions {
 
   /// The least extent; infinite where it is not known.
   double thickness(const BodySpec& body) const {
-    if (std::holds_alternative<BitmapShape>(body.shape)) return std::numeric_limits<double>::infinity();
+    if (std::holds_alternative<BitmapShape>(body.shape)) return kInfinity;
     const Bounds box = bounds(body.shape);
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinity;
     for (std::size_t k = 0; k < static_cast<std::size_t>(scene_.dimension()); ++k)
       if (!at_wall(box, k)) least = std::min(least, box.upper[k] - box.lower[k]);
     if (const auto* ring = std::get_if<RingShape>(&body.shape))
@@ -198,7 +172,7 @@ class Suspicions {
   }
 
   void times() {
-    double crossing = std::numeric_limits<double>::infinity(), fastest = 0;
+    double crossing = kInfinity, fastest = 0;
     for (const BodySpec& body : scene_.bodies) {
       const double speed = speed_[static_cast<std::size_t>(body.material)];
       if (speed == 0) continue;
@@ -249,6 +223,7 @@ class Suspicions {
 
   const Node& root_;
   const Scene& scene_;
+  const std::vector<BodyPlace>& places_;
   Problems& found_;
   std::vector<double> speed_;  ///< of waves in each material
   bool doubtful_ = false;      ///< these speeds
@@ -256,8 +231,9 @@ class Suspicions {
 
 }  // namespace
 
-void find_suspicions(const Node& root, const Scene& scene, Problems& found) {
-  Suspicions(root, scene, found).all();
+void find_suspicions(const Node& root, const Scene& scene, const std::vector<BodyPlace>& places,
+                     Problems& found) {
+  Suspicions(root, scene, places, found).all();
   find_suspicious_text(root, found);
 }
 

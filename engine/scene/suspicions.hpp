@@ -2,13 +2,13 @@
 
 /// @file What a good scene says that is likely a mistake: warnings.
 
-#include "engine/scene/scene.hpp"
-#include "engine/scene/text/problems.hpp"
-#include "engine/scene/text/tree.hpp"
+#include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
-void find_suspicions(const Node& root, const Scene& scene, Problems& found);
+/// @param places  of the scene's bodies
+void find_suspicions(const Node& root, const Scene& scene, const std::vector<BodyPlace>& places,
+                     Problems& found);
 /// Warns of a grid of which nearly all lies where nothing comes: its cells take memory and time.
 /// @param place  of its size
 void find_idle_cells(const Place& place, const Scene& scene, Problems& found);

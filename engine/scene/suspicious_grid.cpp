@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/quantity.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/quantity.hpp"
+#include "engine/quantities/time_table.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {

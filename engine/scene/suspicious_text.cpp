@@ -2,10 +2,9 @@
 
 #include <cctype>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
 
 namespace mpmfast {
@@ -31,36 +30,27 @@ std::string degrees_within(const std::string& expression, const std::string& fun
   return "";
 }
 
-/// Values as they were written, with the path to each.
-class Reader {
- public:
-  explicit Reader(Problems& found) : found_(found) {}
-
-  void walk(const Node& node, const std::string& path, const std::string& key) {
-    for (std::size_t k = 0; k < node.items.size(); ++k) {
-      const bool map = node.kind == Node::Kind::map;
-      const std::string part = map ? node.keys[k].text : std::to_string(k);
-      walk(node.items[k], join(path, part), part);
-    }
-    if (node.kind != Node::Kind::scalar) return;
-    for (const char* function : {"sin", "cos", "tan"}) {
-      const std::string degrees = degrees_within(node.written, function);
-      if (!degrees.empty())
-        found_.add(node.place, path, fmt::format("a bare number is in radians in {}({})", function, degrees),
-                   fmt::format("Did you mean {}({} deg)?", function, degrees));
-    }
-    const auto bare = key == "angle" ? parse_number(node.scalar) : std::nullopt;
-    if (bare && std::abs(*bare) > kTurn)
-      found_.add(node.place, path, fmt::format("a bare number is in radians: {:g} turns", *bare / kTurn),
-                 fmt::format("Did you mean {} deg?", node.scalar));
+/// Looks at all values as they were written.
+void walk(const Node& node, const std::string& path, const std::string& key, Problems& found) {
+  for (std::size_t k = 0; k < node.items.size(); ++k) {
+    const std::string part = node.kind == Node::Kind::map ? node.keys[k].text : std::to_string(k);
+    walk(node.items[k], join(path, part), part, found);
   }
-
- private:
-  Problems& found_;
-};
+  if (node.kind != Node::Kind::scalar) return;
+  for (const char* function : {"sin", "cos", "tan"}) {
+    const std::string degrees = degrees_within(node.written, function);
+    if (!degrees.empty())
+      found.add(node.place, path, fmt::format("a bare number is in radians in {}({})", function, degrees),
+                fmt::format("Did you mean {}({} deg)?", function, degrees));
+  }
+  const auto bare = key == "angle" ? parse_number(node.scalar) : std::nullopt;
+  if (bare && std::abs(*bare) > kTurn)
+    found.add(node.place, path, fmt::format("a bare number is in radians: {:g} turns", *bare / kTurn),
+              fmt::format("Did you mean {} deg?", node.scalar));
+}
 
 }  // namespace
 
-void find_suspicious_text(const Node& root, Problems& found) { Reader(found).walk(root, "", ""); }
+void find_suspicious_text(const Node& root, Problems& found) { walk(root, "", "", found); }
 
 }  // namespace mpmfast

@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/geometry/load.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/load.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/geometry/surface.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "tests/source_folder.hpp"
 

@@ -4,20 +4,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/fill.hpp"
 
 using namespace mpmfast;
 
 namespace {
 
-constexpr GridSpec kGrid{{0, 0, 0}, {1, 1, 1}, 0.02};
-
-BodySpec body_of(Shape shape, std::array<int, 3> particles = {2, 2, 2}) {
-  BodySpec body;
-  body.shape = std::move(shape);
-  body.particles_per_cell = particles;
-  return body;
-}
+constexpr CellLattice kGrid{{0, 0, 0}, {1, 1, 1}, 0.02};
+constexpr Seeding kAlong;  // the axes
 
 /// What the particles' domains cover together.
 double measure(const Seeds& seeds, int dimension) {
@@ -47,7 +41,8 @@ std::shared_ptr<GreyImage> stripes(int width, int height, int levels) {
 TEST_CASE("a box is filled exactly, whatever its place and size") {
   for (const Vec3& upper : {Vec3{0.313, 0.5, 0.77}, Vec3{0.105, 0.9, 0.11}, Vec3{0.1001, 0.1001, 0.1001}}) {
     const BoxShape box{{0.1, 0.07, 0.09}, upper};
-    const Seeds flat = fill(body_of(box), kGrid, 2), solid = fill(body_of(box, {1, 2, 3}), kGrid, 3);
+    const Seeds flat = fill(box, kAlong, kGrid, 2),
+                solid = fill(box, kAlong, {{0, 0, 0}, {1, 1, 1}, 0.02, {1, 2, 3}}, 3);
     const double area = (upper[0] - 0.1) * (upper[1] - 0.07);
     CHECK(measure(flat, 2) == doctest::Approx(area).epsilon(1e-13));
     CHECK(measure(solid, 3) == doctest::Approx(area * (upper[2] - 0.09)).epsilon(1e-13));
@@ -57,7 +52,8 @@ TEST_CASE("a box is filled exactly, whatever its place and size") {
 }
 
 TEST_CASE("a box on the grid's lattice has particles_per_cell particles a side in each cell") {
-  const Seeds seeds = fill(body_of(BoxShape{{0.2, 0.2, 0}, {0.4, 0.3, 0}}, {2, 3, 1}), kGrid, 2);
+  const Seeds seeds =
+      fill(BoxShape{{0.2, 0.2, 0}, {0.4, 0.3, 0}}, kAlong, {{0, 0, 0}, {1, 1, 1}, 0.02, {2, 3, 1}}, 2);
   CHECK(seeds.position.size() == 10u * 2u * 5u * 3u);
   CHECK(seeds.half_size[0] == doctest::Approx(0.005));
   CHECK(seeds.half_size[2] == 0);
@@ -66,7 +62,7 @@ TEST_CASE("a box on the grid's lattice has particles_per_cell particles a side i
 
 TEST_CASE("the area of every plane shape is right to its lattice") {
   const double h = 0.01;
-  const auto area = [](const Shape& shape) { return measure(fill(body_of(shape), kGrid, 2), 2); };
+  const auto area = [](const Shape& shape) { return measure(fill(shape, kAlong, kGrid, 2), 2); };
   const double pi = std::numbers::pi;
   CHECK(std::abs(area(EllipsoidShape{{0.503, 0.497, 0}, {0.3, 0.3, 0}, 0}) - pi * 0.09) <
         area_slack(2 * pi * 0.3, h));
@@ -76,7 +72,7 @@ TEST_CASE("the area of every plane shape is right to its lattice") {
 }
 
 TEST_CASE("the volume of every solid shape is right to its lattice") {
-  const auto volume = [](const Shape& shape) { return measure(fill(body_of(shape), kGrid, 3), 3); };
+  const auto volume = [](const Shape& shape) { return measure(fill(shape, kAlong, kGrid, 3), 3); };
   const double pi = std::numbers::pi;
   CHECK(volume(EllipsoidShape{{0.5, 0.5, 0.5}, {0.3, 0.3, 0.3}, 0}) ==
         doctest::Approx(4 * pi / 3 * 0.027).epsilon(2e-3));
@@ -90,7 +86,7 @@ TEST_CASE("the volume of every solid shape is right to its lattice") {
 TEST_CASE("every particle of a fill lies inside the shape and inside its bounds") {
   const Shape ellipse = EllipsoidShape{{0.5, 0.5, 0}, {0.4, 0.1, 0}, 0.7};
   const Bounds box = bounds(ellipse);
-  for (const Vec3& point : fill(body_of(ellipse), kGrid, 2).position) {
+  for (const Vec3& point : fill(ellipse, kAlong, kGrid, 2).position) {
     CHECK(contains(ellipse, point));
     CHECK((point[0] > box.lower[0] && point[0] < box.upper[0] && point[1] > box.lower[1] &&
            point[1] < box.upper[1]));
@@ -104,13 +100,13 @@ TEST_CASE("shapes that share a face share no particle and leave none out") {
   const Shape left = PolygonShape{{{0, 0}, {0.613, 0.1}, {0.4, 1}, {0, 1}}, 0, 0};
   const Shape right = PolygonShape{{{0, 0}, {1, 0}, {1, 1}, {0.4, 1}, {0.613, 0.1}}, 0, 0};
   const std::size_t total =
-      fill(body_of(left), kGrid, 2).position.size() + fill(body_of(right), kGrid, 2).position.size();
+      fill(left, kAlong, kGrid, 2).position.size() + fill(right, kAlong, kGrid, 2).position.size();
   CHECK(total == 100u * 100u);
   const Shape disk = EllipsoidShape{{0.5, 0.5, 0}, {0.2, 0.2, 0}, 0},
               ring = RingShape{{0.5, 0.5, 0}, 0.2, 0.3, 0};
   const Shape both = EllipsoidShape{{0.5, 0.5, 0}, {0.3, 0.3, 0}, 0};
-  CHECK(fill(body_of(disk), kGrid, 2).position.size() + fill(body_of(ring), kGrid, 2).position.size() ==
-        fill(body_of(both), kGrid, 2).position.size());
+  CHECK(fill(disk, kAlong, kGrid, 2).position.size() + fill(ring, kAlong, kGrid, 2).position.size() ==
+        fill(both, kAlong, kGrid, 2).position.size());
 }
 
 TEST_CASE("points on a surface belong to the lower side") {
@@ -154,10 +150,10 @@ TEST_CASE("a bitmap's row 0 is its top, and a point belongs to its pixel") {
 
 TEST_CASE("the levels of a bitmap share out all particles") {
   const auto image = stripes(100, 400, 20);
-  const GridSpec grid{{0, 0, 0}, {1, 1, 0}, 0.01};
+  const CellLattice grid{{0, 0, 0}, {1, 1, 0}, 0.01};
   std::size_t total = 0;
   for (int grey = 0; grey < 20; ++grey)
-    total += fill(body_of(BitmapShape{"", {0, 0, 0}, {1, 1, 0}, grey, image}), grid, 2).position.size();
+    total += fill(BitmapShape{"", {0, 0, 0}, {1, 1, 0}, grey, image}, kAlong, grid, 2).position.size();
   CHECK(total == 40000u);
 }
 
@@ -167,24 +163,20 @@ TEST_CASE("a turned lattice fills a turned block exactly, row upon row from its 
     return std::array<double, 2>{0.5 + cosine * u - sine * v, 0.5 + sine * u + cosine * v};
   };
   const double u = 0.213, v = 0.117;  // half-edges
-  BodySpec body = body_of(PolygonShape{{at(-u, -v), at(u, -v), at(u, v), at(-u, v)}, 0, 0});
-  body.seeding.angle = angle;
-  const Seeds seeds = fill(body, kGrid, 2);
+  const PolygonShape block{{at(-u, -v), at(u, -v), at(u, v), at(-u, v)}, 0, 0};
+  const Seeds seeds = fill(block, {false, angle}, kGrid, 2);
   CHECK(measure(seeds, 2) == doctest::Approx(4 * u * v).epsilon(1e-12));
   CHECK(seeds.angle == std::vector<double>(seeds.position.size(), angle));
   for (const Vec3& x : seeds.position) {  // the distance from the lower face is an odd number of half-edges
     const double rows = (cosine * (x[1] - 0.5) - sine * (x[0] - 0.5) + v) / (2 * seeds.half_size[1]) + 0.5;
     CHECK(rows == doctest::Approx(std::round(rows)).epsilon(1e-10));
   }
-  body.seeding.angle = 0;
-  CHECK(std::abs(measure(fill(body, kGrid, 2), 2) - 4 * u * v) > 1e-5);  // stairs
+  CHECK(std::abs(measure(fill(block, kAlong, kGrid, 2), 2) - 4 * u * v) > 1e-5);  // stairs
 }
 
 TEST_CASE("a turned lattice keeps the area of every shape, in solids too") {
   const auto turned = [](const Shape& shape, int dimension) {
-    BodySpec body = body_of(shape);
-    body.seeding.angle = -0.4;
-    const Seeds seeds = fill(body, kGrid, dimension);
+    const Seeds seeds = fill(shape, {false, -0.4}, kGrid, dimension);
     for (const Vec3& point : seeds.position) CHECK(contains(shape, point));
     return measure(seeds, dimension);
   };
@@ -200,10 +192,9 @@ TEST_CASE("rings of particles hold the area of a disk or a ring exactly, and end
   for (const double inner : {0.0, 0.113}) {
     const double outer = 0.237;
     const Vec3 centre{0.41, 0.52, 0};
-    BodySpec body = body_of(inner > 0 ? Shape(RingShape{centre, inner, outer, 0})
-                                      : Shape(EllipsoidShape{centre, {outer, outer, 0}, 0}));
-    body.seeding.rings = true;
-    const Seeds seeds = fill(body, kGrid, 2);
+    const Shape shape = inner > 0 ? Shape(RingShape{centre, inner, outer, 0})
+                                  : Shape(EllipsoidShape{centre, {outer, outer, 0}, 0});
+    const Seeds seeds = fill(shape, {true, 0}, kGrid, 2);
     double shares = 0, nearest = 1, furthest = 0;
     Vec3 mean{};
     for (std::size_t k = 0; k < seeds.position.size(); ++k) {
@@ -236,10 +227,10 @@ TEST_CASE("every place of a bitmap goes to one level even where it lies on the c
     for (int column = 0; column < 280; ++column)
       image->pixel.push_back(static_cast<unsigned char>((row / 22 * 13 + column / 26 * 7) % 50));
   for (const int cells : {35, 70}) {
-    const GridSpec grid{{0, 0, 0}, {1e-3, 2e-3, 0}, 1e-3 / cells};
+    const CellLattice grid{{0, 0, 0}, {1e-3, 2e-3, 0}, 1e-3 / cells};
     std::vector<Vec3> places;
     for (int grey = 0; grey < 50; ++grey) {
-      const Seeds seeds = fill(body_of(BitmapShape{"", {0, 0, 0}, {1e-3, 2e-3, 0}, grey, image}), grid, 2);
+      const Seeds seeds = fill(BitmapShape{"", {0, 0, 0}, {1e-3, 2e-3, 0}, grey, image}, kAlong, grid, 2);
       places.insert(places.end(), seeds.position.begin(), seeds.position.end());
     }
     const auto number = static_cast<std::size_t>(8 * cells * cells);

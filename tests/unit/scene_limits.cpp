@@ -4,7 +4,7 @@
 
 #include <ctime>
 
-#include "engine/scene/geometry/load.hpp"
+#include "engine/geometry/load.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

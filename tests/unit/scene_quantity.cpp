@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 using namespace mpmfast;
 

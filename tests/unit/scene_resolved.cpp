@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <string>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

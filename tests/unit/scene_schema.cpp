@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <regex>
 
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/keys/known.hpp"
@@ -22,6 +23,11 @@ namespace {
 std::string content(const std::filesystem::path& file) {
   std::ifstream stream(file);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// The pattern without its conditions.
+std::string unconditional(const std::string& pattern) {
+  return std::regex_replace(pattern, std::regex("<[^>]*>"), "");
 }
 
 /// A key, or what stands for keys of the user's choice: a pattern with a part of its own behind a point.

@@ -9,8 +9,8 @@
 #include <fstream>
 #include <numbers>
 
-#include "engine/scene/geometry/load.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/load.hpp"
+#include "engine/geometry/surface.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "engine/quantities/quantity.hpp"
 #include "engine/run/threads.hpp"
-#include "engine/scene/quantities/quantity.hpp"
 
 namespace mpmfast {
 

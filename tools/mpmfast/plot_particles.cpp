@@ -18,7 +18,7 @@
 #include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/read_frame.hpp"
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/scene/text/suggest.hpp"
 #include "exit_codes.hpp"

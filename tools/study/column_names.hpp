@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/quantities/expression.hpp"
+#include "engine/quantities/expression.hpp"
 
 namespace mpmfast {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "engine/scene/quantities/expression.hpp"
+#include "engine/quantities/expression.hpp"
 
 namespace mpmfast {
 

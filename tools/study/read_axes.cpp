@@ -243,9 +243,7 @@ Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
 }
 
 std::optional<std::size_t> read_axis(const Value& value, const std::vector<Axis>& axes) {
-  const int index = value.word_index(axis_names(axes));
-  if (index < 0) return std::nullopt;
-  return static_cast<std::size_t>(index);
+  return value.word_index(axis_names(axes));
 }
 
 }  // namespace mpmfast

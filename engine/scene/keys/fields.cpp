@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <utility>
 
 #include "engine/scene/text/suggest.hpp"
 
@@ -40,11 +39,6 @@ std::string hint_for(const std::string& word, std::span<const std::string> known
 
 }  // namespace
 
-std::string expected_of(Measure kind) {
-  const QuantityKind& known = kind_of(kind);
-  return *known.units ? fmt::format("{}: {}", known.name, known.units) : known.name;
-}
-
 bool is_name(const std::string& text) {
   constexpr std::size_t kLongest = 80;
   if (text.empty() || text.size() > kLongest) return false;
@@ -74,6 +68,11 @@ Value Value::item(std::size_t index) const {
 
 Value Value::entry(std::size_t index) const {
   return Value(node_->items[index], join(path_, node_->keys[index].text), *problems_);
+}
+
+std::optional<Value> Value::find(const std::string& key) const {
+  const int index = index_of(*node_, key);
+  return index < 0 ? std::nullopt : std::optional(entry(static_cast<std::size_t>(index)));
 }
 
 std::optional<double> Value::quantity(Measure kind, const Limit& limit) const {
@@ -129,7 +128,7 @@ std::optional<std::string> Value::name() const {
 }
 
 std::optional<Vec3> Value::vector(Measure kind, int count, const Limit& limit) const {
-  if (!is(Node::Kind::list) || size() != static_cast<std::size_t>(count)) {
+  if (!is_list(count, count)) {
     complain(fmt::format("not a list of {} ({} each)", count, expected_of(kind)), vector_hint(kind, count));
     return std::nullopt;
   }
@@ -156,43 +155,29 @@ std::string Value::vector_hint(Measure kind, int count) const {
   return fmt::format("Perhaps [{}]", fmt::join(parts, ", "));
 }
 
-int Value::reference(std::span<const std::string> known) const {
-  if (known.empty() && !problems_->empty()) return -1;  // they could not be read themselves
+std::optional<std::size_t> Value::reference(std::span<const std::string> known) const {
+  if (known.empty() && !problems_->empty()) return std::nullopt;  // they could not be read themselves
   return word_index(known);
 }
 
-int Value::word_index(std::span<const std::string> known) const {
-  if (is(Node::Kind::scalar)) {
-    for (std::size_t k = 0; k < known.size(); ++k) {
-      if (known[k] == node_->scalar) return static_cast<int>(k);
-    }
-  }
+std::optional<std::size_t> Value::word_index(std::span<const std::string> known) const {
+  const bool scalar = is(Node::Kind::scalar);
+  const auto found = scalar ? std::find(known.begin(), known.end(), node_->scalar) : known.end();
+  if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
   complain(fmt::format("not known here (one of {})", list_text(known)),
-           is(Node::Kind::scalar) ? hint_for(node_->scalar, known, *problems_) : "");
-  return -1;
+           scalar ? hint_for(node_->scalar, known, *problems_) : "");
+  return std::nullopt;
 }
 
-bool Value::increasing(const std::vector<double>& times) const {
-  for (std::size_t k = 1; k < times.size(); ++k) {
-    if (times[k] > times[k - 1]) continue;
-    report(fmt::format("times must increase, but {} s follows {} s", times[k], times[k - 1]));
-    return false;
-  }
-  return true;
-}
-
-std::optional<TimeTable> Value::table_of_columns(Measure kind) const {
+bool Value::read_columns(Measure kind, TimeTable& table) const {
   MapReader map(*this);
-  TimeTable table;
   bool good = true;
   const auto read_column = [&](const char* key, Measure column_kind, std::vector<double>& out) {
     const auto column = map.need(key, "a list");
-    if (!column || !column->is(Node::Kind::list) || column->size() == 0) {
-      if (column) column->complain("not a list of one or more");
-      good = false;
-      return;
-    }
-    for (std::size_t k = 0; k < column->size(); ++k) {
+    const bool list = column && column->is_list(1);
+    if (column && !list) column->complain("not a list of one or more");
+    good = good && list;
+    for (std::size_t k = 0; list && k < column->size(); ++k) {
       const auto entry = column->item(k).quantity(column_kind);
       good = good && entry;
       out.push_back(entry.value_or(0));
@@ -201,22 +186,19 @@ std::optional<TimeTable> Value::table_of_columns(Measure kind) const {
   read_column("times", Measure::time, table.time);
   read_column("values", kind, table.value);
   map.finish();
-  if (!good) return std::nullopt;
-  if (table.time.size() != table.value.size()) {
+  if (good && table.time.size() != table.value.size()) {
     report(fmt::format("{} times but {} values", table.time.size(), table.value.size()));
-    return std::nullopt;
+    return false;
   }
-  if (!increasing(table.time)) return std::nullopt;
-  return table;
+  return good;
 }
 
-std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
-  TimeTable table;
+bool Value::read_pairs(Measure kind, TimeTable& table) const {
   bool good = size() > 0;
   if (!good) complain("not a table (one or more pairs [time, value])");
   for (std::size_t k = 0; k < size(); ++k) {
     const Value pair = item(k);
-    if (!pair.is(Node::Kind::list) || pair.size() != 2) {
+    if (!pair.is_list(2, 2)) {
       pair.complain("not a pair [time, value]");
       good = false;
       continue;
@@ -227,16 +209,22 @@ std::optional<TimeTable> Value::table_of_pairs(Measure kind) const {
     table.time.push_back(time.value_or(0));
     table.value.push_back(value.value_or(0));
   }
-  if (!good || !increasing(table.time)) return std::nullopt;
-  return table;
+  return good;
 }
 
 std::optional<TimeTable> Value::table(Measure kind) const {
-  if (is(Node::Kind::map)) return table_of_columns(kind);
-  if (is(Node::Kind::list)) return table_of_pairs(kind);
-  const auto constant = quantity(kind);
-  if (!constant) return std::nullopt;
-  return TimeTable{{0}, {*constant}};
+  if (!is(Node::Kind::map) && !is(Node::Kind::list)) {
+    const auto constant = quantity(kind);
+    return constant ? std::optional(TimeTable{{0}, {*constant}}) : std::nullopt;
+  }
+  TimeTable table;
+  if (!(is(Node::Kind::map) ? read_columns(kind, table) : read_pairs(kind, table))) return std::nullopt;
+  for (std::size_t k = 1; k < table.time.size(); ++k) {
+    if (table.time[k] > table.time[k - 1]) continue;
+    report(fmt::format("times must increase, but {} s follows {} s", table.time[k], table.time[k - 1]));
+    return std::nullopt;
+  }
+  return table;
 }
 
 MapReader::MapReader(const Value& value, const std::string& expected)
@@ -246,10 +234,7 @@ MapReader::MapReader(const Value& value, const std::string& expected)
 
 std::optional<Value> MapReader::find(const std::string& key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
-  const int index = index_of(value_.node(), key);
-  if (index < 0) return std::nullopt;
-  return Value(value_.node().items[static_cast<std::size_t>(index)], join(value_.path(), key),
-               value_.problems());
+  return value_.find(key);
 }
 
 std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {

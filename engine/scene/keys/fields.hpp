@@ -7,23 +7,27 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "engine/quantities/quantity.hpp"
 #include "engine/scene/keys/known.hpp"
 #include "engine/scene/keys/names.hpp"
-#include "engine/scene/quantities/quantity.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/text/problems.hpp"
 #include "engine/scene/text/tree.hpp"
 
 namespace mpmfast {
 
-/// "a length: m, cm, mm, um": what a message says was expected.
-std::string expected_of(Measure kind);
-
 /// May this head a column of a table, name a field, stand in a dotted path? Letters, digits, '_' and '-'.
 bool is_name(const std::string& text);
+
+/// The names of entries, in their order.
+template <class Entries>
+std::vector<std::string> names_of(const Entries& entries) {
+  std::vector<std::string> names;
+  for (const auto& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
 
 /// One value of the scene: where it is, what it is called, and who hears of its faults.
 class Value {
@@ -46,8 +50,9 @@ class Value {
   void report(const std::string& message, const std::string& hint = "") const;
 
   Value item(std::size_t index) const;
-  /// The value of a map's key, by its place.
+  /// The value of a map's key, by its place; by its name, where this is a map that has it.
   Value entry(std::size_t index) const;
+  std::optional<Value> find(const std::string& key) const;
   std::size_t size() const { return node_->items.size(); }
 
   std::optional<double> quantity(Measure kind, const Limit& limit = kAny) const;
@@ -66,26 +71,17 @@ class Value {
   /// One of a fixed set of words.
   template <class E, std::size_t N>
   std::optional<E> word(const std::array<Word<E>, N>& words) const {
-    const int index = choice(words);
-    if (index < 0) return std::nullopt;
-    return words[static_cast<std::size_t>(index)].value;
+    const auto index = word_index(names_of(words));
+    return index ? std::optional(words[*index].value) : std::nullopt;
   }
-  /// Index of the entry whose `name` is the word; −1 and a complaint when none has it.
-  template <class Entries>
-  int choice(const Entries& entries) const {
-    std::vector<std::string> known;
-    for (const auto& entry : entries) known.emplace_back(entry.name);
-    return word_index(known);
-  }
-  /// Index of the word among `known`; −1 and a complaint when it is none of them.
-  int word_index(std::span<const std::string> known) const;
+  /// Index of the word among `known`; nothing and a complaint when it is none of them.
+  std::optional<std::size_t> word_index(std::span<const std::string> known) const;
   /// The same where the words are names that the scene itself gives, of materials or bodies.
-  int reference(std::span<const std::string> known) const;
+  std::optional<std::size_t> reference(std::span<const std::string> known) const;
 
  private:
-  bool increasing(const std::vector<double>& times) const;
-  std::optional<TimeTable> table_of_columns(Measure kind) const;
-  std::optional<TimeTable> table_of_pairs(Measure kind) const;
+  bool read_columns(Measure kind, TimeTable& table) const;
+  bool read_pairs(Measure kind, TimeTable& table) const;
 
   const Node* node_;
   std::string path_;

@@ -1,7 +1,6 @@
 #include "engine/scene/keys/keys.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <utility>
@@ -30,9 +29,7 @@ std::optional<std::string> default_text(const Written& value) {
 std::string expected_of(const Number& form) { return expected_of(form.measure); }
 
 std::string expected_of(const Vector& form) {
-  const std::string name = kind_of(form.measure).name, noun = name.substr(name.find(' ') + 1);
-  const std::string many = noun.back() == 'y' ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
-  return fmt::format("a list of {} {}", form.count, many);
+  return fmt::format("a list of {} {}", form.count, plural_of(form.measure));
 }
 
 std::string expected_of(const Table& form) { return expected_of(form.measure) + "; or a table"; }
@@ -40,80 +37,52 @@ std::string expected_of(const Table& form) { return expected_of(form.measure) + 
 bool Slot::take(double& out, const Number& form) {
   offer(form_of(form));
   if (writes()) out_->set(quantity_text(out, form.measure));
-  if (!reads()) return true;
-  const auto read = value_->quantity(form.measure, form.limit);
-  if (read) out = *read;
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->quantity(form.measure, form.limit));
 }
 
 bool Slot::take(int& out, const Whole& form) {
   offer({Form::Kind::whole, Measure::number, kAny, form.least, form.most});
   if (writes()) out_->set(fmt::format("{}", out));
-  if (!reads()) return true;
-  const auto read = value_->integer(form.least, form.most);
-  if (read) out = *read;
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->integer(form.least, form.most));
 }
 
 bool Slot::take(bool& out, const Truth&) {
   offer({Form::Kind::truth});
   if (writes()) out_->set(out ? "true" : "false");
-  if (!reads()) return true;
-  const auto read = value_->boolean();
-  if (read) out = *read;
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->boolean());
 }
 
 bool Slot::take(Vec3& out, const Vector& form) {
   offer(form_of(form));
-  if (writes()) {
-    out_->kind = Written::Kind::list;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(form.count); ++k) {
-      Written component;
-      component.set(quantity_text(out[k], form.measure));
-      out_->add("", component);
-    }
-  }
-  if (!reads()) return true;
-  const auto read = value_->vector(form.measure, form.count, form.limit);
-  if (read) out = *read;
-  return keep(read.has_value());
+  if (writes()) out_->set(vector_text(out, form.measure, form.count));
+  return !reads() || accept(out, value_->vector(form.measure, form.count, form.limit));
 }
 
 bool Slot::take(TimeTable& out, const Table& form) {
   offer({Form::Kind::table, form.measure});
   if (writes()) out_->set(table_text(out, form.measure));
-  if (!reads()) return true;
-  auto read = value_->table(form.measure);
-  if (read) out = std::move(*read);
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->table(form.measure));
 }
 
 bool Slot::take(std::string& out, const Name&) {
   offer({Form::Kind::name});
   if (writes() && !out.empty()) out_->set(name_text(out));
-  if (!reads()) return true;
-  const auto read = value_->name();
-  if (read) out = *read;
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->name());
 }
 
 bool Slot::take(std::string& out, const Text&) {
   offer({Form::Kind::text});
   if (writes()) out_->set(quoted_text(out));
-  if (!reads()) return true;
-  const auto read = value_->text();
-  if (read) out = *read;
-  return keep(read.has_value());
+  return !reads() || accept(out, value_->text());
 }
 
 bool Slot::take(std::string& out, const std::vector<std::string>& words) {
   for (const std::string& word : words) offer(word.c_str(), "");
   if (writes()) out_->set(out);
   if (!reads()) return true;
-  const int index = value_->word_index(words);
-  if (index >= 0) out = words[static_cast<std::size_t>(index)];
-  return keep(index >= 0);
+  const auto index = value_->word_index(words);
+  if (index) out = words[*index];
+  return keep(index.has_value());
 }
 
 bool Slot::reference(int& index, const std::vector<std::string>& names) {
@@ -121,9 +90,9 @@ bool Slot::reference(int& index, const std::vector<std::string>& names) {
   const auto known = static_cast<std::size_t>(index);
   if (writes() && known < names.size()) out_->set(name_text(names[known]));
   if (!reads()) return true;
-  const int read = value_->reference(names);
-  if (read >= 0) index = read;
-  return keep(read >= 0);
+  const auto read = value_->reference(names);
+  if (read) index = static_cast<int>(*read);
+  return keep(read.has_value());
 }
 
 void Slot::offer(const char* word, const char* says) {
@@ -198,38 +167,22 @@ void Slot::report(const std::string& message, const std::string& hint) {
   keep(!reads());
 }
 
-Keys::Keys(Knowledge& knowledge, std::string pattern)
-    : knowledge_(&knowledge), pattern_(std::move(pattern)) {}
-
 bool Keys::at(const std::string& name, const char* says, const Slot::Body& body) {
-  if (reads()) return read(name, body);
-  describe(name, says, Presence::optional, body);
-  return true;
+  return reads() ? read(reader_->find(name), true, body) : describe(name, says, Presence::optional, body);
 }
 
 bool Keys::derived_at(const std::string& name, const char* says, const Slot::Body& body) {
-  if (reads()) return read(name, body);
-  describe(name, says, Presence::derived, body);
-  return true;
-}
-
-bool Keys::read(const std::string& name, const Slot::Body& body) {
-  const auto found = reader_->find(name);
-  if (!found) return true;
-  Slot slot(*found);
-  body(slot);
-  good_ = good_ && slot.good();
-  return slot.good();
+  return reads() ? read(reader_->find(name), true, body) : describe(name, says, Presence::derived, body);
 }
 
 bool Keys::need_at(const std::string& name, const char* says, const std::string& expected,
                    const Slot::Body& body) {
-  if (!reads()) {
-    describe(name, says, Presence::needed, body);
-    return true;
-  }
-  const auto found = reader_->need(name, expected);
-  bool good = false;
+  return reads() ? read(reader_->need(name, expected), false, body)
+                 : describe(name, says, Presence::needed, body);
+}
+
+bool Keys::read(const std::optional<Value>& found, bool absent, const Slot::Body& body) {
+  bool good = absent;
   if (found) {
     Slot slot(*found);
     body(slot);
@@ -239,12 +192,16 @@ bool Keys::need_at(const std::string& name, const char* says, const std::string&
   return good;
 }
 
-void Keys::describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
-  if (tells()) return tell(name, says, presence, body);
+bool Keys::describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
+  if (tells()) {
+    tell(name, says, presence, body);
+    return true;
+  }
   Written value;
   Slot slot(value);
   body(slot);
   if (value.kind != Written::Kind::nothing) out_->add(name, std::move(value));
+  return true;
 }
 
 void Keys::tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
@@ -271,15 +228,9 @@ std::size_t Keys::count(std::size_t written) const {
 
 bool Keys::entry(std::size_t k, const std::string& word, const char* says, std::string& name,
                  const Slot::Body& body) {
-  if (reads()) {
-    name = reader_->value().node().keys[k].text;
-    Slot slot(reader_->value().entry(k));
-    body(slot);
-    good_ = good_ && slot.good();
-    return slot.good();
-  }
-  describe(writes() ? name_text(name) : word, says, Presence::chosen, body);
-  return true;
+  if (!reads()) return describe(writes() ? name_text(name) : word, says, Presence::chosen, body);
+  name = reader_->value().node().keys[k].text;
+  return read(reader_->value().entry(k), true, body);
 }
 
 Keys::Choice Keys::one_of(const KeyGroups& groups, int written) {
@@ -318,12 +269,7 @@ std::optional<Value> Keys::stated(const std::string& name) {
 }
 
 void Keys::check(const std::string& name, const Slot::Body& body) {
-  if (reads()) read(name, body);
-}
-
-void Keys::refuse(const Value& value, const std::string& message, const std::string& hint) {
-  value.complain(message, hint);
-  good_ = false;
+  if (reads()) read(reader_->find(name), true, body);
 }
 
 void Keys::report(const std::string& message, const std::string& hint) {
@@ -336,16 +282,6 @@ void Keys::close() {
   if (closed_ || !reads()) return;
   closed_ = true;
   reader_->finish();
-}
-
-std::string table_text(const TimeTable& table, Measure measure) {
-  if (table.time.size() == 1 && table.time[0] == 0) return quantity_text(table.value[0], measure);
-  std::vector<std::string> parts;
-  for (std::size_t k = 0; k < table.time.size(); ++k) {
-    parts.push_back(fmt::format("[{}, {}]", quantity_text(table.time[k], Measure::time),
-                                quantity_text(table.value[k], measure)));
-  }
-  return fmt::format("[{}]", fmt::join(parts, ", "));
 }
 
 }  // namespace mpmfast

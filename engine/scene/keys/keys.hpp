@@ -93,10 +93,7 @@ class Slot {
   bool choose(std::size_t& index, const Entries& entries) {
     for (const auto& one : entries) offer(one.name, one.says);
     if (writes()) write(entries[index].name);
-    if (!reads()) return true;
-    const int read = value_->choice(entries);
-    if (read >= 0) index = static_cast<std::size_t>(read);
-    return keep(read >= 0);
+    return !reads() || accept(index, value_->word_index(names_of(entries)));
   }
   /// One of the names that another section gives.
   bool reference(int& index, const std::vector<std::string>& names);
@@ -121,6 +118,11 @@ class Slot {
   /// "message, got VALUE"; and the message alone. Nothing where nothing is read.
   void complain(const std::string& message, const std::string& hint = "");
   void report(const std::string& message, const std::string& hint = "");
+  /// Of an entry of the list that is read, "message, got VALUE".
+  void refuse_item(std::size_t k, const std::string& message) {
+    value_->item(k).complain(message);
+    keep(false);
+  }
   /// What was found out of the value elsewhere.
   bool keep(bool good) {
     good_ = good_ && good;
@@ -128,6 +130,12 @@ class Slot {
   }
 
  private:
+  template <class T>
+  bool accept(T& out, std::optional<T> read) {
+    if (read) out = std::move(*read);
+    return keep(read.has_value());
+  }
+
   std::optional<Value> value_;
   Written* out_ = nullptr;
   Knowledge* knowledge_ = nullptr;
@@ -144,7 +152,7 @@ class Keys {
   /// Writes.
   explicit Keys(Written& out) : out_(&out) { out.kind = Written::Kind::map; }
   /// Tells.
-  Keys(Knowledge& knowledge, std::string pattern);
+  Keys(Knowledge& knowledge, std::string pattern) : knowledge_(&knowledge), pattern_(std::move(pattern)) {}
 
   bool reads() const { return reader_.has_value(); }
   bool writes() const { return out_ != nullptr; }
@@ -217,8 +225,6 @@ class Keys {
   std::optional<Value> stated(const std::string& name);
   /// Looks again at a key that was read.
   void check(const std::string& name, const Slot::Body& body);
-  /// Of a value in this map, "message, got VALUE".
-  void refuse(const Value& value, const std::string& message, const std::string& hint = "");
   void report(const std::string& message, const std::string& hint = "");
   MapReader& reader() { return *reader_; }
 
@@ -231,8 +237,10 @@ class Keys {
   friend class Slot;
   std::string child(const std::string& name) const { return join(pattern_, name); }
   enum class Presence { optional, derived, needed, chosen };  ///< the last: its name is the user's choice
-  bool read(const std::string& name, const Slot::Body& body);
-  void describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
+  /// @param absent  what is returned where nothing is found
+  bool read(const std::optional<Value>& found, bool absent, const Slot::Body& body);
+  /// Writes or tells.
+  bool describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
   void tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
 
   std::optional<MapReader> reader_;
@@ -243,8 +251,5 @@ class Keys {
   std::vector<std::string> alternatives_;  ///< patterns of one_of's keys: none is needed by itself
   bool good_ = true, open_ = false, closed_ = false;
 };
-
-/// A table that is one value at time zero is written as that value.
-std::string table_text(const TimeTable& table, Measure measure);
 
 }  // namespace mpmfast

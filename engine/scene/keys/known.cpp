@@ -75,15 +75,4 @@ bool Knowledge::has_groups(const std::string& map, const KeyGroups& groups) cons
   return holder != found_.end() && holder->second.one_of == groups;
 }
 
-std::string unconditional(const std::string& pattern) {
-  std::string out;
-  bool inside = false;
-  for (const char c : pattern) {
-    if (c == '<') inside = true;
-    if (!inside) out += c;
-    if (c == '>') inside = false;
-  }
-  return out;
-}
-
 }  // namespace mpmfast

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
 
@@ -74,9 +74,6 @@ class Knowledge {
   std::map<std::string, Known> found_;
   std::vector<std::string> chosen_;
 };
-
-/// The pattern without its conditions.
-std::string unconditional(const std::string& pattern);
 
 /// All that a scene may say.
 const std::map<std::string, Known>& known_values();

@@ -11,20 +11,6 @@ namespace mpmfast {
 
 namespace {
 
-std::string child(const std::string& map, const std::string& key) {
-  return map.empty() ? key : map + "." + key;
-}
-
-/// "a length" → "length".
-std::string measure_name(Measure measure) {
-  const std::string name = kind_of(measure).name;
-  return name.substr(name.find(' ') + 1);
-}
-
-std::string plural(const std::string& noun) {
-  return noun.back() == 'y' ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
-}
-
 std::string count_text(int least, int most) {
   if (most == Form::kNoEnd) return fmt::format("{} or more", least);
   return least == most ? fmt::format("{}", least) : fmt::format("{} or {}", least, most);
@@ -56,15 +42,15 @@ std::string list_text(const std::string& pattern, const Form& form, bool units) 
                ? fmt::format("list of {}", count.substr(0, count.size() - 1))
                : "list of " + plural_first(entries);
   if (const Form* table = known_at(pattern + "[]").form(Form::Kind::table))
-    return fmt::format("{}{}{} or tables", count, plural(measure_name(table->measure)),
+    return fmt::format("{}{}{} or tables", count, plural_of(table->measure),
                        units_text(table->measure, units));
   return fmt::format("{}lists of {}", count, entries);
 }
 
 std::string one_form(const std::string& pattern, const Form& form, bool units) {
   const auto number = [&](bool many) {
-    const std::string name = measure_name(form.measure);
-    return (many ? plural(name) : name) + units_text(form.measure, units) + limit_text(form.limit);
+    return (many ? plural_of(form.measure) : noun_of(form.measure)) + units_text(form.measure, units) +
+           limit_text(form.limit);
   };
   constexpr int kMany = 100000;
   switch (form.kind) {
@@ -117,7 +103,7 @@ std::vector<std::string> conditions_of(const std::string& map) {
 
 std::vector<KnownKey> plain_keys(const std::string& map) {
   std::vector<KnownKey> out;
-  for (const std::string& key : known_at(map).keys) out.push_back({key, child(map, key), ""});
+  for (const std::string& key : known_at(map).keys) out.push_back({key, join(map, key), ""});
   return out;
 }
 
@@ -129,7 +115,7 @@ std::vector<KnownKey> all_keys(const std::string& map) {
     for (const std::string& key : known_at(inner).keys) {
       const bool there =
           std::any_of(out.begin(), out.end(), [&](const KnownKey& k) { return k.name == key; });
-      if (!there) out.push_back({key, child(inner, key), condition});
+      if (!there) out.push_back({key, join(inner, key), condition});
     }
   }
   return out;
@@ -167,7 +153,7 @@ std::string law_keys_text(const ContactLawKind& law) {
   std::vector<std::string> parts;
   for (const LawParameter& parameter : law.parameters) {
     parts.push_back(parameter.name);
-    if (!parameter.needed) parts.back() += " = " + default_text(child("contact", parameter.name));
+    if (!parameter.needed) parts.back() += " = " + default_text(join("contact", parameter.name));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

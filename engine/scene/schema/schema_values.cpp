@@ -47,8 +47,7 @@ std::string quantity_pattern(Measure measure, const Limit& limit) {
 
 /// "a heat capacity" → "heat_capacity".
 std::string definition_name(Measure measure) {
-  std::string name = kind_of(measure).name;
-  name = name.substr(name.find(' ') + 1);
+  std::string name = noun_of(measure);
   std::replace(name.begin(), name.end(), ' ', '_');
   return name;
 }

@@ -2,30 +2,54 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <set>
+#include <sstream>
 
+#include "engine/scene/catalogue.hpp"
 #include "engine/scene/schema/known_keys.hpp"
-#include "engine/scene/schema/reference_parts.hpp"
 #include "engine/scene/schema/write_schema.hpp"
 #include "engine/scene/sections/describe.hpp"
+#include "reference_page.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-constexpr const char* kIntroduction =
-    "# Scenes, key by key\n\n"
-    "This page is what `mpmfast schema --markdown` prints: do not edit it. The fragments of its sections, "
-    "put "
-    "together, are a scene that runs. `mpmfast check SCENE` says all that is wrong with one, with line and "
-    "key; "
-    "unknown keys are errors.\n\n"
-    "An editor that knows JSON Schema completes and explains all keys as you type, with the YAML language "
-    "server for "
-    "instance: write the schema once, `mpmfast schema > mpmfast-scene.schema.json`, and begin a scene with "
-    "the "
-    "line\n\n"
-    "```\n# yaml-language-server: $schema=mpmfast-scene.schema.json\n```\n";
+/// A line of the page that stands for what is told:
+///   @about KEY         its form and its meaning
+///   @keys MAP KEY …    a table of these keys (the map of all is `scene`)
+///   @rest MAP          a table of the keys of a map that no @keys has
+///   @units, @models, @shapes, @laws
+struct Directive {
+  std::string verb, map;
+  std::vector<std::string> keys;
+};
+
+Directive directive_of(const std::string& line) {
+  Directive out;
+  std::istringstream words(line);
+  words >> out.verb >> out.map;
+  if (out.map == "scene") out.map.clear();
+  for (std::string key; words >> key;) out.keys.push_back(key);
+  return out;
+}
+
+std::vector<std::string> page_lines() {
+  std::vector<std::string> out;
+  std::istringstream page{std::string(kReferencePage)};
+  for (std::string line; std::getline(page, line);) out.push_back(line);
+  return out;
+}
+
+/// All tables of keys.
+const std::vector<Directive>& tables() {
+  static const std::vector<Directive> kTables = [] {
+    std::vector<Directive> out;
+    for (const std::string& line : page_lines())
+      if (line.starts_with("@keys") || line.starts_with("@rest")) out.push_back(directive_of(line));
+    return out;
+  }();
+  return kTables;
+}
 
 const std::string& sentence_on(const std::string& pattern) { return known_at(pattern).says; }
 
@@ -39,9 +63,9 @@ std::string default_column(const KnownKey& key) {
 /// The rows of a table, and below it what the words of its keys mean.
 class KeyRows {
  public:
-  KeyRows(const ReferencePart& part, const KeyTable& table) : part_(part), caption_(table.says) {}
+  explicit KeyRows(const std::string& caption) : caption_(caption) {}
 
-  /// The keys of a map inside follow with their path, unless they have a table or a list of their own.
+  /// The keys of a map inside follow with their path, unless they have a table of their own.
   void add(const KnownKey& key, const std::string& path) {
     text_ += fmt::format("| {} | {} | {} | {}{} |\n", path == "FACE" ? face_names() : "`" + path + "`",
                          form_text(key.pattern, false), default_column(key), condition(key),
@@ -55,7 +79,7 @@ class KeyRows {
                          early.name == "include" ? "text, or list of texts" : "map", early.says);
   }
   std::string text() const {
-    return "\n| key | form | default | meaning |\n|---|---|---|---|\n" + text_ + words_;
+    return "| key | form | default | meaning |\n|---|---|---|---|\n" + text_ + words_;
   }
 
  private:
@@ -70,15 +94,15 @@ class KeyRows {
     for (const FaceName& face : kFaces) out += fmt::format("{}`{}`", out.empty() ? "" : ", ", face.name);
     return out;
   }
-  bool has_table(const std::string& pattern) const {
-    return std::any_of(part_.tables.begin(), part_.tables.end(),
-                       [&](const KeyTable& table) { return pattern == table.map; });
+  static bool has_table(const std::string& pattern) {
+    return std::any_of(tables().begin(), tables().end(),
+                       [&](const Directive& table) { return pattern == table.map; });
   }
   void add_words(const KnownKey& key, const std::string& path) {
     const auto& words = known_at(key.pattern).words;
     const bool told =
         std::any_of(words.begin(), words.end(), [](const KnownWord& word) { return !word.says.empty(); });
-    const bool listed = part_.list != ReferencePart::List::none && (path == "model" || path == "law");
+    const bool listed = path == "law";
     constexpr std::size_t kFew = 3;  // the form names them
     if (words.empty() || listed || (!told && words.size() <= kFew)) return;
     words_ += path == "FACE" ? "\nThe words:\n\n" : fmt::format("\n`{}`{}", path, told ? ":\n\n" : ": ");
@@ -91,17 +115,14 @@ class KeyRows {
     if (!told) words_ += "\n";
   }
 
-  const ReferencePart& part_;
-  const std::string caption_;
-  std::string text_, words_;
+  std::string caption_, text_, words_;
 };
 
 std::string units() {
-  std::string out = "\n| kind | units | a bare number is in |\n|---|---|---|\n";
+  std::string out = "| kind | units | a bare number is in |\n|---|---|---|\n";
   for (int k = 1; k < kMeasures; ++k) {
     const QuantityKind& kind = kind_of(static_cast<Measure>(k));
-    const std::string name = kind.name;
-    out += fmt::format("| {} | {} | {} |\n", name.substr(name.find(' ') + 1), kind.units, kind.si);
+    out += fmt::format("| {} | {} | {} |\n", noun_of(static_cast<Measure>(k)), kind.units, kind.si);
   }
   return out;
 }
@@ -138,126 +159,89 @@ void collect(const std::string& owner, const std::string& map, std::vector<Share
   }
 }
 
-/// Each key once; where its form or meaning differs among the maps, the exceptions follow with their owners.
-std::string shared_keys(const std::vector<std::pair<std::string, std::string>>& named_maps) {
+/// Each key of these maps once; where its form or meaning differs among them, the exceptions follow with
+/// their owners.
+/// @param before, after  what stands around an owner in the pattern of its map
+std::string shared_keys(const std::vector<CatalogueEntry>& owners, const std::string& before,
+                        const std::string& after) {
   std::vector<SharedKey> rows;
-  for (const auto& [name, map] : named_maps) collect(name, map, rows);
-  std::string out = "\n| key | form | meaning |\n|---|---|---|\n", before;
+  for (const CatalogueEntry& owner : owners) collect(owner.name, before + owner.name + after, rows);
+  std::string out = "\n| key | form | meaning |\n|---|---|---|\n", last;
   for (const SharedKey& row : rows) {
-    const std::string owner = row.name == before ? fmt::format(" ({})", fmt::join(row.owners, ", ")) : "";
+    const std::string owner = row.name == last ? fmt::format(" ({})", fmt::join(row.owners, ", ")) : "";
     out += fmt::format("| `{}`{} | {} | {} |\n", row.name, owner, row.form, row.says);
-    before = row.name;
+    last = row.name;
   }
   return out;
 }
 
-template <class Kind>
-std::string kinds(const char* head, const std::vector<Kind>& all, const std::string& before,
-                  const std::string& after) {
-  std::string out = fmt::format("\n| {} | its keys | |\n|---|---|---|\n", head);
-  std::vector<std::pair<std::string, std::string>> maps;
-  for (const Kind& kind : all) {
-    const std::string map = before + kind.name + after;
-    out += fmt::format("| `{}` | {} | {} |\n", kind.name, keys_text(map), kind.says);
-    maps.emplace_back(kind.name, map);
-  }
-  return out + shared_keys(maps);
-}
-
-std::string laws() {
-  std::string out = "\n| law | its keys | |\n|---|---|---|\n";
-  for (const ContactLawKind& law : contact_laws()) {
-    out += fmt::format("| `{}` | {} | {} |\n", law.name, law_keys_text(law), law.says);
-  }
+std::string entries(const char* head, const std::vector<CatalogueEntry>& all) {
+  std::string out = fmt::format("| {} | its keys | |\n|---|---|---|\n", head);
+  for (const CatalogueEntry& entry : all)
+    out += fmt::format("| `{}` | {} | {} |\n", entry.name, entry.keys, entry.says);
   return out;
 }
 
-std::string list_text(ReferencePart::List list) {
-  switch (list) {
-    case ReferencePart::List::units:
-      return units();
-    case ReferencePart::List::models:
-      return kinds("model", material_kinds(), "materials.NAME<model=", ">");
-    case ReferencePart::List::shapes:
-      return kinds("shape", shape_kinds(), "bodies[].", "");
-    case ReferencePart::List::laws:
-      return laws();
-    case ReferencePart::List::none:
-      break;
-  }
-  return "";
-}
+/// Shapes have a list: their keys stand in no table of bodies.
+bool is_listed(const std::string& map) { return map == "bodies[]"; }
 
-}  // namespace
-
-namespace {
-
-/// Does a table of this part name the key, or does a list show it?
-bool is_elsewhere(const ReferencePart& part, const std::string& map, const std::string& key) {
-  if (part.list == ReferencePart::List::shapes) {
-    for (const auto& group : known_at(map).one_of)
-      if (group.front() == key) return true;
-  }
-  return std::any_of(part.tables.begin(), part.tables.end(), [&](const KeyTable& table) {
+/// Does a table name the key, or does a list show it?
+bool is_elsewhere(const std::string& map, const std::string& key) {
+  for (const auto& group : known_at(map).one_of)
+    if (is_listed(map) && group.front() == key) return true;
+  return std::any_of(tables().begin(), tables().end(), [&](const Directive& table) {
     return table.map == map && std::find(table.keys.begin(), table.keys.end(), key) != table.keys.end();
   });
 }
 
 /// "Exactly one of `box`, `node` must be there."
-std::string choice_text(const ReferencePart& part, const std::string& map) {
+std::string choice_text(const std::string& map) {
   std::string keys;
   for (const auto& group : known_at(map).one_of)
     keys += fmt::format("{}`{}`", keys.empty() ? "" : ", ", group.front());
-  if (keys.empty() || part.list == ReferencePart::List::shapes) return "";
-  return fmt::format("\nExactly one of {} must be there.\n", keys);
+  return keys.empty() || is_listed(map) ? "" : fmt::format("Exactly one of {} must be there.\n\n", keys);
 }
 
-/// Lines of at most 120 bytes.
-std::string wrapped(const std::string& text) {
-  constexpr std::size_t kWidest = 120;
-  std::string out, word;
-  std::size_t width = 0;
-  const auto flush = [&](char after) {
-    if (width + word.size() > kWidest) {
-      if (!out.empty() && out.back() == ' ') out.back() = '\n';
-      width = 0;
-    }
-    out += word + after;
-    width = after == '\n' ? 0 : width + word.size() + 1;
-    word.clear();
-  };
-  for (const char c : text) c == ' ' || c == '\n' ? flush(c) : word.push_back(c);
-  return out + word;
-}
-
-std::string table_text(const ReferencePart& part, const KeyTable& table) {
-  KeyRows rows(part, table);
+/// @param caption  the line above the table
+std::string table_text(const Directive& table, const std::string& caption) {
+  KeyRows rows(caption);
   const std::vector<KnownKey> keys = all_keys(table.map);
-  for (const std::string_view name : table.keys) {
+  for (const std::string& name : table.keys) {
     for (const KnownKey& key : keys)
       if (key.name == name) rows.add(key, key.name);
     for (const KnownWord& early : early_keys())
       if (early.name == name) rows.add(early);
   }
-  if (table.keys.empty())
-    for (const KnownKey& key : keys)
-      if (!is_elsewhere(part, table.map, key.name)) rows.add(key, key.name);
-  return (*table.says ? fmt::format("\n{}\n", table.says) : "") + choice_text(part, table.map) + rows.text();
+  for (const KnownKey& key : keys)
+    if (table.verb == "@rest" && !is_elsewhere(table.map, key.name)) rows.add(key, key.name);
+  return choice_text(table.map) + rows.text();
+}
+
+/// "`grid` (map, needed): The grid of cubic cells …".
+std::string about(const std::string& key) {
+  return fmt::format("`{}` ({}{}): {}\n", key, form_text(key, false), known_at(key).needed ? ", needed" : "",
+                     sentence_on(key));
+}
+
+/// @param caption  the line of text before it
+std::string told(const Directive& directive, const std::string& caption) {
+  if (directive.verb == "@about") return about(directive.map);
+  if (directive.verb == "@units") return units();
+  if (directive.verb == "@laws") return entries("law", catalogue("laws"));
+  const auto models = catalogue("materials"), shapes = catalogue("shapes");
+  if (directive.verb == "@models")
+    return entries("model", models) + shared_keys(models, "materials.NAME<model=", ">");
+  if (directive.verb == "@shapes") return entries("shape", shapes) + shared_keys(shapes, "bodies[].", "");
+  return table_text(directive, caption);
 }
 
 }  // namespace
 
 std::string write_reference() {
-  std::string out = wrapped(kIntroduction);
-  for (const ReferencePart& part : reference_parts()) {
-    out += fmt::format("\n## {}\n", part.title);
-    if (*part.key)
-      out += fmt::format("\n`{}` ({}{}): {}\n", part.key, form_text(part.key, false),
-                         known_at(part.key).needed ? ", needed" : "", sentence_on(part.key));
-    if (*part.says) out += wrapped(fmt::format("\n{}\n", part.says));
-    if (*part.example) out += fmt::format("\n```yaml\n{}```\n", part.example);
-    out += list_text(part.list);
-    for (const KeyTable& table : part.tables) out += table_text(part, table);
+  std::string out, caption;
+  for (const std::string& line : page_lines()) {
+    out += line.starts_with('@') ? told(directive_of(line), caption) : line + "\n";
+    if (!line.empty()) caption = line;
   }
   return out;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 #include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/schema/schema_values.hpp"
@@ -14,6 +13,14 @@ namespace mpmfast {
 namespace {
 
 Json required(const std::vector<std::string>& keys) { return {{"required", keys}}; }
+
+/// Those of the keys that must be there; an empty schema where there are none.
+Json required_of(const std::vector<KnownKey>& keys) {
+  std::vector<std::string> needed;
+  for (const KnownKey& key : keys)
+    if (known_at(key.pattern).needed) needed.push_back(key.name);
+  return needed.empty() ? Json::object() : required(needed);
+}
 
 /// What an editor shows beside a key: plain, and with the words as a list.
 void describe(const KnownKey& key, Json& schema) {
@@ -124,10 +131,7 @@ class SchemaWriter {
     Json out{{"type", "object"}, {"properties", Json::object()}};
     const Known& known = known_at(map);
     for (const KnownKey& key : all_keys(map)) add_property(key, out);
-    std::vector<std::string> needed;
-    for (const KnownKey& key : plain_keys(map))
-      if (known_at(key.pattern).needed) needed.push_back(key.name);
-    if (!needed.empty()) out["required"] = needed;
+    out.update(required_of(plain_keys(map)));
     if (known.closed) out["additionalProperties"] = false;
     Json rules = Json::array();
     if (!known.one_of.empty()) rules.push_back(one_of(known.one_of));
@@ -173,23 +177,18 @@ class SchemaWriter {
     const std::string inner = map + "<" + condition + ">";
     const bool absent = condition[0] == '!';
     const std::size_t equals = condition.find('=');
-    const std::string key = condition.substr(absent, equals - (absent && equals != std::string::npos));
-    Json test = required({equals == std::string::npos ? key : condition.substr(0, equals)});
-    if (equals != std::string::npos)
-      test["properties"][condition.substr(0, equals)] = {{"const", condition.substr(equals + 1)}};
+    const std::string key = condition.substr(absent ? 1 : 0, equals);
+    Json test = required({key});
+    if (equals != std::string::npos) test["properties"][key] = {{"const", condition.substr(equals + 1)}};
     Json then, otherwise;
     if (known_at(inner).closed) {
       then = object(inner);
       for (const KnownKey& common : plain_keys(map)) then["properties"][common.name] = true;
     } else {
-      then = Json::object();
+      then = required_of(plain_keys(inner));
       Json forbidden = Json::object();
-      std::vector<std::string> needed;
-      for (const KnownKey& one : plain_keys(inner)) {
-        if (known_at(one.pattern).needed) needed.push_back(one.name);
+      for (const KnownKey& one : plain_keys(inner))
         if (!known_elsewhere(map, condition, one.name)) forbidden[one.name] = false;
-      }
-      if (!needed.empty()) then["required"] = needed;
       if (!forbidden.empty()) otherwise["properties"] = forbidden;
     }
     Json rule{{"if", absent ? Json{{"not", test}} : test}, {"then", then}};

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
-#include "engine/scene/geometry/load.hpp"
+#include "engine/geometry/load.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -11,19 +12,6 @@ namespace mpmfast {
 namespace {
 
 constexpr int kLevels = 256;
-
-/// The path as written; made absolute from the folder of the scene.
-void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) {
-  std::string text = file.string();
-  if (slot.take(text, Text{}) && slot.reads())
-    file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
-}
-
-std::array<bool, kLevels> levels_of(const GreyImage& image) {
-  std::array<bool, kLevels> present{};
-  for (const unsigned char grey : image.pixel) present[grey] = true;
-  return present;
-}
 
 /// A grey level that heads a material, as a value.
 std::optional<int> read_level(const Slot& material, const Key& key,
@@ -58,6 +46,12 @@ void describe_materials(Keys& map, const std::vector<std::string>& names,
 }
 
 }  // namespace
+
+void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) {
+  std::string text = file.string();
+  if (slot.take(text, Text{}) && slot.reads())
+    file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
+}
 
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
   std::filesystem::path& file = entry.shape.file;
@@ -95,12 +89,72 @@ void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std:
   });
   std::array<bool, kLevels> present{};
   present.fill(true);  // when the image is unknown, so is what it lacks
-  if (entry.shape.image) present = levels_of(*entry.shape.image);
+  if (entry.shape.image) present = entry.shape.image->levels();
   for (const int level : entry.skip) present[static_cast<std::size_t>(level)] = false;
   for (int level = 0; body.reads() && entry.shape.image && level < kLevels; ++level)
     if (present[static_cast<std::size_t>(level)]) entry.levels.push_back(level);
   body.section("materials", "Materials of single grey levels.", "a map {GREY: NAME}",
                [&](Keys& map) { describe_materials(map, material_names, present, entry); });
+}
+
+namespace {
+
+/// The extent that, added to `lower`, rounds to `upper` again.
+double extent_between(double lower, double upper) {
+  const double extent = upper - lower;
+  double more = extent, less = extent;
+  for (int tries = 0; tries < 8; ++tries) {
+    if (lower + more == upper) return more;
+    if (lower + less == upper) return less;
+    more = std::nextafter(more, kInfinity);
+    less = std::nextafter(less, 0.0);
+  }
+  return extent;
+}
+
+/// The entry of the bodies first … last − 1, the grey levels of one bitmap.
+BodyEntry bitmap_entry(const Scene& scene, std::size_t first, std::size_t last) {
+  BodyEntry entry;
+  entry.body = scene.bodies[first];
+  BodySpec& body = entry.body;
+  entry.bitmap.shape = std::get<BitmapShape>(body.shape);
+  const BitmapShape& shape = entry.bitmap.shape;
+  const std::string suffix = fmt::format("_{}", shape.grey);
+  const auto own = [&](const BodySpec& level) { return level.field == level.name; };
+  const auto at = [&](std::size_t b) { return scene.bodies.begin() + static_cast<std::ptrdiff_t>(b); };
+  if (std::all_of(at(first), at(last), own)) body.field.clear();
+  body.name.erase(body.name.size() - suffix.size());
+  entry.bitmap.extent = {extent_between(shape.lower[0], shape.upper[0]),
+                         extent_between(shape.lower[1], shape.upper[1]), 0};
+  std::array<bool, 256> skipped = shape.image->levels();
+  for (std::size_t b = first; b < last; ++b) {
+    const int grey = std::get<BitmapShape>(scene.bodies[b].shape).grey;
+    skipped[static_cast<std::size_t>(grey)] = false;
+    entry.bitmap.materials.emplace_back(std::to_string(grey), scene.bodies[b].material);
+  }
+  for (int grey = 0; grey < 256; ++grey)
+    if (skipped[static_cast<std::size_t>(grey)]) entry.bitmap.skip.push_back(grey);
+  return entry;
+}
+
+}  // namespace
+
+std::vector<BodyEntry> entries_of(const Scene& scene) {
+  std::vector<BodyEntry> out;
+  for (std::size_t first = 0, last = 0; first < scene.bodies.size(); first = last) {
+    const auto* bitmap = std::get_if<BitmapShape>(&scene.bodies[first].shape);
+    last = first + 1;
+    if (!bitmap) {
+      out.push_back({scene.bodies[first], {}, true, true});
+      continue;
+    }
+    for (; last < scene.bodies.size(); ++last) {
+      const auto* next = std::get_if<BitmapShape>(&scene.bodies[last].shape);
+      if (!next || next->image != bitmap->image) break;
+    }
+    out.push_back(bitmap_entry(scene, first, last));
+  }
+  return out;
 }
 
 }  // namespace mpmfast

@@ -2,50 +2,28 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
-#include <map>
 #include <utility>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-/// What one entry of `bodies` says: one body, or one for each grey level of a bitmap.
-struct BodyEntry {
-  BodySpec body;
-  BitmapEntry bitmap;
-  bool shaped = false, made = false;  ///< has it a good shape, and a material?
-};
-
-const std::vector<std::string>& shape_names() {
-  static const std::vector<std::string> kNames = [] {
-    std::vector<std::string> names;
-    for (const ShapeKind& kind : shape_kinds()) names.emplace_back(kind.name);
-    return names;
-  }();
-  return kNames;
-}
-
 /// A body has one of them.
-const KeyGroups& shape_keys() {
-  static const KeyGroups kKeys = [] {
-    KeyGroups groups;
-    for (const std::string& name : shape_names()) groups.push_back({name});
-    return groups;
-  }();
-  return kKeys;
+KeyGroups shape_keys() {
+  KeyGroups groups;
+  for (const ShapeKind& kind : shape_kinds()) groups.push_back({kind.name});
+  return groups;
 }
 
-/// The same shape's name in the other dimension.
-std::string counterpart(const std::string& name) {
-  static const std::map<std::string, std::string> kPairs{{"disk", "sphere"},       {"sphere", "disk"},
-                                                         {"ellipse", "ellipsoid"}, {"ellipsoid", "ellipse"},
-                                                         {"ring", "tube"},         {"tube", "ring"}};
-  const auto found = kPairs.find(name);
-  return found == kPairs.end() ? "" : fmt::format("Did you mean '{}'?", found->second);
+/// "Did you mean 'sphere'?" for a disk: the same in the other dimension.
+std::string counterpart(const ShapeKind& kind) {
+  for (const ShapeKind& other : shape_kinds())
+    if (other.describe == kind.describe && other.dimension != kind.dimension)
+      return fmt::format("Did you mean '{}'?", other.name);
+  return "";
 }
 
 bool fits(const ShapeKind& kind, int dimension) { return kind.dimension == 0 || kind.dimension == dimension; }
@@ -54,7 +32,7 @@ bool fits(const ShapeKind& kind, int dimension) { return kind.dimension == 0 || 
 int written_kind(const Shape& shape, int dimension) {
   const auto& kinds = shape_kinds();
   const auto found = std::find_if(kinds.begin(), kinds.end(), [&](const ShapeKind& kind) {
-    return kind.written && fits(kind, dimension) && kind.holds == shape.index();
+    return kind.written && fits(kind, dimension) && kind.standard.index() == shape.index();
   });
   return static_cast<int>(found - kinds.begin());
 }
@@ -62,10 +40,10 @@ int written_kind(const Shape& shape, int dimension) {
 /// A body with no shape, or with several.
 void report_shapes(Keys& map) {
   std::vector<std::string> chosen;
-  for (const std::string& name : shape_names())
-    if (map.stated(name)) chosen.push_back(name);
+  for (const ShapeKind& kind : shape_kinds())
+    if (map.stated(kind.name)) chosen.emplace_back(kind.name);
   if (chosen.empty())
-    map.report(fmt::format("a body needs a shape (one of {})", fmt::join(shape_names(), ", ")));
+    map.report(fmt::format("a body needs a shape (one of {})", fmt::join(names_of(shape_kinds()), ", ")));
   else
     map.check(chosen[1], [&](Slot& slot) {
       slot.report(fmt::format("a body has one shape, and it is already a {}", chosen[0]));
@@ -76,7 +54,7 @@ void describe_shape(Slot& slot, const ShapeKind& kind, const Scene& scene, BodyE
   if (slot.reads() && !fits(kind, scene.dimension())) {
     const bool vowel = kind.name[0] == 'e' || std::string_view(kind.name) == "stl";
     slot.report(fmt::format("{} {} exists in {}-D only", vowel ? "an" : "a", kind.name, kind.dimension),
-                counterpart(kind.name));
+                counterpart(kind));
     return;
   }
   if (!kind.describe)
@@ -100,7 +78,7 @@ void describe_counts(Slot& slot, int dimension, std::array<int, 3>& counts) {
   if (slot.take(counts[0], kCount)) std::fill(counts.begin(), last, counts[0]);
 }
 
-void describe_seeding(Slot& slot, SeedingSpec& seeding) {
+void describe_seeding(Slot& slot, Seeding& seeding) {
   if (slot.is_word(kSeedings[0].name, !seeding.turned(), kSeedings[0].says)) return;
   if (slot.is_word(kSeedings[1].name, seeding.rings, kSeedings[1].says)) {
     seeding.rings = true;
@@ -203,9 +181,8 @@ void add(BodySpec body, const BodyPlace& place, Scene& scene, std::vector<BodyPl
 void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
                 std::vector<BodyPlace>& places) {
   const BitmapEntry& bitmap = entry.bitmap;
-  MapReader map(place.entry);
   if (bitmap.levels.empty() && bitmap.shape.image)
-    map.find("bitmap")->report("every grey level of the image is skipped");
+    place.entry.find("bitmap")->report("every grey level of the image is skipped");
   if (!bitmap.shape.image || bitmap.extent == Vec3{}) return;
   for (const int level : bitmap.levels) {
     BodySpec body = entry.body;
@@ -218,7 +195,7 @@ void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
     const auto own = std::find_if(bitmap.materials.begin(), bitmap.materials.end(),
                                   [&](const auto& one) { return one.first == std::to_string(level); });
     const bool has_own = own != bitmap.materials.end();
-    if (!has_own && !map.find("material")) {
+    if (!has_own && !place.entry.find("material")) {
       place.entry.report(fmt::format(
           "no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})", level));
       continue;
@@ -228,68 +205,10 @@ void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
   }
 }
 
-/// The extent that, added to `lower`, rounds to `upper` again.
-double extent_between(double lower, double upper) {
-  const double extent = upper - lower;
-  double more = extent, less = extent;
-  for (int tries = 0; tries < 8; ++tries) {
-    if (lower + more == upper) return more;
-    if (lower + less == upper) return less;
-    more = std::nextafter(more, kInfinity);
-    less = std::nextafter(less, 0.0);
-  }
-  return extent;
-}
-
-/// The entry of the bodies first … last − 1, the grey levels of one bitmap.
-BodyEntry bitmap_entry(const Scene& scene, std::size_t first, std::size_t last) {
-  BodyEntry entry;
-  entry.body = scene.bodies[first];
-  BodySpec& body = entry.body;
-  entry.bitmap.shape = std::get<BitmapShape>(body.shape);
-  const BitmapShape& shape = entry.bitmap.shape;
-  const std::string suffix = fmt::format("_{}", shape.grey);
-  const auto own = [&](const BodySpec& level) { return level.field == level.name; };
-  const auto at = [&](std::size_t b) { return scene.bodies.begin() + static_cast<std::ptrdiff_t>(b); };
-  if (std::all_of(at(first), at(last), own)) body.field.clear();
-  body.name.erase(body.name.size() - suffix.size());
-  entry.bitmap.extent = {extent_between(shape.lower[0], shape.upper[0]),
-                         extent_between(shape.lower[1], shape.upper[1]), 0};
-  std::array<bool, 256> skipped{};
-  for (const unsigned char grey : shape.image->pixel) skipped[grey] = true;
-  for (std::size_t b = first; b < last; ++b) {
-    const int grey = std::get<BitmapShape>(scene.bodies[b].shape).grey;
-    skipped[static_cast<std::size_t>(grey)] = false;
-    entry.bitmap.materials.emplace_back(std::to_string(grey), scene.bodies[b].material);
-  }
-  for (int grey = 0; grey < 256; ++grey)
-    if (skipped[static_cast<std::size_t>(grey)]) entry.bitmap.skip.push_back(grey);
-  return entry;
-}
-
-/// The bodies as the entries that they came from.
-std::vector<BodyEntry> entries_of(const Scene& scene) {
-  std::vector<BodyEntry> out;
-  for (std::size_t first = 0, last = 0; first < scene.bodies.size(); first = last) {
-    const auto* bitmap = std::get_if<BitmapShape>(&scene.bodies[first].shape);
-    last = first + 1;
-    if (!bitmap) {
-      out.push_back({scene.bodies[first], {}, true, true});
-      continue;
-    }
-    for (; last < scene.bodies.size(); ++last) {
-      const auto* next = std::get_if<BitmapShape>(&scene.bodies[last].shape);
-      if (!next || next->image != bitmap->image) break;
-    }
-    out.push_back(bitmap_entry(scene, first, last));
-  }
-  return out;
-}
-
 /// For those who name the bodies by keys, or forgot the dashes.
 std::string list_hint(const Node& bodies) {
   if (bodies.kind != Node::Kind::map || bodies.keys.empty()) return "";
-  const bool names = index_of(bodies.items[0], "material") >= 0;
+  const bool names = find_value(bodies.items[0], "material");
   return names ? fmt::format("A body begins with '- name: {}'", bodies.keys[0].text)
                : fmt::format("A body begins with a dash, '- {}: …'", bodies.keys[0].text);
 }
@@ -299,8 +218,7 @@ void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
   if (slot.reads() && !slot.value()->is(Node::Kind::list))
     return slot.complain(std::string("not ") + kExpected, list_hint(slot.value()->node()));
   if (slot.reads() && slot.value()->size() == 0) return slot.report("no bodies");
-  std::vector<std::string> materials;
-  for (const MaterialSpec& material : scene.materials) materials.push_back(material.name);
+  const std::vector<std::string> materials = names_of(scene.materials);
   const std::vector<BodyEntry> entries = entries_of(scene);  // none when it is read
   std::size_t count = entries.size();
   slot.list(kExpected, 1, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
@@ -310,7 +228,7 @@ void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
     describe_body(item, scene, materials, entry);
     if (!item.reads() || !entry.shaped) return;
     const Value& value = *item.value();
-    const BodyPlace place{value, MapReader(value).find("name").value_or(value)};
+    const BodyPlace place{value, value.find("name").value_or(value)};
     if (entry.bitmap.shape.image)
       add_levels(entry, place, scene, places);
     else if (entry.made)
@@ -320,10 +238,12 @@ void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
 
 }  // namespace
 
-void describe_bodies(Keys& top, Scene& scene, std::vector<BodyPlace>& places) {
+std::vector<BodyPlace> describe_bodies(Keys& top, Scene& scene) {
+  std::vector<BodyPlace> places;
   top.need_at("bodies", "The bodies, each a shape of one material with a velocity field of its own.",
               "a list of maps {box | disk | …, material, …}",
               [&](Slot& slot) { describe_list(slot, scene, places); });
+  return places;
 }
 
 }  // namespace mpmfast

@@ -13,7 +13,13 @@ namespace {
 /// One entry of `boundaries`: a face of the grid, free where it has no condition, or nodes by name.
 struct BoundaryEntry {
   std::string name;
-  std::variant<std::monostate, WallSpec, VelocityBoxSpec> condition;
+  std::optional<std::variant<WallSpec, VelocityBoxSpec>> condition;
+
+  /// The condition, where it is of this kind.
+  template <class Spec>
+  const Spec* known() const {
+    return condition ? std::get_if<Spec>(&*condition) : nullptr;
+  }
 };
 
 const FaceName* face_named(const std::string& name) {
@@ -47,7 +53,7 @@ class Boundaries {
       describe_face(slot, *face, entry);
     else
       describe_nodes(slot, entry);
-    if (!slot.reads() || entry.condition.index() == 0) return;
+    if (!slot.reads() || !entry.condition) return;
     for (const BodySpec& body : scene_.bodies)
       if (body.name == entry.name && is_rigid(scene_, body))
         slot.report(
@@ -57,7 +63,7 @@ class Boundaries {
  private:
   void describe_face(Slot& slot, const FaceName& face, BoundaryEntry& entry) const {
     if (slot.reads() && face.axis >= scene_.dimension()) return slot.report("exists in 3-D only");
-    const auto* known = std::get_if<WallSpec>(&entry.condition);
+    const auto* known = entry.known<WallSpec>();
     WallSpec wall = known ? *known : wall_on(face, scene_.grid);
     FaceKind kind = FaceKind::wall;
     const bool map = slot.is_map(
@@ -132,21 +138,19 @@ class Boundaries {
 
   void describe_nodes(Slot& slot, BoundaryEntry& entry) const {
     if (slot.reads() && !slot.value()->is(Node::Kind::map)) {
-      std::vector<std::string> faces;
-      for (const FaceName& known : kFaces) faces.emplace_back(known.name);
-      const std::string meant = did_you_mean(entry.name, faces);
+      const std::string meant = did_you_mean(entry.name, names_of(kFaces));
       return slot.complain(
           "not a face of the grid, and not a map {box | node, direction, speed}",
           meant.empty() ? "The faces are left, right, bottom, top, in 3-D also back and front" : meant);
     }
     if (slot.reads() && !is_name(entry.name)) slot.report("not a name (letters, digits, '_' and '-')");
-    const auto* known = std::get_if<VelocityBoxSpec>(&entry.condition);
+    const auto* known = entry.known<VelocityBoxSpec>();
     VelocityBoxSpec spec = known ? *known : VelocityBoxSpec{{}, {}, {}, TimeTable{{0}, {0}}};
     slot.map("a map {box | node, direction, speed}", [&](Keys& map) {
       const auto choice = map.one_of({{"box"}, {"node"}});
       if (choice.none()) map.report("needs either box (a map {from, to}) or node (a point)");
       if (choice.takes(0))
-        map.need_at("box", "All nodes in this box.", "", [&](Slot& box) { describe_corners(box, spec); });
+        map.need_at("box", "All nodes in this box.", "", [&](Slot& box) { describe_nodes_in(box, spec); });
       if (choice.takes(1) && !map.writes())
         map.need_at("node", "The node nearest to this point.", "",
                     [&](Slot& node) { describe_node(node, spec); });
@@ -172,12 +176,8 @@ class Boundaries {
     }
   }
 
-  void describe_corners(Slot& slot, VelocityBoxSpec& spec) const {
-    const Vector corner{Measure::length, scene_.dimension()};
-    slot.map("a map {from, to}", [&](Keys& map) {
-      map.need("from", "The corner that is lower in every direction.", spec.lower, corner);
-      map.need("to", "The corner that is upper in every direction.", spec.upper, corner);
-    });
+  void describe_nodes_in(Slot& slot, VelocityBoxSpec& spec) const {
+    describe_corners(slot, scene_.dimension(), spec.lower, spec.upper);
     const bool good = slot.reads() && slot.good();
     for (std::size_t k = 0; good && k < 3; ++k)
       if (spec.lower[k] > spec.upper[k])  // equal is a row of nodes
@@ -188,15 +188,17 @@ class Boundaries {
   const Scene& scene_;
 };
 
+/// What is read: names, whose conditions follow.
+std::vector<BoundaryEntry> read_entries(const Node& section) {
+  std::vector<BoundaryEntry> out;
+  for (const Key& key : section.keys) out.push_back({key.text, {}});
+  return out;
+}
+
 /// What is written: the conditions, and then the faces that have none.
 std::vector<BoundaryEntry> written_entries(const Scene& scene) {
   std::vector<BoundaryEntry> out;
-  for (const BoundarySpec& boundary : scene.boundaries)
-    out.push_back(std::visit(
-        [&](const auto& one) {
-          return BoundaryEntry{boundary.name, one};
-        },
-        boundary.condition));
+  for (const BoundarySpec& boundary : scene.boundaries) out.push_back({boundary.name, boundary.condition});
   for (const FaceName& face : kFaces) {
     const bool given = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
                                    [&](const BoundarySpec& boundary) { return boundary.name == face.name; });
@@ -210,13 +212,6 @@ std::vector<BoundaryEntry> told_entries(const Scene& scene) {
   return {{kFaces[0].name, wall_on(kFaces[0], scene.grid)}, {"", {}}};
 }
 
-void add(BoundaryEntry entry, Scene& scene) {
-  if (auto* wall = std::get_if<WallSpec>(&entry.condition))
-    scene.boundaries.push_back({entry.name, std::move(*wall)});
-  else if (auto* nodes = std::get_if<VelocityBoxSpec>(&entry.condition))
-    scene.boundaries.push_back({entry.name, std::move(*nodes)});
-}
-
 void describe_entry(Keys& map, std::size_t k, const Boundaries& boundaries, BoundaryEntry& entry) {
   const bool face = face_named(entry.name);
   map.entry(k, face ? "FACE" : "NAME",
@@ -227,20 +222,17 @@ void describe_entry(Keys& map, std::size_t k, const Boundaries& boundaries, Boun
 
 }  // namespace
 
-void close_faces(MapReader& top, Scene& scene) {
+void close_faces(const Value& top, Scene& scene) {
   const auto section = top.find("boundaries");
   for (const FaceName& face : kFaces) {
     if (face.axis >= scene.dimension()) continue;
     const auto has_its_name = [&](const auto& named) { return named.name == face.name; };
-    const bool stated = section && std::any_of(section->node().keys.begin(), section->node().keys.end(),
-                                               [&](const Key& key) { return key.text == face.name; });
+    const bool stated = section && section->find(face.name);
     if (stated || std::any_of(scene.boundaries.begin(), scene.boundaries.end(), has_its_name)) continue;
     const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(), has_its_name);
     if (body != scene.bodies.end() && is_rigid(scene, *body))
-      MapReader(*top.find("grid"))
-          .find("leaving")
-          ->report(fmt::format(
-              "a rigid body is called '{}' as a wall here: their forces would share a column", face.name));
+      top.find("grid")->find("leaving")->report(fmt::format(
+          "a rigid body is called '{}' as a wall here: their forces would share a column", face.name));
     scene.boundaries.push_back({face.name, wall_on(face, scene.grid)});
   }
 }
@@ -250,16 +242,13 @@ void describe_boundaries(Keys& top, bool grid_known, Scene& scene) {
   top.section("boundaries", "Walls on the faces of the grid, and nodes whose velocity is given.",
               "a map {left: wall, …}", [&](Keys& map) {
                 map.leave_open();
-                auto entries = map.writes() ? written_entries(scene) : told_entries(scene);
-                if (!map.reads()) {
-                  for (std::size_t k = 0; k < entries.size(); ++k)
-                    describe_entry(map, k, boundaries, entries[k]);
-                  return;
-                }
-                for (std::size_t k = 0; k < map.count(0); ++k) {
-                  BoundaryEntry entry{map.reader().value().node().keys[k].text, {}};
-                  describe_entry(map, k, boundaries, entry);
-                  add(std::move(entry), scene);
+                auto entries = map.reads()    ? read_entries(map.reader().value().node())
+                               : map.writes() ? written_entries(scene)
+                                              : told_entries(scene);
+                for (std::size_t k = 0; k < entries.size(); ++k) {
+                  describe_entry(map, k, boundaries, entries[k]);
+                  if (map.reads() && entries[k].condition)
+                    scene.boundaries.push_back({entries[k].name, *entries[k].condition});
                 }
               });
 }

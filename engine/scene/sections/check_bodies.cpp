@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -46,7 +46,7 @@ bool is_round(const Scene& scene, const Shape& shape) {
 void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
   if (!body.seeding.turned()) return;
   const auto refuse = [&](const char* why) {
-    if (const auto seeding = MapReader(place.entry).find("seeding")) seeding->complain(why);
+    if (const auto seeding = place.entry.find("seeding")) seeding->complain(why);
   };
   const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
   if (std::holds_alternative<LinearElastic>(model))
@@ -117,9 +117,7 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {
   if (is_rigid(scene, body)) return;
   const auto refuse = [&](const char* key, const char* what) {
-    const int index = index_of(entry.node(), key);
-    Value(entry.node().items[static_cast<std::size_t>(index)], join(entry.path(), key), entry.problems())
-        .report(fmt::format("{} is for rigid bodies only", what));
+    entry.find(key)->report(fmt::format("{} is for rigid bodies only", what));
   };
   const auto& tables = body.rigid_velocity;
   if (std::any_of(tables.begin(), tables.end(), [](const auto& table) { return table.has_value(); }))

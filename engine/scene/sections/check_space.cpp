@@ -10,35 +10,31 @@ namespace mpmfast {
 
 namespace {
 
-/// What a map holds under a key, where both are there; faults of the map itself have been reported.
-std::optional<Value> inside(const std::optional<Value>& map, const std::string& key) {
-  if (!map || !map->is(Node::Kind::map)) return std::nullopt;
-  return MapReader(*map).find(key);
-}
-
 /// Can it be asked for its stress where nothing presses along z?
 bool relaxes(const MaterialModel& model) {
   return std::visit([]<class Law>(const Law&) { return Relaxes<Law> || std::is_same_v<Law, Rigid>; }, model);
 }
 
 /// Contact areas are found in the plane, not on the surface that turns about the axis.
-void refuse_areas(MapReader& top, const ContactSpec& contact) {
+void refuse_areas(const Value& top, const ContactSpec& contact) {
   const auto refuse = [](const std::optional<Value>& value, const SurfaceLaw& law) {
     if (value && std::visit([](const auto& one) { return one.uses_area; }, law.acts))
       value->complain("needs contact areas, which an axisymmetric scene does not have");
   };
   const auto section = top.find("contact");
-  refuse(inside(section, "law"), contact.law);
-  const auto pairs = inside(section, "pairs");
+  if (!section) return;
+  refuse(section->find("law"), contact.law);
+  const auto pairs = section->find("pairs");
   if (!pairs || !pairs->is(Node::Kind::list)) return;
   for (std::size_t k = 0; k < pairs->size() && k < contact.pairs.size(); ++k)
-    refuse(inside(pairs->item(k), "law"), contact.pairs[k].law);
+    refuse(pairs->item(k).find("law"), contact.pairs[k].law);
 }
 
 /// The axis is a wall: by default, and nothing else.
-void make_axis(MapReader& top, Scene& scene) {
+void make_axis(const Value& top, Scene& scene) {
   if (scene.grid.origin[0] > 0) return;
-  const auto left = inside(top.find("boundaries"), "left");
+  const auto section = top.find("boundaries");
+  const auto left = section ? section->find("left") : std::nullopt;
   if (!left) {
     scene.boundaries.push_back({"left", WallSpec{0, false, 0, TimeTable{{0}, {0}}, false}});
     return;
@@ -54,7 +50,7 @@ void make_axis(MapReader& top, Scene& scene) {
 
 }  // namespace
 
-void check_plane_stress(MapReader& top, const Scene& scene) {
+void check_plane_stress(const Value& top, const Scene& scene) {
   const auto section = top.find("materials");
   std::string relaxing;
   for (const MaterialKind& kind : material_kinds())
@@ -62,24 +58,25 @@ void check_plane_stress(MapReader& top, const Scene& scene) {
       relaxing += (relaxing.empty() ? "" : ", ") + std::string(kind.name);
   for (const MaterialSpec& material : scene.materials) {
     if (relaxes(material.model)) continue;
-    if (const auto model = inside(inside(section, material.name), "model"))
+    const auto stated = section ? section->find(material.name) : std::nullopt;
+    if (const auto model = stated ? stated->find("model") : std::nullopt)
       model->complain(fmt::format("plane_stress takes elastic laws ({})", relaxing));
   }
 }
 
-void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene) {
-  if (scene.grid.origin[0] < 0)
-    if (const auto origin = inside(top.find("grid"), "origin"))
-      origin->item(0).complain("x is the radius in an axisymmetric scene: it must be zero or more");
+void check_axisymmetric(const Value& top, bool grid_known, Scene& scene) {
+  if (scene.grid.origin[0] < 0)  // which only a scene that states it has
+    top.find("grid")->find("origin")->item(0).complain(
+        "x is the radius in an axisymmetric scene: it must be zero or more");
   if (scene.gravity.acceleration[0] != 0) {
     const auto section = top.find("gravity");
-    const auto nested = inside(section, "acceleration");
+    const auto nested = section->find("acceleration");
     (nested ? *nested : *section).item(0).complain("an axisymmetric scene falls along its axis, y, only");
   }
   refuse_areas(top, scene.contact);
   const auto bodies = top.find("bodies");
   for (std::size_t b = 0; bodies && bodies->is(Node::Kind::list) && b < bodies->size(); ++b)
-    if (const auto rotation = inside(bodies->item(b), "rotation"))
+    if (const auto rotation = bodies->item(b).find("rotation"))
       rotation->report("an axisymmetric body cannot turn about an axis across the plane");
   if (grid_known) make_axis(top, scene);
 }

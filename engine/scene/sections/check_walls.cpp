@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/quantities/time_table.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/quantities/time_table.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -51,13 +51,12 @@ std::optional<double> time_of_meeting(const WallSpec& lower, const WallSpec& upp
 
 }  // namespace
 
-void check_walls(MapReader& top, const Scene& scene) {
+void check_walls(const Value& top, const Scene& scene) {
   const auto section = top.find("boundaries");
   if (!section || !section->problems().empty()) return;
-  MapReader boundaries(*section);
   for (const BoundarySpec& boundary : scene.boundaries) {
     const WallSpec* wall = wall_of(boundary);
-    const auto value = boundaries.find(boundary.name);
+    const auto value = section->find(boundary.name);
     if (!wall || !value || is_axis(scene, *wall)) continue;
     check_bodies_behind(*value, boundary, *wall, scene);
     const bool moves = largest(wall->speed) > 0;

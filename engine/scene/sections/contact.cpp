@@ -1,9 +1,4 @@
-#include <fmt/format.h>
-
-#include <algorithm>
-
 #include "engine/scene/sections/describe.hpp"
-#include "engine/scene/sections/pairs.hpp"
 
 namespace mpmfast {
 
@@ -45,10 +40,7 @@ void describe_normal(Keys& map, int dimension, ContactSpec& contact) {
   constexpr const char* kSays = "The normal, from the body listed first to the other, or into a rigid one.";
   map.at("specified_normal", kSays, [&](Slot& slot) {
     if (slot.writes() && contact.specified_normal == Vec3{}) return;
-    if (!slot.take(contact.specified_normal, Vector{Measure::number, dimension}) || !slot.reads()) return;
-    const auto unit = unit_vector(contact.specified_normal);
-    if (!unit) slot.report("the zero vector has no direction");
-    contact.specified_normal = unit.value_or(Vec3{});
+    take_unit_vector(slot, dimension, contact.specified_normal);
   });
   map.under("normal=specified", contact.normal == NormalKind::specified,
             [&] { map.need_at("specified_normal", kSays, "a vector", [](Slot&) {}); });

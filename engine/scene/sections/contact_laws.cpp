@@ -10,54 +10,44 @@ namespace mpmfast {
 
 namespace {
 
-/// Hears what the parameters of a law are.
-struct Names {
-  std::vector<LawParameter>& found;
+/// Calls f(name, says, member, form, needed) with each parameter of a law.
+template <class F>
+void for_each_parameter(AnyLaw& law, const F& f) {
+  struct Visitor {
+    const F& f;
 
-  void key(const char* name, const char*, double&, const Number&) { found.push_back({name, false}); }
-  void need(const char* name, const char*, double&, const Number&) { found.push_back({name, true}); }
-};
+    void key(const char* name, const char* says, double& member, const Number& form) {
+      f(name, says, member, form, false);
+    }
+    void need(const char* name, const char* says, double& member, const Number& form) {
+      f(name, says, member, form, true);
+    }
+  };
+  Visitor visitor{f};
+  std::visit([&](auto& one) { one.describe(visitor); }, law);
+}
 
 using Values = std::map<std::string, double>;
-/// Takes down the parameters of a law, or gives a law those that are known.
-struct Collect {
-  Values& values;
 
-  void key(const char* name, const char*, double& member, const Number&) { values[name] = member; }
-  void need(const char* name, const char* says, double& member, const Number& form) {
-    key(name, says, member, form);
-  }
-};
-struct Give {
-  const Values& values;
-
-  void key(const char* name, const char*, double& member, const Number&) {
-    if (const auto found = values.find(name); found != values.end()) member = found->second;
-  }
-  void need(const char* name, const char* says, double& member, const Number& form) {
-    key(name, says, member, form);
-  }
-};
+/// The parameters of a law by name.
+Values values_of(AnyLaw law) {
+  Values values;
+  for_each_parameter(
+      law, [&](const char* name, const char*, double member, const Number&, bool) { values[name] = member; });
+  return values;
+}
 
 /// The keys of a law: one that has no default may be absent where another law has given it.
-struct LawKeys {
-  Keys& map;
-  bool given;
-
-  void key(const char* name, const char* says, double& member, const Number& form) {
-    map.key(name, says, member, form);
-  }
-  void need(const char* name, const char* says, double& member, const Number& form) {
-    if (given)
-      map.derived(name, says, member, form);
-    else
-      map.need(name, says, member, form);
-  }
-};
-
-template <class Visitor>
-void describe(AnyLaw& law, Visitor visitor) {
-  std::visit([&](auto& one) { one.describe(visitor); }, law);
+void describe_parameters(Keys& map, bool given, AnyLaw& law) {
+  for_each_parameter(
+      law, [&](const char* name, const char* says, double& member, const Number& form, bool needed) {
+        if (!needed)
+          map.key(name, says, member, form);
+        else if (given)
+          map.derived(name, says, member, form);
+        else
+          map.need(name, says, member, form);
+      });
 }
 
 bool has(const ContactLawKind& kind, const std::string& name) {
@@ -74,9 +64,7 @@ void refuse_others(Keys& map, const ContactLawKind& kind) {
 }
 
 void check_friction(Keys& map, const AnyLaw& law) {
-  Values values;
-  AnyLaw copy = law;
-  describe(copy, Collect{values});
+  Values values = values_of(law);
   const double sliding = values["friction"], resting = values["static_friction"];
   if (resting == 0 || resting >= sliding) return;
   const std::string fault =
@@ -91,7 +79,7 @@ void check_friction(Keys& map, const AnyLaw& law) {
 void tell_laws(Keys& map) {
   for (const ContactLawKind& kind : contact_laws()) {
     AnyLaw law = kind.standard;
-    describe(law, LawKeys{map, true});
+    describe_parameters(map, true, law);
   }
 }
 
@@ -100,7 +88,10 @@ std::vector<ContactLawKind> kinds_of(std::index_sequence<K...>) {
   std::vector<ContactLawKind> kinds;
   const auto add = [&]<class Law>(Law law) {
     kinds.push_back({Law::kWord, Law::kSays, law, {}});
-    describe(kinds.back().standard, Names{kinds.back().parameters});
+    for_each_parameter(kinds.back().standard,
+                       [&](const char* name, const char*, double, const Number&, bool needed) {
+                         kinds.back().parameters.push_back({name, needed});
+                       });
   };
   (add(std::variant_alternative_t<K, AnyLaw>{}), ...);
   return kinds;
@@ -129,16 +120,16 @@ void describe_law(Keys& map, const char* says, SurfaceLaw& law) {
   if (map.tells()) return tell_laws(map);
   const ContactLawKind& kind = contact_laws()[index];
   if (index != inherited) {
-    Values values{{"friction", law.friction}};
-    describe(law.acts, Collect{values});
+    Values known = values_of(law.acts);
+    known.emplace("friction", law.friction);
     law.acts = kind.standard;
-    describe(law.acts, Give{values});
+    for_each_parameter(law.acts, [&](const char* name, const char*, double& member, const Number&, bool) {
+      if (known.contains(name)) member = known[name];
+    });
   }
-  describe(law.acts, LawKeys{map, map.writes() || index == inherited});
+  describe_parameters(map, map.writes() || index == inherited, law.acts);
   if (has(kind, "friction")) {
-    Values values;
-    describe(law.acts, Collect{values});
-    law.friction = values["friction"];
+    law.friction = values_of(law.acts)["friction"];
   } else {  // so that --set can choose another law
     map.key("friction", kFrictionSays, law.friction, kCoefficient);
   }

@@ -3,8 +3,6 @@
 /// @file The sections of a scene: each is described once, and read, written and told of by its description
 /// (keys.hpp). What follows from several sections is checked after they are read.
 
-#include <cstddef>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,8 +11,13 @@
 
 namespace mpmfast {
 
+/// Where a body was written.
+struct BodyPlace {
+  Value entry, name;
+};
 /// The whole scene.
-void describe_scene(Keys& top, Scene& scene);
+/// @return the places of the bodies that are read
+std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene);
 /// The scene with every default, in the format that is read.
 std::string write_scene(const Scene& scene);
 
@@ -29,34 +32,36 @@ bool describe_method(Keys& top, MethodSpec& method);
 void describe_contact(Keys& top, bool strain_stated, Scene& scene);
 /// `law` and its parameters; what is absent keeps its value, also where another law has it.
 void describe_law(Keys& map, const char* says, SurfaceLaw& law);
+/// `contact.pairs`. Needs the bodies.
+/// @param top  the scene, where bodies stand that could not be read
+void describe_pairs(Keys& contact, Keys& top, Scene& scene);
 /// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
 void describe_materials(Keys& top, std::vector<MaterialSpec>& materials);
-/// Where a body was written, for checks that come later.
-struct BodyPlace {
-  Value entry, name;
-};
 /// Needs grid and materials.
-/// @param places  of the bodies that are read
-void describe_bodies(Keys& top, Scene& scene, std::vector<BodyPlace>& places);
+/// @return the places of the bodies that are read
+std::vector<BodyPlace> describe_bodies(Keys& top, Scene& scene);
 /// Needs the grid and the bodies.
 void describe_boundaries(Keys& top, bool grid_known, Scene& scene);
 
 /// A direction: x, +x, -x, left, up, out … or (when `any`) a vector, made a unit vector.
 void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction);
-/// The vector with length 1; one that has it to round-off is kept as it is, so that reading what was written
-/// changes nothing. Nothing for a zero vector.
-std::optional<Vec3> unit_vector(const Vec3& vector);
+/// A vector, made a unit vector where it is read.
+void take_unit_vector(Slot& slot, int dimension, Vec3& direction);
+/// {from, to}: the corners of a box along the axes.
+void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper);
+/// A path as written; made absolute from the folder of the scene where it is read.
+void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file);
 
 // Checks of a scene that was read.
 
 /// Refuses walls with bodies behind them, and pistons that would go through the wall on the other side.
-void check_walls(MapReader& top, const Scene& scene);
+void check_walls(const Value& top, const Scene& scene);
 /// `grid.leaving: wall`: a wall on each face that `boundaries` says nothing of. Needs everything else.
-void close_faces(MapReader& top, Scene& scene);
+void close_faces(const Value& top, Scene& scene);
 /// Refuses laws that plane stress cannot have.
-void check_plane_stress(MapReader& top, const Scene& scene);
+void check_plane_stress(const Value& top, const Scene& scene);
 /// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.
-void check_axisymmetric(MapReader& top, bool grid_known, Scene& scene);
+void check_axisymmetric(const Value& top, bool grid_known, Scene& scene);
 
 /// What a body must not be, beside others, in this grid, of this material.
 void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known);
@@ -72,8 +77,8 @@ struct ShapeKind {
   const char* says;                                                ///< a line for `mpmfast list`
   const char* note;                                                ///< what the key means
   void (*describe)(Slot& slot, Shape& shape, const Scene& scene);  ///< none for a bitmap, which is several
-  std::size_t holds;                                               ///< index in Shape
-  bool written;                                                    ///< shapes of this index have this name
+  Shape standard;                                                  ///< the struct that holds it
+  bool written;                                                    ///< shapes of this struct have this name
 };
 const std::vector<ShapeKind>& shape_kinds();
 
@@ -85,6 +90,15 @@ struct BitmapEntry {
   std::vector<int> levels;                             ///< that are read and not skipped
   std::vector<std::pair<std::string, int>> materials;  ///< grey level, index of its material; −1: unknown
 };
+/// What one entry of `bodies` says: one body, or one for each grey level of a bitmap.
+struct BodyEntry {
+  BodySpec body;
+  BitmapEntry bitmap;
+  bool shaped = false, made = false;  ///< has it a good shape, and a material?
+};
+
+/// The bodies as the entries that they came from.
+std::vector<BodyEntry> entries_of(const Scene& scene);
 /// `bitmap` itself, and what stands beside it.
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry);
 void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,

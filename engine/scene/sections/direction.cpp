@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "engine/scene/sections/describe.hpp"
 
@@ -7,57 +6,33 @@ namespace mpmfast {
 
 namespace {
 
-struct NamedDirection {
-  const char* name;
-  int axis;
-  double sign;
-};
-constexpr NamedDirection kDirections[] = {
-    {"x", 0, 1},     {"y", 1, 1},     {"z", 2, 1},   {"+x", 0, 1},  {"+y", 1, 1},
-    {"+z", 2, 1},    {"-x", 0, -1},   {"-y", 1, -1}, {"-z", 2, -1}, {"left", 0, -1},
-    {"right", 0, 1}, {"down", 1, -1}, {"up", 1, 1},  {"in", 2, -1}, {"out", 2, 1},
+constexpr Word<Vec3> kDirections[] = {
+    {{1, 0, 0}, "x", ""},   {{0, 1, 0}, "y", ""},     {{0, 0, 1}, "z", ""},     {{1, 0, 0}, "+x", ""},
+    {{0, 1, 0}, "+y", ""},  {{0, 0, 1}, "+z", ""},    {{-1, 0, 0}, "-x", ""},   {{0, -1, 0}, "-y", ""},
+    {{0, 0, -1}, "-z", ""}, {{-1, 0, 0}, "left", ""}, {{1, 0, 0}, "right", ""}, {{0, -1, 0}, "down", ""},
+    {{0, 1, 0}, "up", ""},  {{0, 0, -1}, "in", ""},   {{0, 0, 1}, "out", ""},
 };
 
 }  // namespace
 
-std::optional<Vec3> unit_vector(const Vec3& vector) {
-  const double longest = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
-  if (longest == 0) return std::nullopt;
-  Vec3 scaled = vector;
-  if (longest < 1e-100 || longest > 1e100) {
-    for (double& component : scaled) component /= longest;  // its square would under- or overflow
-  }
-  const double square = scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2];
-  constexpr double kRoundOff = 4e-15;
-  if (std::abs(square - 1) > kRoundOff) {
-    for (double& component : scaled) component /= std::sqrt(square);
-  }
-  return scaled;
+void take_unit_vector(Slot& slot, int dimension, Vec3& direction) {
+  if (!slot.take(direction, Vector{Measure::number, dimension}) || !slot.reads()) return;
+  const auto unit = unit_vector(direction);
+  if (!unit) slot.report("the zero vector has no direction");
+  direction = unit.value_or(Vec3{});
 }
 
 void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction) {
-  std::vector<std::string> known;
-  std::vector<Vec3> vectors;
-  for (const NamedDirection& named : kDirections) {
-    if (named.axis >= dimension && !slot.tells()) continue;
-    known.emplace_back(named.name);
-    vectors.push_back({});
-    vectors.back()[static_cast<std::size_t>(named.axis)] = named.sign;
-  }
-  const auto name = std::find(vectors.begin(), vectors.end(), direction);
-  const bool by_vector = slot.reads() ? slot.value()->is(Node::Kind::list) : name == vectors.end();
-  if (any && (slot.tells() || by_vector)) {
-    const bool good = slot.take(direction, Vector{Measure::number, dimension});
-    if (slot.reads() && good) {
-      const auto unit = unit_vector(direction);
-      if (!unit) slot.report("the zero vector has no direction");
-      direction = unit.value_or(Vec3{});
-    }
-    if (!slot.tells()) return;
-  }
-  std::string word = name == vectors.end() ? "" : known[static_cast<std::size_t>(name - vectors.begin())];
-  if (!slot.take(word, known) || !slot.reads()) return;
-  direction = vectors[static_cast<std::size_t>(std::find(known.begin(), known.end(), word) - known.begin())];
+  std::vector<Word<Vec3>> known;
+  for (const Word<Vec3>& named : kDirections)
+    if (dimension == 3 || named.value[2] == 0 || slot.tells()) known.push_back(named);
+  const auto name = std::find_if(known.begin(), known.end(),
+                                 [&](const Word<Vec3>& named) { return named.value == direction; });
+  const bool by_vector = slot.reads() ? slot.value()->is(Node::Kind::list) : name == known.end();
+  if (any && (slot.tells() || by_vector)) take_unit_vector(slot, dimension, direction);
+  if (any && by_vector && !slot.tells()) return;
+  auto index = static_cast<std::size_t>(name - known.begin());
+  if (slot.choose(index, known) && slot.reads()) direction = known[index].value;
 }
 
 }  // namespace mpmfast

@@ -16,25 +16,22 @@ void check_cells(Slot& size, int dimension, const GridSpec& grid) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     const double cells = grid.size[k] / grid.cell;
     const double whole = std::max(std::round(cells), 1.0);
-    Slot edge(size.value()->item(k));
     if (cells > kMostCells)
-      edge.complain(fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
+      size.refuse_item(k, fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
     else if (cells < 1 - 1e-6)
-      edge.complain(fmt::format("smaller than one cell of {} m", grid.cell));
+      size.refuse_item(k, fmt::format("smaller than one cell of {} m", grid.cell));
     else if (std::abs(cells - whole) > 1e-6 * whole)
-      edge.complain(fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell,
-                                whole * grid.cell));
-    size.keep(edge.good());
+      size.refuse_item(k, fmt::format("not a whole number of cells of {} m (nearest: {:.9g} m)", grid.cell,
+                                      whole * grid.cell));
   }
 }
 
-void check_origin(const Value& origin, int dimension, const GridSpec& grid, Keys& map) {
-  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
+void check_origin(Slot& origin, int dimension, const GridSpec& grid) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(dimension) && origin.good(); ++k)
     if (std::abs(grid.origin[k]) > kFurthest * grid.cell)
-      return map.refuse(
-          origin.item(k),
-          fmt::format("{:.2g} cells from zero (at most {:g}, or places would be rounded too far)",
-                      std::abs(grid.origin[k]) / grid.cell, kFurthest));
+      origin.refuse_item(
+          k, fmt::format("{:.2g} cells from zero (at most {:g}, or places would be rounded too far)",
+                         std::abs(grid.origin[k]) / grid.cell, kFurthest));
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ bool describe_grid(Keys& top, int dimension, GridSpec& grid) {
         map.key("leaving", "What becomes of a particle that goes a cell beyond the grid.", grid.leaving,
                 kLeaving);
         if (!map.reads() || !map.good()) return;
-        if (const auto origin = map.stated("origin")) check_origin(*origin, dimension, grid, map);
+        map.check("origin", [&](Slot& origin) { check_origin(origin, dimension, grid); });
         if (map.good()) map.check("size", [&](Slot& size) { check_cells(size, dimension, grid); });
       });
 }

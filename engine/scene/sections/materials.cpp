@@ -22,12 +22,6 @@ void add(std::vector<MaterialKind>& kinds) {
   kind->laws.push_back({with, Law{}, describe});
 }
 
-std::vector<std::string> names_of(const std::vector<MaterialKind>& kinds) {
-  std::vector<std::string> names;
-  for (const MaterialKind& kind : kinds) names.emplace_back(kind.name);
-  return names;
-}
-
 /// The kind of a material that is written.
 std::size_t kind_of(const MaterialModel& model) {
   const auto& kinds = material_kinds();

@@ -1,5 +1,3 @@
-#include "engine/scene/sections/pairs.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,11 +19,10 @@ std::vector<std::string> unread_bodies(Keys& top, const Scene& scene) {
   std::set<std::string> read;
   for (const BodySpec& body : scene.bodies) read.insert(body.name);
   for (const Node& entry : bodies->node().items) {
-    const int index = index_of(entry, "name");
-    if (index < 0) continue;
-    const std::string& name = entry.items[static_cast<std::size_t>(index)].scalar;
-    if (!is_name(name) || read.contains(name)) continue;
-    const bool bitmap = index_of(entry, "bitmap") >= 0;
+    const Node* stated = find_value(entry, "name");
+    if (!stated || !is_name(stated->scalar) || read.contains(stated->scalar)) continue;
+    const std::string& name = stated->scalar;
+    const bool bitmap = find_value(entry, "bitmap");
     const bool level =
         std::any_of(read.begin(), read.end(), [&](const auto& one) { return one.starts_with(name + "_"); });
     if (!bitmap || !level) out.push_back(name);
@@ -37,8 +34,8 @@ std::vector<std::string> unread_bodies(Keys& top, const Scene& scene) {
 class PairEntries {
  public:
   /// @param unread  names of bodies that the scene states but that could not be read
-  PairEntries(Scene& scene, std::vector<std::string> unread) : scene_(scene), unread_(std::move(unread)) {
-    for (const MaterialSpec& material : scene.materials) materials_.push_back(material.name);
+  PairEntries(Scene& scene, std::vector<std::string> unread)
+      : scene_(scene), materials_(names_of(scene.materials)), unread_(std::move(unread)) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) name(scene.bodies[b].name, b);
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) name(scene.bodies[b].field, b);
   }
@@ -151,7 +148,7 @@ class PairEntries {
   }
 
   Scene& scene_;
-  std::vector<std::string> materials_, names_, unread_;
+  std::vector<std::string> materials_, unread_, names_;
   std::vector<int> body_;  ///< of each name
 };
 

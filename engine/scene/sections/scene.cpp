@@ -26,7 +26,7 @@ void describe_head(Keys& top, Scene& scene) {
 }
 
 /// What follows from several sections.
-void check_scene(MapReader& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
+void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
@@ -36,21 +36,21 @@ void check_scene(MapReader& top, bool grid_known, const std::vector<BodyPlace>& 
 
 }  // namespace
 
-void describe_scene(Keys& top, Scene& scene) {
+std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene) {
   for (const KnownWord& early : early_keys()) top.stated(early.name);  // done with
   describe_head(top, scene);
   const bool grid_known = describe_grid(top, scene.dimension(), scene.grid);
   describe_time(top, scene.time);
   const bool strain_stated = describe_method(top, scene.method);
   describe_materials(top, scene.materials);
-  std::vector<BodyPlace> places;
-  describe_bodies(top, scene, places);
+  const std::vector<BodyPlace> places = describe_bodies(top, scene);
   describe_boundaries(top, grid_known, scene);
   describe_gravity(top, scene.dimension(), scene.gravity);
   describe_contact(top, strain_stated, scene);
   describe_output(top, scene.dimension(), scene.output);
-  if (top.reads()) check_scene(top.reader(), grid_known, places, scene);
+  if (top.reads()) check_scene(top.reader().value(), grid_known, places, scene);
   top.close();
+  return places;
 }
 
 const std::vector<KnownWord>& early_keys() {

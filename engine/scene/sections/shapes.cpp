@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "engine/scene/geometry/load.hpp"
-#include "engine/scene/geometry/polygon.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/load.hpp"
+#include "engine/geometry/polygon.hpp"
+#include "engine/geometry/surface.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -13,53 +13,58 @@ namespace {
 
 constexpr const char* kMiddle = "Its middle.";
 
-/// What `shape` holds, or what a shape of this kind begins with.
+/// `shape` as one of this kind, which it becomes where it is another.
 template <class S>
-S held(const Shape& shape) {
-  const S* found = std::get_if<S>(&shape);
-  return found ? *found : S{};
+S& as(Shape& shape) {
+  return std::holds_alternative<S>(shape) ? std::get<S>(shape) : shape.emplace<S>();
 }
 
 Vector lengths(const Scene& scene, const Limit& limit = kAny) {
   return {Measure::length, scene.dimension(), limit};
 }
 
-void describe_box(Slot& slot, Shape& shape, const Scene& scene) {
-  auto box = held<BoxShape>(shape);
+}  // namespace
+
+void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper) {
+  const Vector corner{Measure::length, dimension};
   slot.map("a map {from, to}", [&](Keys& map) {
-    map.need("from", "The corner that is lower in every direction.", box.lower, lengths(scene));
-    map.need("to", "The corner that is upper in every direction.", box.upper, lengths(scene));
+    map.need("from", "The corner that is lower in every direction.", lower, corner);
+    map.need("to", "The corner that is upper in every direction.", upper, corner);
   });
+}
+
+namespace {
+
+void describe_box(Slot& slot, Shape& shape, const Scene& scene) {
+  auto& box = as<BoxShape>(shape);
+  describe_corners(slot, scene.dimension(), box.lower, box.upper);
   for (std::size_t k = 0; slot.reads() && slot.good() && k < static_cast<std::size_t>(scene.dimension()); ++k)
     if (box.lower[k] >= box.upper[k])
       slot.report(fmt::format("'to' must lie above 'from' in {}, but {} m is not above {} m", "xyz"[k],
                               box.upper[k], box.lower[k]));
-  shape = box;
 }
 
 void describe_round(Slot& slot, Shape& shape, const Scene& scene) {
-  auto round = held<EllipsoidShape>(shape);
+  auto& round = as<EllipsoidShape>(shape);
   slot.map("a map {centre, radius}", [&](Keys& map) {
     map.need("centre", kMiddle, round.centre, lengths(scene));
     map.need("radius", "Its radius.", round.radii[0], Number{Measure::length, kPositive});
   });
   round.radii = {round.radii[0], round.radii[0], scene.dimension() == 3 ? round.radii[0] : 0.0};
-  shape = round;
 }
 
 void describe_ellipsoid(Slot& slot, Shape& shape, const Scene& scene) {
-  auto round = held<EllipsoidShape>(shape);
+  auto& round = as<EllipsoidShape>(shape);
   slot.map("a map {centre, radii, angle}", [&](Keys& map) {
     map.need("centre", kMiddle, round.centre, lengths(scene));
     map.need("radii", "Its radii along the axes, before it is turned.", round.radii,
              lengths(scene, kPositive));
     map.key("angle", "Turns it about z.", round.angle, Number{Measure::angle});
   });
-  shape = round;
 }
 
 void describe_ring(Slot& slot, Shape& shape, const Scene& scene) {
-  auto ring = held<RingShape>(shape);
+  auto& ring = as<RingShape>(shape);
   const bool tube = scene.dimension() == 3;
   slot.map(tube ? "a map {centre, inner, outer, length}" : "a map {centre, inner, outer}", [&](Keys& map) {
     map.need("centre", kMiddle, ring.centre, lengths(scene));
@@ -72,7 +77,6 @@ void describe_ring(Slot& slot, Shape& shape, const Scene& scene) {
   if (slot.reads() && slot.good() && ring.inner >= ring.outer)
     slot.report(fmt::format("the inner radius must be smaller than the outer, but {} m is not below {} m",
                             ring.inner, ring.outer));
-  shape = ring;
 }
 
 void describe_points(Slot& slot, std::vector<std::array<double, 2>>& points) {
@@ -97,11 +101,10 @@ void describe_heights(Slot& slot, PolygonShape& polygon) {
 }
 
 void describe_polygon(Slot& slot, Shape& shape, const Scene& scene) {
-  auto polygon = held<PolygonShape>(shape);
+  auto& polygon = as<PolygonShape>(shape);
   const bool prism = scene.dimension() == 3;
   if (!prism && (slot.tells() || (slot.reads() && slot.value()->is(Node::Kind::list)))) {
     describe_points(slot, polygon.points);
-    shape = polygon;
     if (!slot.tells()) return;
   }
   slot.map(prism ? "a map {points, z: [lower, upper]}" : "a list of points or a map {points}",
@@ -113,7 +116,6 @@ void describe_polygon(Slot& slot, Shape& shape, const Scene& scene) {
                            [&](Slot& ends) { describe_heights(ends, polygon); });
              });
            });
-  shape = polygon;
 }
 
 /// The surface of a file that was read, where it lies in the scene.
@@ -127,14 +129,13 @@ void place_surface(Slot& slot, StlShape& shape, const Surface& surface) {
 }
 
 void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
-  auto stl = held<StlShape>(shape);
+  auto& stl = as<StlShape>(shape);
   std::shared_ptr<const Surface> surface;
   slot.map("a map {file, scale, angle, axis, translate}", [&](Keys& map) {
     map.need_at("file", "Path, counted from the folder of the scene.", "an STL file, text or binary",
                 [&](Slot& file) {
-                  std::string text = stl.file.string();
-                  if (!file.take(text, Text{}) || !file.reads()) return;
-                  stl.file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
+                  describe_file(file, scene, stl.file);
+                  if (!file.reads() || !file.good()) return;
                   std::string why_not;
                   surface = load_stl(stl.file, why_not);
                   if (!surface)
@@ -149,12 +150,6 @@ void describe_stl(Slot& slot, Shape& shape, const Scene& scene) {
     map.key("translate", "Moves it, after it is turned.", stl.translate, Vector{Measure::length, 3});
   });
   if (slot.reads() && slot.good()) place_surface(slot, stl, *surface);
-  shape = stl;
-}
-
-template <class S>
-std::size_t index_of_shape() {
-  return Shape(S{}).index();
 }
 
 }  // namespace
@@ -162,27 +157,26 @@ std::size_t index_of_shape() {
 const std::vector<ShapeKind>& shape_kinds() {
   static const std::vector<ShapeKind> kKinds{
       {"box", 0, "edges along the axes; its volume is exact", "A box along the axes.", describe_box,
-       index_of_shape<BoxShape>(), true},
-      {"disk", 2, "2-D", "A disk, in 2-D.", describe_round, index_of_shape<EllipsoidShape>(), false},
-      {"sphere", 3, "3-D", "A sphere, in 3-D.", describe_round, index_of_shape<EllipsoidShape>(), false},
-      {"ellipse", 2, "2-D, turned by angle", "An ellipse, in 2-D.", describe_ellipsoid,
-       index_of_shape<EllipsoidShape>(), true},
+       BoxShape{}, true},
+      {"disk", 2, "2-D", "A disk, in 2-D.", describe_round, EllipsoidShape{}, false},
+      {"sphere", 3, "3-D", "A sphere, in 3-D.", describe_round, EllipsoidShape{}, false},
+      {"ellipse", 2, "2-D, turned by angle", "An ellipse, in 2-D.", describe_ellipsoid, EllipsoidShape{},
+       true},
       {"ellipsoid", 3, "3-D, turned by angle about z", "An ellipsoid, in 3-D.", describe_ellipsoid,
-       index_of_shape<EllipsoidShape>(), true},
-      {"ring", 2, "2-D", "A ring, in 2-D.", describe_ring, index_of_shape<RingShape>(), true},
+       EllipsoidShape{}, true},
+      {"ring", 2, "2-D", "A ring, in 2-D.", describe_ring, RingShape{}, true},
       {"tube", 3, "3-D, along z; a cylinder when inner is 0", "A tube or a cylinder along z, in 3-D.",
-       describe_ring, index_of_shape<RingShape>(), true},
+       describe_ring, RingShape{}, true},
       {"polygon", 0, "simple, closed by itself; in 3-D extruded along z",
        "A polygon by its corners, closed by itself; in 3-D a map, extruded along z.", describe_polygon,
-       index_of_shape<PolygonShape>(), true},
+       PolygonShape{}, true},
       {"bitmap", 2,
        "2-D, an 8-bit grey PNG (beside it extent, origin, skip, materials): each grey level is a body "
        "NAME_LEVEL",
-       "A grey PNG with 8 bits, in 2-D: each grey level is a body NAME_LEVEL.", nullptr,
-       index_of_shape<BitmapShape>(), true},
+       "A grey PNG with 8 bits, in 2-D: each grey level is a body NAME_LEVEL.", nullptr, BitmapShape{}, true},
       {"stl", 3,
        "3-D, a closed surface: scale is the length of the file's unit; turned about its origin, then moved",
-       "A closed surface from a file, in 3-D.", describe_stl, index_of_shape<StlShape>(), true},
+       "A closed surface from a file, in 3-D.", describe_stl, StlShape{}, true},
   };
   return kKinds;
 }

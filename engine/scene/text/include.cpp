@@ -1,7 +1,6 @@
 #include "engine/scene/text/include.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
@@ -36,11 +35,6 @@ void merge(Node& into, Node from) {
   }
 }
 
-Node* entry(Node& map, const std::string& key) {
-  const int index = index_of(map, key);
-  return index < 0 ? nullptr : &map.items[static_cast<std::size_t>(index)];
-}
-
 /// A path that is to count from `folder`, wherever the reader counts from.
 void anchor(Node* path, const fs::path& folder) {
   if (!path || path->kind != Node::Kind::scalar || fs::path(path->scalar).is_absolute()) return;
@@ -53,12 +47,12 @@ void anchor(Node* path, const fs::path& folder) {
 
 /// Pictures and surfaces of the bodies.
 void anchor_paths(Node& root, const fs::path& folder) {
-  Node* bodies = entry(root, "bodies");
+  Node* bodies = find_value(root, "bodies");
   if (!bodies || bodies->kind != Node::Kind::list) return;
   for (Node& body : bodies->items) {
     for (const char* kind : {"bitmap", "stl"}) {
-      Node* shape = entry(body, kind);
-      anchor(shape && shape->kind == Node::Kind::map ? entry(*shape, "file") : shape, folder);
+      Node* shape = find_value(body, kind);
+      anchor(shape && shape->kind == Node::Kind::map ? find_value(*shape, "file") : shape, folder);
     }
   }
 }

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <ranges>
 
 #include "engine/scene/text/tree.hpp"
 
@@ -8,32 +10,16 @@ namespace mpmfast {
 
 namespace {
 
-std::vector<std::string> split(const std::string& path) {
-  std::vector<std::string> parts(1);
-  for (const char c : path) {
-    if (c == '.') {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 /// The entry of a list or map that one part of the path names; a missing key of a map is added, and the
 /// reader says whether it may be there.
 Node* descend(Node& node, const std::string& part, const std::string& parent, const Place& place,
               Problems& problems) {
   if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;
   if (node.kind == Node::Kind::map) {
-    int index = index_of(node, part);
-    if (index < 0) {
-      index = static_cast<int>(node.keys.size());
-      node.keys.push_back({part, place});
-      node.items.emplace_back();
-      node.items.back().place = place;
-    }
-    return &node.items[static_cast<std::size_t>(index)];
+    if (Node* known = find_value(node, part)) return known;
+    node.keys.push_back({part, place});
+    node.items.emplace_back().place = place;
+    return &node.items.back();
   }
   const std::string label = parent.empty() ? "the scene" : parent;
   if (node.kind == Node::Kind::scalar) {
@@ -47,8 +33,8 @@ Node* descend(Node& node, const std::string& part, const std::string& parent, co
   }
   std::string hint;
   for (std::size_t k = 0; k < node.items.size(); ++k) {
-    const int name = index_of(node.items[k], "name");
-    if (name >= 0 && node.items[k].items[static_cast<std::size_t>(name)].scalar == part)
+    const Node* name = find_value(node.items[k], "name");
+    if (name && name->scalar == part)
       hint = fmt::format("Did you mean '{}'?", join(parent, std::to_string(k)));
   }
   problems.add(place, join(parent, part),
@@ -63,12 +49,10 @@ Node* descend(Node& node, const std::string& part, const std::string& parent, co
 void apply_override(Node& root, const std::string& path, const std::string& value, int source,
                     Problems& problems) {
   const Place place{0, 0, source};
-  const std::vector<std::string> parts = split(path);
-  for (const std::string& part : parts) {
-    if (!part.empty()) continue;
-    problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
-    return;
-  }
+  std::vector<std::string> parts;
+  for (const auto part : std::views::split(path, '.')) parts.emplace_back(part.begin(), part.end());
+  if (parts.empty() || std::find(parts.begin(), parts.end(), "") != parts.end())
+    return problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
   std::optional<Node> parsed = parse_tree(value, source, problems, "no value after '='");
   if (!parsed) return;
   Node* node = &root;

@@ -12,16 +12,11 @@ int Problems::add_file(std::string name) {
 }
 
 void Problems::add(const Place& place, std::string path, std::string message, std::string hint) {
-  Diagnostic diagnostic;
-  diagnostic.file = sources_[static_cast<std::size_t>(place.source)];
-  if (place.source == 0 || is_included(place.source)) {  // a place within a --set argument would say nothing
-    diagnostic.line = place.line;
-    diagnostic.column = place.column;
-  }
-  diagnostic.path = std::move(path);
-  diagnostic.message = std::move(message);
-  diagnostic.hint = std::move(hint);
-  found_.push_back({place, std::move(diagnostic)});
+  // A place within a --set argument would say nothing.
+  const Place shown = place.source == 0 || is_included(place.source) ? place : Place{};
+  found_.push_back({place,
+                    {sources_[static_cast<std::size_t>(place.source)], shown.line, shown.column,
+                     std::move(path), std::move(message), std::move(hint)}});
 }
 
 std::vector<Diagnostic> Problems::sorted() const {

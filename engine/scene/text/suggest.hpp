@@ -1,24 +1,19 @@
 #pragma once
 
-/// @file "Did you mean …?": the known word nearest to a misspelt one.
+/// @file "Did you mean …?": what a word of a scene, or of the command line, stands for here.
 
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "engine/quantities/closest.hpp"
+
 namespace mpmfast {
 
-/// Edits (insert, delete, replace, swap of neighbours) that turn one word into the other.
-int edit_distance(std::string_view a, std::string_view b);
-
-/// The nearest known word when it is near enough to be what was meant, else empty. A word that differs in
-/// case alone wins over every other.
-std::string closest(std::string_view word, std::span<const std::string> known);
-
-/// "Did you mean 'x'?" or nothing.
+/// As closest_hint; but first for what other programs, or people, call by this word.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
-/// "It belongs into 'method'": the section that has such a key, or nothing.
+/// "It belongs to 'method'": the section that has such a key, or nothing.
 std::string home_of(std::string_view key);
 
 }  // namespace mpmfast

@@ -216,6 +216,15 @@ int index_of(const Node& node, const std::string& key) {
   return -1;
 }
 
+const Node* find_value(const Node& node, const std::string& key) {
+  const int index = index_of(node, key);
+  return index < 0 ? nullptr : &node.items[static_cast<std::size_t>(index)];
+}
+
+Node* find_value(Node& node, const std::string& key) {
+  return const_cast<Node*>(find_value(std::as_const(node), key));
+}
+
 namespace {
 
 /// On one line, cut where it is long.

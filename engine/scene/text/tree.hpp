@@ -31,6 +31,9 @@ struct Node {
 
 /// Index of a key in a map; −1 when it is absent or the node is no map.
 int index_of(const Node& node, const std::string& key);
+/// The value under the key; null where there is none.
+const Node* find_value(const Node& node, const std::string& key);
+Node* find_value(Node& node, const std::string& key);
 
 /// "'text'", "a list of 3", "a map", "nothing": what a message says was got.
 std::string describe(const Node& node);

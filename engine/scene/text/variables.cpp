@@ -8,7 +8,7 @@
 #include <map>
 #include <utility>
 
-#include "engine/scene/quantities/expression.hpp"
+#include "engine/quantities/expression.hpp"
 #include "engine/scene/text/suggest.hpp"
 
 namespace mpmfast {
@@ -54,9 +54,9 @@ class Expander {
 
  private:
   void collect() {
-    const int index = index_of(root_, "variables");
-    if (index < 0) return;
-    Node& section = root_.items[static_cast<std::size_t>(index)];
+    Node* const found = find_value(root_, "variables");
+    if (!found) return;
+    Node& section = *found;
     if (section.kind != Node::Kind::map) {
       return problems_.add(section.place, "variables",
                            "not a map of names and values such as {dx: 0.5 mm}, got " + describe(section));

@@ -61,11 +61,10 @@ std::string quoted_text(const std::string& text) {
       out += c;
     } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
       out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else if (c == '{' && out.back() == '$') {
+      out += "${";  // "$${" is read as "${"
     } else {
-      if (c == '{' && out.back() == '$')
-        out += "${";  // "$${" is read as "${"
-      else
-        out += c;
+      out += c;
     }
   }
   return out + '"';

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <vector>
 
@@ -13,12 +14,7 @@ namespace {
 
 std::vector<std::string_view> lines_of(const std::string& text) {
   std::vector<std::string_view> out;
-  const std::string_view view(text);
-  for (std::size_t at = 0; at <= view.size();) {
-    const std::size_t end = std::min(view.find('\n', at), view.size());
-    out.push_back(view.substr(at, end - at));
-    at = end + 1;
-  }
+  for (const auto line : std::views::split(text, '\n')) out.emplace_back(line.begin(), line.end());
   return out;
 }
 

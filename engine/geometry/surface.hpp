@@ -3,12 +3,11 @@
 /// @file A closed surface of triangles, and where lines along x pass through it.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 namespace mpmfast {
 

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <utility>
 
-#include "engine/scene/geometry/load.hpp"
+#include "engine/geometry/load.hpp"
 
 namespace mpmfast {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/scene/quantities/expression.hpp"
-#include "engine/scene/quantities/expression_functions.hpp"
+#include "engine/quantities/expression.hpp"
+#include "engine/quantities/expression_functions.hpp"
 
 namespace mpmfast {
 

@@ -2,7 +2,7 @@
 #include <iterator>
 #include <system_error>
 
-#include "engine/scene/geometry/load.hpp"
+#include "engine/geometry/load.hpp"
 
 namespace mpmfast {
 

@@ -1,11 +1,11 @@
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-#include "engine/scene/geometry/polygon.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/polygon.hpp"
+#include "engine/geometry/surface.hpp"
 
 namespace mpmfast {
 
@@ -139,6 +139,27 @@ Bounds extent(const BitmapShape& shape) {
 Bounds extent(const StlShape& shape) { return shape.surface->bounds(); }
 
 }  // namespace
+
+std::optional<Vec3> unit_vector(const Vec3& vector) {
+  const double longest = std::max({std::abs(vector[0]), std::abs(vector[1]), std::abs(vector[2])});
+  if (longest == 0) return std::nullopt;
+  Vec3 scaled = vector;
+  if (longest < 1e-100 || longest > 1e100) {
+    for (double& component : scaled) component /= longest;  // its square would under- or overflow
+  }
+  const double square = scaled[0] * scaled[0] + scaled[1] * scaled[1] + scaled[2] * scaled[2];
+  constexpr double kRoundOff = 4e-15;
+  if (std::abs(square - 1) > kRoundOff) {
+    for (double& component : scaled) component /= std::sqrt(square);
+  }
+  return scaled;
+}
+
+std::array<bool, 256> GreyImage::levels() const {
+  std::array<bool, 256> present{};
+  for (const unsigned char grey : pixel) present[grey] = true;
+  return present;
+}
 
 bool contains(const Shape& shape, const Vec3& point) {
   return std::visit([&](const auto& known) { return inside(known, point); }, shape);

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "engine/scene/geometry/load.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/load.hpp"
+#include "engine/geometry/surface.hpp"
 
 namespace mpmfast {
 

@@ -1,9 +1,8 @@
-#include "engine/scene/geometry/polygon.hpp"
+#include "engine/geometry/polygon.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace mpmfast {

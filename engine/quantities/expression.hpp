@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
 

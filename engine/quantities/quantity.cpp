@@ -1,4 +1,4 @@
-#include "engine/scene/quantities/quantity.hpp"
+#include "engine/quantities/quantity.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,8 +51,8 @@ bool has_leading_zeros(std::string_view number) {
 }
 
 /// The number at the front of `text`, which loses it.
-std::variant<double, QuantityError> take_number(std::string_view& text, const QuantityKind& kind) {
-  const std::string expected = *kind.units ? fmt::format("{}: {}", kind.name, kind.units) : kind.name;
+std::variant<double, QuantityError> take_number(std::string_view& text, Measure measure) {
+  const std::string expected = expected_of(measure);
   const std::size_t length = number_length(text);
   if (length == 0) {
     const bool unit_alone = !text.empty() && std::holds_alternative<Unit>(parse_unit(text, Measure::number));
@@ -60,7 +60,7 @@ std::variant<double, QuantityError> take_number(std::string_view& text, const Qu
       return QuantityError{fmt::format("the number is missing before the unit '{}' ({})", text, expected),
                            ""};
     }
-    const bool plain = kind.dimensions == Dimensions{};
+    const bool plain = kind_of(measure).dimensions == Dimensions{};
     return QuantityError{plain ? "not a number" : fmt::format("not a number ({})", expected), ""};
   }
   std::string_view number = text.substr(0, length);
@@ -85,11 +85,10 @@ const QuantityKind* kind_with(const Dimensions& dimensions) {
   return nullptr;
 }
 
-QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions,
-                              const QuantityKind& expected) {
+QuantityError wrong_dimension(std::string_view unit, const Dimensions& dimensions, Measure measure) {
   const QuantityKind* actual = kind_with(dimensions);
-  const std::string wanted =
-      *expected.units ? fmt::format("{}: {}", expected.name, expected.units) : "a number without a unit";
+  const QuantityKind& expected = kind_of(measure);
+  const std::string wanted = *expected.units ? expected_of(measure) : "a number without a unit";
   if (!actual) return {fmt::format("'{}' is not a unit of {} ({})", unit, expected.name, wanted), ""};
   Dimensions unturned = expected.dimensions;
   unturned[kRadian] = 0;
@@ -119,13 +118,13 @@ std::variant<Written, QuantityError> parse_written(std::string_view written, Mea
   const QuantityKind& kind = kind_of(expected);
   const std::string_view whole = trimmed(written);
   std::string_view text = whole;
-  const auto numerator = take_number(text, kind);
+  const auto numerator = take_number(text, expected);
   if (const auto* error = std::get_if<QuantityError>(&numerator)) return *error;
   double over = 1;
   text = trimmed(text);
   if (!text.empty() && text.front() == '/') {  // 1/70 mm
     text = trimmed(text.substr(1));
-    const auto denominator = take_number(text, kind);
+    const auto denominator = take_number(text, expected);
     if (std::holds_alternative<QuantityError>(denominator)) {
       return QuantityError{fmt::format("a number is missing after '/' ({})", kind.name), ""};
     }
@@ -156,8 +155,8 @@ std::variant<double, QuantityError> parse_quantity(std::string_view text, Measur
   const auto parsed = parse_written(text, expected);
   if (const auto* error = std::get_if<QuantityError>(&parsed)) return *error;
   const auto& [value, dimensions, unit] = std::get<Written>(parsed);
-  const QuantityKind& kind = kind_of(expected);
-  if (!unit.empty() && dimensions != kind.dimensions) return wrong_dimension(unit, dimensions, kind);
+  if (!unit.empty() && dimensions != kind_of(expected).dimensions)
+    return wrong_dimension(unit, dimensions, expected);
   return value;
 }
 

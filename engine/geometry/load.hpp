@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/scene/geometry/geometry.hpp"
+#include "engine/geometry/shapes.hpp"
 
 namespace mpmfast {
 

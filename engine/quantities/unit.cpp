@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "engine/scene/quantities/quantity.hpp"
-#include "engine/scene/text/suggest.hpp"
+#include "engine/quantities/closest.hpp"
+#include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
 
@@ -117,8 +117,8 @@ QuantityError unknown_unit(const std::string& symbol, const std::string& whole, 
   }
   std::string hint = other_spelling(symbol);
   if (hint.empty()) hint = other_signs(whole, kind);
-  if (hint.empty()) hint = did_you_mean(symbol, same_kind);
-  if (hint.empty()) hint = did_you_mean(symbol, all);
+  if (hint.empty()) hint = closest_hint(symbol, same_kind);
+  if (hint.empty()) hint = closest_hint(symbol, all);
   return {fmt::format("unknown unit '{}' ({}{})", symbol, kind.name,
                       *kind.units ? fmt::format(": {}", kind.units) : " without a unit"),
           hint};
@@ -176,6 +176,21 @@ std::optional<Factor> next_factor(const std::string& text, std::size_t& at) {
 }  // namespace
 
 const QuantityKind& kind_of(Measure quantity) { return kKinds[static_cast<std::size_t>(quantity)]; }
+
+std::string noun_of(Measure quantity) {
+  const std::string name = kind_of(quantity).name;
+  return name.substr(name.find(' ') + 1);
+}
+
+std::string plural_of(Measure quantity) {
+  const std::string noun = noun_of(quantity);
+  return noun.back() == 'y' ? noun.substr(0, noun.size() - 1) + "ies" : noun + "s";
+}
+
+std::string expected_of(Measure quantity) {
+  const QuantityKind& kind = kind_of(quantity);
+  return *kind.units ? fmt::format("{}: {}", kind.name, kind.units) : kind.name;
+}
 
 std::vector<std::string> unit_symbols(Measure quantity) {
   std::vector<std::string> out;

@@ -1,4 +1,4 @@
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/surface.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "engine/scene/quantities/expression.hpp"
+#include "engine/quantities/expression.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,8 +8,8 @@
 #include <charconv>
 #include <numbers>
 
-#include "engine/scene/quantities/expression_functions.hpp"
-#include "engine/scene/text/suggest.hpp"
+#include "engine/quantities/closest.hpp"
+#include "engine/quantities/expression_functions.hpp"
 
 namespace mpmfast {
 
@@ -160,7 +160,7 @@ class ExpressionParser {
                                        [&](const Function& f) { return found == f.name; });
     if (function == kFunctions.end()) {
       const std::vector<std::string> known = expression_functions();
-      const std::string hint = did_you_mean(found, known);
+      const std::string hint = closest_hint(found, known);
       wrong_ = fmt::format("no function '{}' (one of {}){}", found, fmt::join(known, ", "),
                            hint.empty() ? "" : ". " + hint);
       return;

@@ -25,6 +25,10 @@ struct QuantityKind {
   Dimensions dimensions;
 };
 const QuantityKind& kind_of(Measure quantity);
+/// "length", "lengths"; "a length: m, cm, mm, um", what a message says was expected.
+std::string noun_of(Measure quantity);
+std::string plural_of(Measure quantity);
+std::string expected_of(Measure quantity);
 
 /// A unit as a ratio of whole numbers times SI, so that "5 mm" is 5/1000: rounded once, hence exactly 0.005.
 struct Unit {

@@ -1,28 +1,28 @@
 #pragma once
 
-/// @file Points inside shapes, and the particles that fill a body.
+/// @file The particles that fill a body.
 
-#include <memory>
+#include <array>
 #include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "engine/geometry/shapes.hpp"
 
 namespace mpmfast {
 
-/// An 8-bit grey image, row 0 at the top.
-struct GreyImage {
-  int width = 0, height = 0;
-  std::vector<unsigned char> pixel;
+/// The lattice of a grid: cubic cells from a corner on, so many particles along the side of each.
+struct CellLattice {
+  Vec3 origin{}, size{};  ///< m
+  double cell = 0;        ///< m
+  std::array<int, 3> particles_per_cell{2, 2, 2};
 };
 
-/// Is the point inside the shape? Points on the surface count as inside on the lower side only.
-bool contains(const Shape& shape, const Vec3& point);
+/// How the particles of a body lie: on a lattice along the axes, on one turned about z, or on rings.
+struct Seeding {
+  bool rings = false;
+  double angle = 0;  ///< rad, of the lattice
 
-/// Axis-aligned bounds of a shape, m.
-struct Bounds {
-  Vec3 lower{}, upper{};
+  bool turned() const { return rings || angle != 0; }
 };
-Bounds bounds(const Shape& shape);
 
 /// The particles that fill a body: where they are, and their undeformed domains.
 struct Seeds {
@@ -37,6 +37,6 @@ struct Seeds {
 /// points of the grid's lattice (cell / particles_per_cell, from the grid's origin) that lie inside it. A
 /// turned lattice ends on the faces of the box around the shape that is turned alike, so that the surfaces of
 /// a turned block are smooth; rings (disks and rings only) end on the outline.
-Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension);
+Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension);
 
 }  // namespace mpmfast

@@ -1,14 +1,25 @@
 #pragma once
 
-/// @file Values and integrals of quantities tabulated in time.
+/// @file Quantities tabulated in time: values, integrals, text.
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
-#include "engine/scene/scene.hpp"
+#include "kernels/measure.hpp"
 
 namespace mpmfast {
 
-/// Linear between the points, constant outside.
+/// Linear between the points, constant before the first and after the last.
+struct TimeTable {
+  std::vector<double> time;   ///< s, strictly increasing, at least one entry
+  std::vector<double> value;  ///< as many entries as `time`
+};
+
+/// "[[0 s, 0 m/s], [2 s, 1 m/s]]", as a scene writes it; a table that is one value at time zero is that
+/// value.
+std::string table_text(const TimeTable& table, Measure measure);
+
 inline double value_at(const TimeTable& table, double t) {
   const auto& x = table.time;
   const auto& y = table.value;

@@ -1,9 +1,10 @@
+#include "engine/geometry/fill.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "engine/scene/geometry/geometry.hpp"
-#include "engine/scene/geometry/surface.hpp"
+#include "engine/geometry/surface.hpp"
 
 namespace mpmfast {
 
@@ -19,11 +20,11 @@ struct Row {
 using Lattice = std::array<Row, 3>;
 
 /// A lattice that ends on the faces of a box.
-Lattice lattice_of(const Bounds& box, const BodySpec& body, const GridSpec& grid, int dimension) {
+Lattice lattice_of(const Bounds& box, const CellLattice& grid, int dimension) {
   Lattice lattice;
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     const double edge = box.upper[k] - box.lower[k];
-    const double wanted = grid.cell / body.particles_per_cell[k];
+    const double wanted = grid.cell / grid.particles_per_cell[k];
     const long count = std::max(std::lround(edge / wanted), 1L);
     const double spacing = edge / static_cast<double>(count);
     lattice[k] = {box.lower[k] + 0.5 * spacing, spacing, count};
@@ -34,10 +35,10 @@ Lattice lattice_of(const Bounds& box, const BodySpec& body, const GridSpec& grid
 /// The grid's lattice where the shape can be, with a point to spare on each side against round-off. All
 /// bodies count from the grid's corner: to the last bit a point is the same for each, so that two grey levels
 /// of a picture never both have it.
-Lattice grid_lattice(const Bounds& box, const BodySpec& body, const GridSpec& grid, int dimension) {
+Lattice grid_lattice(const Bounds& box, const CellLattice& grid, int dimension) {
   Lattice lattice;
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
-    const double spacing = grid.cell / body.particles_per_cell[k];
+    const double spacing = grid.cell / grid.particles_per_cell[k];
     const long all = std::lround(grid.size[k] / spacing);
     const auto index = [&](double x) {
       return std::clamp((x - grid.origin[k]) / spacing, 0.0, static_cast<double>(all));
@@ -91,18 +92,17 @@ Vec3 half_size_of(const Lattice& lattice) {
   return {0.5 * lattice[0].spacing, 0.5 * lattice[1].spacing, 0.5 * lattice[2].spacing};
 }
 
-Seeds fill_straight(const BodySpec& body, const GridSpec& grid, int dimension) {
-  const bool box = std::holds_alternative<BoxShape>(body.shape);
-  const Bounds around = bounds(body.shape);
-  const Lattice lattice =
-      box ? lattice_of(around, body, grid, dimension) : grid_lattice(around, body, grid, dimension);
+Seeds fill_straight(const Shape& shape, const CellLattice& grid, int dimension) {
+  const bool box = std::holds_alternative<BoxShape>(shape);
+  const Bounds around = bounds(shape);
+  const Lattice lattice = box ? lattice_of(around, grid, dimension) : grid_lattice(around, grid, dimension);
   Seeds seeds;
   seeds.half_size = half_size_of(lattice);
   const auto keep = [&](const Vec3& point) { seeds.position.push_back(point); };
   if (box)
     each_point(lattice, keep);
   else
-    each_point_inside(lattice, body.shape, keep);
+    each_point_inside(lattice, shape, keep);
   return seeds;
 }
 
@@ -144,13 +144,12 @@ struct Turn {
 };
 
 /// Seen along the lattice's axes, the lattice ends on the faces of the box around the shape.
-Seeds fill_turned(const BodySpec& body, const GridSpec& grid, int dimension) {
-  const double angle = body.seeding.angle;
-  const Shape shape = std::visit(Turn{-angle}, body.shape);
-  const Lattice lattice = lattice_of(bounds(shape), body, grid, dimension);
+Seeds fill_turned(const Shape& shape, double angle, const CellLattice& grid, int dimension) {
+  const Shape straight = std::visit(Turn{-angle}, shape);
+  const Lattice lattice = lattice_of(bounds(straight), grid, dimension);
   Seeds seeds;
   seeds.half_size = half_size_of(lattice);
-  each_point_inside(lattice, shape,
+  each_point_inside(lattice, straight,
                     [&](const Vec3& point) { seeds.position.push_back(turned(point, angle)); });
   seeds.angle.assign(seeds.position.size(), angle);
   return seeds;
@@ -168,10 +167,10 @@ Annulus annulus_of(const Shape& shape) {
 }
 
 /// Rings of particles about the centre, as many on each as its length has room for, mirrored at the x axis.
-Seeds fill_rings(const BodySpec& body, const GridSpec& grid) {
-  const Annulus annulus = annulus_of(body.shape);
+Seeds fill_rings(const Shape& shape, const CellLattice& grid) {
+  const Annulus annulus = annulus_of(shape);
   const double thickness = annulus.outer - annulus.inner;
-  const auto per_cell = body.particles_per_cell;
+  const auto per_cell = grid.particles_per_cell;
   const long rings = std::max(std::lround(thickness / (grid.cell / per_cell[0])), 1L);
   const double depth = thickness / static_cast<double>(rings), length = depth * per_cell[0] / per_cell[1];
   Seeds seeds;
@@ -193,10 +192,10 @@ Seeds fill_rings(const BodySpec& body, const GridSpec& grid) {
 
 }  // namespace
 
-Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension) {
-  if (body.seeding.rings) return fill_rings(body, grid);
-  if (body.seeding.angle != 0) return fill_turned(body, grid, dimension);
-  return fill_straight(body, grid, dimension);
+Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension) {
+  if (seeding.rings) return fill_rings(shape, grid);
+  if (seeding.angle != 0) return fill_turned(shape, seeding.angle, grid, dimension);
+  return fill_straight(shape, grid, dimension);
 }
 
 }  // namespace mpmfast
