@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <iterator>
 #include <string_view>
 
 #include "engine/output/files.hpp"
@@ -41,31 +42,32 @@ std::string compressed(const std::string& rows) {
 }  // namespace
 
 void AnimatedPng::add(const std::vector<std::uint8_t>& pixels) {
-  const auto row = 3 * static_cast<std::size_t>(width_);
-  const auto at = [&](int x, int y) {
-    return row * static_cast<std::size_t>(y) + 3 * static_cast<std::size_t>(x);
-  };
-  int left = width_, right = 0, top = height_, bottom = 0;
-  for (int y = 0; y < height_; ++y)
-    for (int x = 0; x < width_; ++x) {
-      const std::size_t i = at(x, y);
-      if (!last_.empty() && std::equal(&pixels[i], &pixels[i] + 3, &last_[i])) continue;
-      left = std::min(left, x);
-      right = std::max(right, x + 1);
-      top = std::min(top, y);
-      bottom = std::max(bottom, y + 1);
-    }
+  const auto row = 3 * static_cast<std::ptrdiff_t>(width_);
+  const bool whole = frames_.empty();  // else at first nothing
+  int left = whole ? 0 : width_, right = width_ - left, top = whole ? 0 : height_, bottom = height_ - top;
+  for (int y = 0; y < height_ && !whole; ++y) {
+    const auto begin = pixels.cbegin() + y * row, end = begin + row, last = last_.cbegin() + y * row;
+    const auto first = std::mismatch(begin, end, last).first;
+    if (first == end) continue;
+    const auto back = std::mismatch(std::reverse_iterator(end), std::reverse_iterator(begin),
+                                    std::reverse_iterator(last + row))
+                          .first;
+    left = std::min(left, static_cast<int>((first - begin) / 3));
+    right = std::max(right, static_cast<int>((back.base() - begin + 2) / 3));
+    top = std::min(top, y);
+    bottom = y + 1;
+  }
   if (left >= right) left = top = 0, right = bottom = 1;  // a still: it must have a pixel
   Frame frame{left, top, right - left, bottom - top, ""};
-  std::string rows;
+  std::string rows(static_cast<std::size_t>((3 * frame.width + 1) * frame.height), '\1');
+  auto to = rows.begin();
   for (int y = top; y < bottom; ++y) {
     // Differences to the pixel on the left: areas of one colour become zeros.
-    rows += '\1';
-    for (int x = left; x < right; ++x)
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t i = at(x, y) + c;
-        rows += static_cast<char>(x > left ? pixels[i] - pixels[i - 3] : pixels[i]);
-      }
+    const auto begin = pixels.begin() + y * row + 3 * left, end = begin + 3 * frame.width;
+    to = std::copy(begin, begin + 3, to + 1);
+    to = std::transform(begin + 3, end, begin, to, [](std::uint8_t pixel, std::uint8_t before) {
+      return static_cast<char>(pixel - before);
+    });
   }
   frame.data = compressed(rows);
   frames_.push_back(std::move(frame));

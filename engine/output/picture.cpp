@@ -117,8 +117,9 @@ void Picture::draw_colour_bar(const ColourScale& scale, const std::string& si_un
   for (int i = 0; i < steps; ++i) {
     const double value = range.lower + (i + 0.5) / steps * range.width();
     const double from = bottom - i * height / steps;
-    // Each to the top, under those that come: viewers of vectors would show seams between them.
-    canvas_.fill_convex(std::array<PixelPoint, 4>{{{left, from}, {right, from}, {right, top}, {left, top}}},
+    // Also under the next one: viewers of vectors would show seams between them.
+    const double to = std::max(top, bottom - (i + 2) * height / steps);
+    canvas_.fill_convex(std::array<PixelPoint, 4>{{{left, from}, {right, from}, {right, to}, {left, to}}},
                         scale(value));
   }
   canvas_.frame({left, top}, {right, bottom}, kLineWidth, kInk);
