@@ -9,6 +9,8 @@ NEEDS = [
     (r"Eigen::|\b(Vec|Mat)<", r"<Eigen/|\"kernels/dimension\.hpp\""),
     (r"\bfmt::join\b", r"<fmt/ranges\.h>"),
     (r"\bfmt::", r"<fmt/(format|ranges|core|ostream|chrono)\.h>"),
+    (r"\bnlohmann::", r"<nlohmann/json(_fwd)?\.hpp>"),
+    (r"\bTEST_CASE\(", r"<doctest/doctest\.h>"),
     (r"\bstd::(sort|stable_sort|min|max|minmax|clamp|find|find_if|find_if_not|any_of|all_of|none_of|count|count_if|copy|fill"
      r"|transform|lower_bound|upper_bound|equal_range|max_element|min_element|reverse|rotate|unique|replace|remove_if|swap_ranges"
      r"|nth_element|partition|equal|mismatch|search|generate|for_each)\(", r"<algorithm>"),
@@ -22,6 +24,12 @@ NEEDS = [
     (r"\bstd::(string|to_string)\b", r"<string>"),
     (r"\bstd::(variant|visit|get_if|holds_alternative|monostate)\b", r"<variant>"),
     (r"\bstd::vector\b", r"<vector>"),
+]
+# Of tests, whose helpers are precompiled too.
+TESTS_NEED = [
+    (r"\b(scene_from|scene_file|by_id|bases)\(", r"\"tests/support\.hpp\""),
+    (r"\bStep<", r"\"engine/step/step\.hpp\""),
+    (r"\b(parse_scene|read_scene)\(", r"\"engine/scene/read_scene\.hpp\""),
 ]
 INCLUDE = re.compile(r"^\s*#\s*include\s+([<\"][^>\"]+[>\"])", re.M)
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"", re.S)
@@ -44,14 +52,14 @@ def reached(path, root, known):
 def main():
     root = pathlib.Path(sys.argv[1])
     known, wrong, count = {}, 0, 0
-    needs = [(re.compile(names), re.compile(header)) for names, header in NEEDS]
+    compiled = [[(re.compile(names), re.compile(header)) for names, header in needs] for needs in (NEEDS, TESTS_NEED)]
     for folder in ("bench", "engine", "kernels", "tests", "tools"):
         for path in sorted((root / folder).rglob("*.[ch]pp")):
             count += 1
             text = path.read_text()
             code = COMMENT.sub("", INCLUDE.sub("", text))
             headers = " ".join(reached(path, root, known))
-            for names, header in needs:
+            for names, header in compiled[0] + (compiled[1] if folder == "tests" and path.suffix == ".cpp" else []):
                 name = names.search(code)
                 if name and not header.search(headers):
                     wrong += 1

@@ -75,14 +75,14 @@ Count count_of(const Case& test) {
   return {static_cast<double>(counted) / work, step.contact_counters().nodes_peak};
 }
 
-struct Bounds {
+struct InstructionBounds {
   double slack = 0;
   std::map<std::pair<std::string, int>, double> measured;  ///< by case and lanes
 };
 
 /// "slack 1.25" and lines "CASE LANES MEASURED"; # starts a comment.
-Bounds read_bounds(const char* file) {
-  Bounds bounds;
+InstructionBounds read_bounds(const char* file) {
+  InstructionBounds limits;
   std::ifstream stream(file);
   for (std::string line; std::getline(stream, line);) {
     std::istringstream words(line.substr(0, line.find('#')));
@@ -90,17 +90,17 @@ Bounds read_bounds(const char* file) {
     int lanes = 0;
     double measured = 0;
     if (!(words >> name)) continue;
-    if (name == "slack" ? !(words >> bounds.slack) : !(words >> lanes >> measured)) return {};
-    if (name != "slack") bounds.measured[{name, lanes}] = measured;
+    if (name == "slack" ? !(words >> limits.slack) : !(words >> lanes >> measured)) return {};
+    if (name != "slack") limits.measured[{name, lanes}] = measured;
   }
-  return bounds;
+  return limits;
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  const Bounds bounds = count == 2 ? read_bounds(arguments[1]) : Bounds{};
-  if (!(bounds.slack > 1)) {
+  const InstructionBounds limits = count == 2 ? read_bounds(arguments[1]) : InstructionBounds{};
+  if (!(limits.slack > 1)) {
     fmt::print(stderr,
                "usage: instruction_count BOUNDS, a file with a line 'slack FACTOR' and lines 'CASE LANES "
                "MEASURED'\n");
@@ -121,17 +121,17 @@ int main(int count, char** arguments) {
     fmt::print("{:8} {} lanes: {:.0f} instructions per particle-step", test.name, kLanes,
                counted.per_particle_step);
     if (counted.contact_nodes > 0) fmt::print(", {} contact nodes", counted.contact_nodes);
-    const auto found = bounds.measured.find({test.name, kLanes});
-    if (found == bounds.measured.end()) {
+    const auto found = limits.measured.find({test.name, kLanes});
+    if (found == limits.measured.end()) {
       fmt::print("; no bound for so many lanes\n");
       continue;
     }
     known = true;
-    const double bound = bounds.slack * found->second;
+    const double bound = limits.slack * found->second;
     const bool too_many = !(counted.per_particle_step <= bound);
     above = above || too_many;
     fmt::print("; recorded {:.0f}, bound {:.0f}{}\n", found->second, bound, too_many ? ": TOO MANY" : "");
-    if (counted.per_particle_step < found->second / bounds.slack)
+    if (counted.per_particle_step < found->second / limits.slack)
       fmt::print("         far fewer than recorded: lower the figure in {}\n", arguments[1]);
     std::fflush(stdout);
   }

@@ -4,25 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/scattered.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
 namespace {
 
 using namespace test;
-
-/// Two disks meet off the middle; what bounces back leaves, the one on the left before the other.
-const char* const kScattered = R"(
-space: plane_strain
-grid: {size: [24 mm, 16 mm], cell: 0.25 mm, leaving: outflow}
-time: {end: 250 us}
-materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies:
-  - {name: stone, disk: {centre: [6 mm, 8 mm], radius: 3 mm}, material: m, velocity: [-60 m/s, 10 m/s]}
-  - {name: rock, disk: {centre: [15 mm, 8.3 mm], radius: 4 mm}, material: m, velocity: [2 m/s, 0 m/s]}
-contact: {law: coulomb, friction: 0.3}
-output: {frames: 3, history: 25, overlap: true}
-)";
 
 TEST_CASE("what leaves is booked: mass and momentum to round-off, and the energy balance counts it") {
   for (const char* method :
@@ -65,17 +53,6 @@ TEST_CASE("the energy that leaves is that of the particles: of a free flight all
   CHECK(outcome.history.at("kinetic_J").back() < 1e-6 * outcome.history.at("kinetic_J").front());
   CHECK(outcome.history.at("outflow_J").back() ==
         doctest::Approx(outcome.history.at("kinetic_J").front()).epsilon(1e-7));
-}
-
-TEST_CASE("a run that particles leave is the same to the bit on any number of threads") {
-  const Scene scene = scene_from(kScattered, {{"grid.cell", "0.5 mm"}});
-  const Outcome one = run(scene, 1), two = run(scene, 2), three = run(scene, 3);
-  REQUIRE(one.failure.empty());
-  CHECK(three.summary.threads == 3);
-  CHECK(one.summary.checksum == two.summary.checksum);
-  CHECK(one.summary.checksum == three.summary.checksum);
-  CHECK(one.history == three.history);
-  CHECK(one.summary.outflow->energy == three.summary.outflow->energy);
 }
 
 TEST_CASE("the ids of those that stay are theirs for good, and the particles that stay are not touched") {

@@ -29,7 +29,10 @@ std::string units_text(Measure measure, bool units) {
 }
 
 /// "whole number, 0 to 255" → "whole numbers, 0 to 255".
-std::string plural_first(const std::string& text) { return std::string(text).insert(text.find(','), "s"); }
+std::string plural_first(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  return text.substr(0, comma) + "s" + text.substr(comma);
+}
 
 std::string list_text(const std::string& pattern, const Form& form, bool units) {
   const std::string entries = form_text(pattern + "[]", units);
