@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/geometry/shapes.hpp"
+#include "tests/support.hpp"
 #include "scene_helpers.hpp"
 
 using namespace mpmfast;
@@ -30,17 +31,6 @@ void check_fixed_point(const std::string& text, const std::filesystem::path& fil
   CHECK(second.boundaries.size() == first.boundaries.size());
   CHECK(second.grid.cell == first.grid.cell);
 }
-
-/// A folder that goes away with the test.
-struct Folder {
-  std::filesystem::path path =
-      std::filesystem::temp_directory_path() / ("mpmfast_scene_resolved_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() {
-    std::error_code error;
-    std::filesystem::remove_all(path, error);
-  }
-};
 
 /// 4 × 4 pixels: levels 10 and 20 above, 30 below, one pixel of 255 at the lower right.
 void write_image(const std::filesystem::path& file, int channels = 1) {
@@ -127,8 +117,8 @@ TEST_CASE("the resolved scene keeps solid shapes") {
 
 TEST_CASE("each grey level of a bitmap is a body, and the entry comes back as one") {
   const Folder folder;
-  write_image(folder.path / "grains.png");
-  const std::filesystem::path file = folder.path / "scene.yaml";
+  write_image(folder / "grains.png");
+  const std::filesystem::path file = folder / "scene.yaml";
   const std::string text = bitmap_scene(
       "name: grain, origin: [0.1 mm, 0.7 mm], extent: [0.3 mm, 1/3 mm], skip: [255, 7], material: steel, "
       "materials: {20: tin}");
@@ -155,7 +145,7 @@ TEST_CASE("each grey level of a bitmap is a body, and the entry comes back as on
 
 TEST_CASE("a bitmap that is none, or is coloured, or lacks what the scene says of it, is an error") {
   const Folder folder;
-  const std::filesystem::path file = folder.path / "scene.yaml";
+  const std::filesystem::path file = folder / "scene.yaml";
   const auto wrong = [&](const std::string& keys) {
     try {
       parse_scene(bitmap_scene(keys), file);
@@ -164,7 +154,7 @@ TEST_CASE("a bitmap that is none, or is coloured, or lacks what the scene says o
     }
     return std::string("good");
   };
-  write_image(folder.path / "grains.png");
+  write_image(folder / "grains.png");
   CHECK(wrong("extent: [1 mm, 1 mm], material: steel") == "good");
   CHECK(holds(wrong("material: steel"), "bodies.0.extent: missing"));
   CHECK(holds(wrong("extent: [1 mm, 1 mm]"), "no material for the grey level 10"));
@@ -173,8 +163,8 @@ TEST_CASE("a bitmap that is none, or is coloured, or lacks what the scene says o
               "every grey level of the image is skipped"));
   CHECK(holds(wrong("extent: [1 mm, 1 mm], material: steel, skip: [256]"), "from 0 to 255"));
   CHECK(holds(wrong("extent: [1 mm, 21 mm], material: steel"), "outside the grid, above in y"));
-  write_image(folder.path / "grains.png", 3);
+  write_image(folder / "grains.png", 3);
   CHECK(holds(wrong("extent: [1 mm, 1 mm], material: steel"), "8-bit RGB PNG (8-bit grey was expected)"));
-  std::filesystem::resize_file(folder.path / "grains.png", 20);
+  std::filesystem::resize_file(folder / "grains.png", 20);
   CHECK(holds(wrong("extent: [1 mm, 1 mm], material: steel"), "not a PNG file"));
 }
