@@ -2,14 +2,13 @@
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #include <stb_image_write.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
 #include "engine/geometry/shapes.hpp"
-#include "tests/support.hpp"
 #include "scene_helpers.hpp"
+#include "tests/support.hpp"
 
 using namespace mpmfast;
 using namespace mpmfast::test;
