@@ -34,7 +34,7 @@ inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
     {UpdateKind::fmpm, "fmpm(m)",
      "order m = 2..20: as pic through an inverse of the full mass matrix; loses less than xpic(m)"},
     {UpdateKind::apic, "apic",
-     "pic with an affine velocity about each particle: keeps angular momentum; bspline2 and bspline3 only"},
+     "pic with an affine velocity about each particle: keeps angular momentum; B-splines only"},
 }};
 
 inline constexpr std::array<Word<StrainKind>, 5> kStrains{{

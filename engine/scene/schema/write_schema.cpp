@@ -176,8 +176,8 @@ class SchemaWriter {
     if (condition == "3d") return;
     const std::string inner = map + "<" + condition + ">";
     const bool absent = condition[0] == '!';
-    const std::size_t equals = condition.find('=');
-    const std::string key = condition.substr(absent ? 1 : 0, equals);
+    const std::size_t begin = absent ? 1 : 0, equals = condition.find('=');
+    const std::string key = condition.substr(begin, equals - begin);
     Json test = required({key});
     if (equals != std::string::npos) test["properties"][key] = {{"const", condition.substr(equals + 1)}};
     Json then, otherwise;
