@@ -14,7 +14,7 @@
 
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
-#include "engine/scene/text/text_check.hpp"
+#include "engine/quantities/code_point.hpp"
 
 namespace mpmfast {
 namespace {
