@@ -607,6 +607,19 @@ check_plot() {
   rm -rf plotted
 }
 
+# Where no font is installed Cairo's own has no µ, and letters show that stand for it.
+check_without_fonts() {
+  local title
+  echo '<fontconfig></fontconfig>' >no_fonts.conf
+  for title in 'down 3 µm, 5 cm² at 2°' 'down 3 um, 5 cm^2 at 2deg' 'down 3 ?m, 5 cm? at 2?'; do
+    run 0 run scene.yaml --set title="$title" --steps 2 --out plain --force --progress none
+    FONTCONFIG_FILE=$PWD/no_fonts.conf run 0 plot plain --field speed --frame last --out "${title%%,*}.png"
+  done
+  cmp -s 'down 3 µm.png' 'down 3 um.png' || fail 'without fonts µ, ² and ° are not drawn as u, ^2 and deg'
+  cmp -s 'down 3 ?m.png' 'down 3 um.png' && fail 'without fonts no title is drawn'
+  rm -rf plain down*.png no_fonts.conf
+}
+
 # What the page shows is the business of browse_report.py.
 check_report() {
   run 0 run scene.yaml --steps 4 --out reported --progress none
@@ -664,6 +677,7 @@ check_wrong_study
 check_new
 check_warnings
 check_plot
+check_without_fonts
 check_report
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]
