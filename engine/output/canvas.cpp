@@ -14,7 +14,7 @@
 
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
-#include "engine/scene/text/text_check.hpp"
+#include "engine/quantities/code_point.hpp"
 
 namespace mpmfast {
 namespace {
@@ -74,6 +74,9 @@ CairoPointer<cairo_font_options_t> font_options() {
   cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
   return options;
 }
+
+/// Cairo's own font, where none is installed. It has ASCII alone, and PDF viewers show black boxes of it.
+bool is_own(cairo_scaled_font_t* font) { return cairo_scaled_font_get_type(font) == CAIRO_FONT_TYPE_USER; }
 
 /// Cairo and XML take no code points that are no characters.
 std::string readable(std::string_view text) {
@@ -191,7 +194,9 @@ double Canvas::text_width(std::string_view text) {
   const CairoPointer<cairo_scaled_font_t> font(
       cairo_scaled_font_create(font_face().get(), &size, &unscaled, font_options().get()));
   cairo_text_extents_t extents;
-  cairo_scaled_font_text_extents(font.get(), readable(text).c_str(), &extents);
+  const std::string letters = readable(text);
+  cairo_scaled_font_text_extents(font.get(), (is_own(font.get()) ? plain_spelling(letters) : letters).c_str(),
+                                 &extents);
   require(cairo_scaled_font_status(font.get()));
   return extents.x_advance;
 }
@@ -210,9 +215,8 @@ void Canvas::text(PixelPoint anchor, Align align, std::string_view text, Colour 
   }
   take(colour);
   cairo_move_to(context_.get(), left, line);
-  // Where no font is installed Cairo has one of its own, of which PDF viewers show black boxes.
-  if (cairo_scaled_font_get_type(cairo_get_scaled_font(context_.get())) == CAIRO_FONT_TYPE_USER) {
-    cairo_text_path(context_.get(), letters.c_str());
+  if (is_own(cairo_get_scaled_font(context_.get()))) {
+    cairo_text_path(context_.get(), plain_spelling(letters).c_str());
     cairo_fill(context_.get());
   } else
     cairo_show_text(context_.get(), letters.c_str());
@@ -222,6 +226,7 @@ void Canvas::set_title(std::string_view title) {
   if (format_ == PictureFormat::pdf)
     cairo_pdf_surface_set_metadata(cairo_get_target(context_.get()), CAIRO_PDF_METADATA_TITLE,
                                    readable(title).c_str());
+  svg_title_ = in_xml(readable(title));
 }
 
 std::vector<std::uint8_t> Canvas::pixels() {
@@ -265,11 +270,15 @@ void Canvas::write(const std::filesystem::path& path) {
     cairo_surface_finish(cairo_get_target(context_.get()));
     require(cairo_surface_status(cairo_get_target(context_.get())));
   }
-  if (format_ == PictureFormat::svg)
+  if (format_ == PictureFormat::svg) {
     bytes_->insert(
         bytes_->rfind("</svg>"),
         fmt::format("<g font-family=\"DejaVu Sans, Verdana, sans-serif\" font-size=\"{}\">\n{}</g>\n",
                     kFontSize, svg_text_));
+    if (!svg_title_.empty())  // the first in its element
+      bytes_->insert(bytes_->find('>', bytes_->find("<svg")) + 1,
+                     fmt::format("\n<title>{}</title>", svg_title_));
+  }
   write_aside(path, *bytes_);
 }
 

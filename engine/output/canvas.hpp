@@ -83,7 +83,7 @@ class Canvas {
   int width_, height_;
   PictureFormat format_;
   std::unique_ptr<std::string> bytes_;  ///< what Cairo wrote of a vector file, where Cairo knows it to be
-  std::string svg_text_;
+  std::string svg_text_, svg_title_;
   Colour colour_;
   int waiting_ = 0;  ///< polygons of that colour, in one path: vector files are a third so
   CairoPointer<cairo_t> context_;

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/scene/text/text_check.hpp"
+#include "engine/quantities/code_point.hpp"
 
 namespace mpmfast {
 namespace {

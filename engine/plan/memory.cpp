@@ -77,12 +77,32 @@ double particles_in_boxes(const Scene& scene, bool filled) {
 
 std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes / 1073741824.0); }
 
-/// A picture in its samples and its pixels: as wide as high in space, of the grid's shape in the plane.
-double canvas_bytes(const Scene& scene) {
-  constexpr double kSquare = 40 << 20, kAround = 0.3;  // beside the box: numbers, titles, the colour bar
+/// Of a picture that shows the box around all particles. It is drawn by output/picture.cpp: 1000 pixels wide
+/// or high, of which numbers, titles and the colour bar leave the plot kRoom.
+double pixels_of_picture(const Scene& scene) {
+  constexpr double kSide = 1000, kRoomX = 766, kRoomY = 852, kLeastRoom = 260;
+  if (scene.dimension() == 3) return kSide * kSide;
   const auto& size = scene.grid.size;
-  const double ratio = scene.dimension() == 3 ? 1 : std::min(size[0], size[1]) / std::max(size[0], size[1]);
-  return kSquare * std::max(0.5, kAround + (1 - kAround) * ratio);
+  Bounds box{{size[0], size[1], 0}, {}};
+  for (const BodySpec& body : scene.bodies)
+    for (std::size_t d = 0; d < 2; ++d) {
+      const Bounds own = bounds(body.shape);
+      const double origin = scene.grid.origin[d];
+      box.lower[d] = std::min(box.lower[d], std::clamp(own.lower[d] - origin, 0.0, size[d]));
+      box.upper[d] = std::max(box.upper[d], std::clamp(own.upper[d] - origin, 0.0, size[d]));
+    }
+  const auto width = [&](std::size_t d) { return std::max(box.upper[d] - box.lower[d], 0.01 * size[d]); };
+  // Its sides may grow to those of the grid: of the shapes that it may come to have, that of most pixels.
+  const double steepness = std::clamp(kRoomY / kRoomX, width(1) / size[0], size[1] / width(0));
+  return (kSide - kRoomX + std::clamp(kRoomY / steepness, kLeastRoom, kRoomX)) *
+         (kSide - kRoomY + std::clamp(kRoomX * steepness, kLeastRoom, kRoomY));
+}
+
+/// Of a picture without its particles. A pixel takes 9 samples of 4 bytes, to which come 7 when it is
+/// written, or before that, in 3-D, whether each sample is covered. The rest are letters, and Cairo itself.
+double canvas_bytes(const Scene& scene) {
+  constexpr double kCairo = 3.5 * (1 << 20);
+  return kCairo + (scene.dimension() == 3 ? 45 : 43) * pixels_of_picture(scene);
 }
 
 }  // namespace
@@ -93,13 +113,13 @@ PassingNeed passing_need(const Scene& scene, double particles) {
   // columns of deformed particles, where zeros cost nothing. A row asks for the order of the ids, and a
   // number of each.
   const bool plane = scene.dimension() == 2;
-  const double frame = plane ? 95 : 145;
-  constexpr double kSearch = 145, kSearchAtStart = 80, kPicture = 40, kRow = 12;
+  const double frame = plane ? 95 : 145, picture = plane ? 16 : 40;
+  constexpr double kSearch = 145, kSearchAtStart = 80, kRow = 12;
   PassingNeed most{kRow * particles, "a row of the history"};
   const auto need = [&](double bytes, const char* reason) {
     if (bytes > most.bytes) most = {bytes, reason};
   };
-  if (scene.output.picture != "none") need(kPicture * particles + canvas_bytes(scene), "a picture");
+  if (scene.output.picture != "none") need(picture * particles + canvas_bytes(scene), "a picture");
   if (plane && scene.bodies.size() > 1)
     need(kSearchAtStart * particles, "the search for bodies that overlap");
   if (plane && scene.output.overlap) need(kSearch * particles, "the search for bodies that overlap");

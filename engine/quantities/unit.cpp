@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/quantities/closest.hpp"
+#include "engine/quantities/code_point.hpp"
 #include "engine/quantities/quantity.hpp"
 
 namespace mpmfast {
@@ -58,20 +59,6 @@ const QuantityKind kKinds[] = {
     {"a heat capacity", "J/kg/K", "J/kg/K", {2, 0, -2, 0, -1}},
     {"a rate", "s^-1, us^-1", "s^-1", {0, 0, -1}},
 };
-
-/// The typographic forms that people paste: µ, °, ·, ², ³.
-std::string plain_spelling(std::string_view text) {
-  static const std::pair<std::string_view, std::string_view> kForms[] = {
-      {"\xC2\xB5", "u"}, {"\xCE\xBC", "u"},  {"\xC2\xB0", "deg"},
-      {"\xC2\xB7", "*"}, {"\xC2\xB2", "^2"}, {"\xC2\xB3", "^3"}};
-  std::string out(text);
-  for (const auto& [from, to] : kForms) {
-    for (std::size_t at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size())) {
-      out.replace(at, from.size(), to);
-    }
-  }
-  return out;
-}
 
 /// Words and symbols that people use for units, and what stands for them here.
 std::string other_spelling(const std::string& symbol) {

@@ -19,6 +19,7 @@ NEEDS = [
      r"<cmath>|<cstdlib>"),
     (r"\bstd::filesystem\b", r"<filesystem>"),
     (r"\bstd::[io]?fstream\b", r"<fstream>"),
+    (r"\bstd::numeric_limits\b", r"<limits>"),
     (r"\bstd::map\b", r"<map>"),
     (r"\bstd::(optional|nullopt)\b", r"<optional>"),
     (r"\bstd::(string|to_string)\b", r"<string>"),

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <pugixml.hpp>
 
@@ -200,6 +201,7 @@ TEST_CASE("text of any bytes is drawn, in every format") {
 
 TEST_CASE("an SVG has its shapes as paths and its text as text") {
   const std::string file = written(PictureFormat::svg, [](Canvas& canvas) {
+    canvas.set_title("Steel & glass");
     canvas.fill_convex(std::array<PixelPoint, 3>{{{10, 10}, {50, 10}, {10, 50}}}, kBlue);
     canvas.fill_convex(std::array<PixelPoint, 3>{{{60, 10}, {90, 10}, {60, 50}}}, kBlue);
     canvas.text({60, 60}, Align::centre, "σ < 3 µm²", kBlue);
@@ -207,6 +209,8 @@ TEST_CASE("an SVG has its shapes as paths and its text as text") {
   pugi::xml_document svg;
   REQUIRE(svg.load_string(file.c_str()).status == pugi::status_ok);
   CHECK(svg.child("svg").attribute("width").as_string() == std::string("120px"));
+  CHECK(svg.child("svg").first_child().name() == std::string("title"));
+  CHECK(svg.child("svg").child("title").text().as_string() == std::string("Steel & glass"));
   const auto text = svg.select_node("//text").node();
   CHECK(text.text().as_string() == std::string("σ < 3 µm²"));
   const double width = text.attribute("textLength").as_double();

@@ -11,13 +11,6 @@
 
 using namespace output_test;
 
-/// HDF5 1.10 loses a few KiB of its own when it cannot write; the address sanitizer asks here what to pass
-/// over.
-extern "C" __attribute__((visibility("default"))) const char*
-__lsan_default_suppressions() {  // seen by the sanitizer
-  return "leak:libhdf5\n";
-}
-
 namespace {
 
 struct Sample {

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "engine/errors.hpp"

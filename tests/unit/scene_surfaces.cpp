@@ -7,6 +7,7 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <limits>
 #include <numbers>
 
 #include "engine/geometry/load.hpp"
