@@ -174,7 +174,7 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   good.contact.unconverged = 100;
   good.contact.fallbacks = 9000;
   good.contact.touching = 4000;
-  good.contact.doubtful = 120;
+  good.contact.doubtful = 80;
   good.contact.pair_nodes = 1000;
   good.contact.pair_fallbacks = 50;
   good.contact.meetings = 5000;
