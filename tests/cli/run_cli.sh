@@ -453,6 +453,10 @@ check_new_study() {
   says out '| variant | grid.cell | error (%) | value (m/s) | energy left in % | reached (µs) | wall time (s) |'
   [[ $(grep -c finished sub/out/study.csv) == 4 ]] || fail 'the study that new writes does not run'
   [[ -s sub/out/study.gp && -s sub/out/energy.gp ]] || fail 'the study that new writes draws no charts'
+  run 0 new 'sub/a${x}$b' --like study
+  sed -i 's/^  grid.cell: .*/  grid.cell: [1 mm]/; s/0.125 mm/0.5 mm/' 'sub/a${x}$b.yaml'
+  sed -i 's/end: 300 us/end: 3 us/' 'sub/a${x}$b_scene.yaml'
+  run 0 study 'sub/a${x}$b.yaml' --out sub/dollars --progress none
   rm -rf study.yaml study_scene.yaml sub
 }
 
@@ -476,7 +480,7 @@ check_new() {
   [[ $(cat plain.yaml) == precious ]] || fail 'a refused new wrote into the file'
   run 0 new plain.yaml --force
   cmp -s plain.yaml "$source_dir/configs/starters/impact.yaml" || fail 'new --force does not replace'
-  for kind in '' . .. 'a b' '-x' 'a/' $'a\tb'; do
+  for kind in '' . .. 'a b' '-x' 'a/' $'a\tb' $'a\xffb' $'\xc3'; do
     run 2 new -- "$kind"
   done
   run 2 new other --like impcat
