@@ -569,6 +569,9 @@ check_plot_of_several() {
     for words in 'Energy left' '>plotted<' '>other/plotted<' 'time (ns)' 'kinetic (mJ/m)'; do
       grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
     done
+    run 0 run scene.yaml --set 'thickness=2 mm' --steps 4 --out thin --progress none
+    run 0 plot plotted thin --columns kinetic_J --out figure.svg
+    grep -q '>kinetic<' figure.svg || fail 'the chart of runs of different thickness names no axis, or a unit'
     run 0 plot plotted other/plotted --columns block.vy --columns kinetic_J --label coarse --label fine \
       --x-label 'since the start' --y-label 'what is left' --out figure.svg
     for words in 'coarse: block.vy' 'fine: kinetic_J' 'since the start (ns)' 'what is left'; do
@@ -583,7 +586,7 @@ check_plot_of_several() {
   mkdir study && echo variant >study/study.csv && cp -r plotted study/flip
   run 4 plot study
   says err 'study is the folder of a study: its charts are there already (.svg, .png). Plot its runs: study/flip'
-  rm -rf other pictures figure.* study
+  rm -rf other thin pictures figure.* study
 }
 
 check_plot() {
