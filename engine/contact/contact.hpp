@@ -79,7 +79,6 @@ class Contact {
   void add_pairs(const ContactNode<Dim>& node);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
-  bool has_memory() const { return spec_.hysteresis > 0 || spec_.warm_start || spec_.persistent; }
   void remember();
   void recall(const State<Dim>& state);
   void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);

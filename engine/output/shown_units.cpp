@@ -16,4 +16,13 @@ std::string unit_per_metre(const std::string& unit) {
   return std::find(kGrow.begin(), kGrow.end(), unit) == kGrow.end() ? unit : unit + "/m";
 }
 
+std::string shown_unit(const std::vector<bool>& per_metre, const std::string& unit) {
+  const auto are_all = [&](bool metre) {
+    return std::find(per_metre.begin(), per_metre.end(), !metre) == per_metre.end();
+  };
+  const std::string of_metre = unit_per_metre(unit);
+  if (of_metre == unit || are_all(false)) return unit;
+  return are_all(true) ? of_metre : "";
+}
+
 }  // namespace mpmfast

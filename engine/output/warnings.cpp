@@ -36,9 +36,9 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
     out.push_back(
         {"fallbacks",
          fmt::format(
-             "{:.2g} % of the normals of touching surfaces fell back on a simpler method, and nothing "
-             "around bears them out (usual: below {:g} %): the bodies have too few particles there, or "
-             "overlap; smaller cells help",
+             "{:.2g} % of the normals of surfaces that touch or overlap fell back on a simpler method, and "
+             "nothing around bears them out (usual: below {:g} %): the bodies have too few particles there, "
+             "or overlap; smaller cells help",
              100 * part, 100 * kMostDoubtful)});
   if (const double part = share(contact.pair_fallbacks, contact.pair_nodes); part > kMostPairFallbacks)
     out.push_back(

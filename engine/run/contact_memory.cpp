@@ -78,10 +78,8 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
     kept = std::max(kept, nodes);
   }
   need.nodes = std::max(need.nodes, static_cast<double>(step.contact_list().nodes.size()));
-  double of_node = sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + sizeof(ContactEntry<Dim>);
   constexpr double kMemory = 8 * (Dim + 5), kGrowth = 1.25;  // lists grow by doubling
-  if (scene.contact.hysteresis > 0 || scene.contact.warm_start || scene.contact.persistent)
-    of_node += kMemory;
+  double of_node = sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + sizeof(ContactEntry<Dim>) + kMemory;
   const double ahead =
       static_cast<double>(ContactSlabs<Dim>::kNodesAThread) * static_cast<double>(state.threads);
   if (choice.smooth) {

@@ -51,7 +51,6 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
-  if (!has_memory()) return;
   archive.list("contact/keys", keys_);
   list_.entries.resize(keys_.size());
   std::vector<std::uint8_t> touching(keys_.size());

@@ -456,6 +456,10 @@ check_new_study() {
   says out '| variant | grid.cell | error (%) | value (m/s) | energy left in % | reached (µs) | wall time (s) |'
   [[ $(grep -c finished sub/out/study.csv) == 4 ]] || fail 'the study that new writes does not run'
   [[ -s sub/out/study.gp && -s sub/out/energy.gp ]] || fail 'the study that new writes draws no charts'
+  run 0 new 'sub/a${x}$b' --like study
+  sed -i 's/^  grid.cell: .*/  grid.cell: [1 mm]/; s/0.125 mm/0.5 mm/' 'sub/a${x}$b.yaml'
+  sed -i 's/end: 300 us/end: 3 us/' 'sub/a${x}$b_scene.yaml'
+  run 0 study 'sub/a${x}$b.yaml' --out sub/dollars --progress none
   rm -rf study.yaml study_scene.yaml sub
 }
 
@@ -479,7 +483,7 @@ check_new() {
   [[ $(cat plain.yaml) == precious ]] || fail 'a refused new wrote into the file'
   run 0 new plain.yaml --force
   cmp -s plain.yaml "$source_dir/configs/starters/impact.yaml" || fail 'new --force does not replace'
-  for kind in '' . .. 'a b' '-x' 'a/' $'a\tb'; do
+  for kind in '' . .. 'a b' '-x' 'a/' $'a\tb' $'a\xffb' $'\xc3'; do
     run 2 new -- "$kind"
   done
   run 2 new other --like impcat
@@ -568,6 +572,9 @@ check_plot_of_several() {
     for words in 'Energy left' '>plotted<' '>other/plotted<' 'time (ns)' 'kinetic (mJ/m)'; do
       grep -qF "$words" figure.svg || fail "the chart of two runs lacks '$words'"
     done
+    run 0 run scene.yaml --set 'thickness=2 mm' --steps 4 --out thin --progress none
+    run 0 plot plotted thin --columns kinetic_J --out figure.svg
+    grep -q '>kinetic<' figure.svg || fail 'the chart of runs of different thickness names no axis, or a unit'
     run 0 plot plotted other/plotted --columns block.vy --columns kinetic_J --label coarse --label fine \
       --x-label 'since the start' --y-label 'what is left' --out figure.svg
     for words in 'coarse: block.vy' 'fine: kinetic_J' 'since the start (ns)' 'what is left'; do
@@ -582,7 +589,7 @@ check_plot_of_several() {
   mkdir study && echo variant >study/study.csv && cp -r plotted study/flip
   run 4 plot study
   says err 'study is the folder of a study: its charts are there already (.svg, .png). Plot its runs: study/flip'
-  rm -rf other pictures figure.* study
+  rm -rf other thin pictures figure.* study
 }
 
 check_plot() {

@@ -1,5 +1,6 @@
 // The same scene gives the same bits on any number of threads.
 
+#include "tests/overlapping.hpp"
 #include "tests/scattered.hpp"
 #include "tests/support.hpp"
 
@@ -49,9 +50,19 @@ TEST_CASE("the checksum is the same on one thread, on two, on three and again") 
     CHECK(one.summary.checksum == three.summary.checksum);
     CHECK(two.summary.checksum == again.summary.checksum);
     CHECK(one.summary.energy_error == two.summary.energy_error);
-    CHECK(one.summary.contact.fallbacks == three.summary.contact.fallbacks);
-    CHECK(one.summary.contact.touching == three.summary.contact.touching);
-    CHECK(one.summary.contact.doubtful == three.summary.contact.doubtful);
+  }
+}
+
+TEST_CASE("any number of threads counts the same normals as fallbacks, touching and doubtful") {
+  for (const char* normal : {"smoothed_max_margin", "max_margin"}) {
+    CAPTURE(std::string(normal));
+    // Cells so small that threads share the nodes.
+    const Scene scene = scene_from(kOverlapping, {{"contact.normal", normal}, {"grid.cell", "0.25 mm"}});
+    const auto one = run(scene, 1).summary.contact, three = run(scene, 3).summary.contact;
+    CHECK(one.doubtful > 0);
+    CHECK(one.fallbacks == three.fallbacks);
+    CHECK(one.touching == three.touching);
+    CHECK(one.doubtful == three.doubtful);
   }
 }
 

@@ -14,7 +14,7 @@ Scene in_space(Space space, double thickness = 1) {
   return scene;
 }
 
-TEST_CASE("masses, forces and energies of a plane are those of a metre unless it states a thickness") {
+TEST_CASE("masses, forces and energies of a plane are those of a metre unless it states another thickness") {
   for (const Space space : {Space::plane_strain, Space::plane_stress}) {
     CHECK(shown_unit(in_space(space), "J") == "J/m");
     CHECK(shown_unit(in_space(space, 0.02), "J") == "J");
@@ -29,6 +29,15 @@ TEST_CASE("units that grow with the thickness have a metre below them, others st
   CHECK(unit_per_metre("N m") == "N m/m");
   CHECK(unit_per_metre("kg m/s") == "kg m/s per m");
   for (const char* unit : {"", "s", "m", "m²", "m/s", "Pa", "J/m^3"}) CHECK(unit_per_metre(unit) == unit);
+}
+
+TEST_CASE("runs of a metre beside runs of a body have no common unit of what grows with the thickness") {
+  CHECK(shown_unit(std::vector{true, true}, "J") == "J/m");
+  CHECK(shown_unit(std::vector{false, false}, "J") == "J");
+  for (const std::vector<bool>& mixed : {std::vector{true, false}, std::vector{false, true}}) {
+    CHECK(shown_unit(mixed, "J").empty());
+    CHECK(shown_unit(mixed, "Pa") == "Pa");
+  }
 }
 
 }  // namespace

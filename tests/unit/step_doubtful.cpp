@@ -1,5 +1,6 @@
 // Which normals that fell back are doubtful.
 
+#include "tests/overlapping.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -7,21 +8,9 @@ namespace {
 
 using namespace test;
 
-/// Two disks that share a part of their area: the hulls of their clouds meet.
-const char* const kOverlapping = R"(
-space: plane_strain
-grid: {size: [16 mm, 12 mm], cell: 1 mm}
-time: {end: 500 us}
-materials: {rubber: {model: neo_hookean, density: 1000 kg/m^3, bulk: 8 MPa, shear: 3 MPa}}
-bodies:
-  - {name: left, disk: {centre: [5.2 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [5 m/s, 0 m/s]}
-  - {name: right, disk: {centre: [10.6 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [-5 m/s, 0 m/s]}
-contact: {law: frictionless}
-)";
-
-ContactCounters counters_of(const Scene& scene) {
+ContactCounters counters_of(const Scene& scene, int steps = 40) {
   Step<2> step(scene);
-  advance(step, 40);
+  advance(step, steps);
   return step.contact_counters();
 }
 
@@ -35,6 +24,17 @@ TEST_CASE("a normal falls back once, and is doubtful where its surfaces touch an
   const ContactCounters single = counters_of(scene_from(kOverlapping, {{"contact.normal", "max_margin"}}));
   CHECK(single.fallbacks > 100);
   CHECK(single.doubtful == single.fallbacks);  // nothing around is asked
+}
+
+TEST_CASE("surfaces that bounce touch, though they overlap at the start of no step") {
+  for (const char* keys : {"{normal: smoothed_max_margin}",
+                           "{normal: smoothed_max_margin, warm_start: false, persistent: false}"}) {
+    CAPTURE(std::string(keys));
+    const ContactCounters all =
+        counters_of(scene_file("starters/impact.yaml", {{"grid.cell", "0.5 mm"}, {"contact", keys}}), 400);
+    CHECK(all.touching > 200);
+    CHECK(all.touching < all.regressions);
+  }
 }
 
 // The block's support ends at nodes within the plane, to round-off: their clouds hold the plane alone.

@@ -11,6 +11,7 @@
 #include "complain.hpp"
 #include "engine/output/files.hpp"
 #include "engine/scene/text/suggest.hpp"
+#include "engine/scene/text/text_check.hpp"
 #include "exit_codes.hpp"
 #include "shell_text.hpp"
 #include "starters.hpp"
@@ -26,8 +27,17 @@ int refuse(const std::string& what) {
   return kExitWrongInput;
 }
 
-/// The file that the name means, "die" or "scenes/die.yaml"; nothing when it cannot name an output folder
-/// too.
+bool is_utf8(const std::string& name) {
+  for (std::size_t at = 0; at < name.size();) {
+    const std::size_t bytes = code_point(name, at).bytes;
+    if (bytes == 0) return false;
+    at += bytes;
+  }
+  return true;
+}
+
+/// The file that the name means, "die" or "scenes/die.yaml"; nothing when it cannot name an output folder or
+/// stand in a study too.
 std::optional<fs::path> file_of(const std::string& name) {
   fs::path file = name;
   if (file.extension() != ".yaml" && file.extension() != ".yml") file += ".yaml";
@@ -36,13 +46,13 @@ std::optional<fs::path> file_of(const std::string& name) {
     const auto byte = static_cast<unsigned char>(c);
     return byte > 0x20 && byte != 0x7F && c != '/' && c != '\\';
   };
-  if (stem.empty() || stem.front() == '.' || stem.front() == '-' ||
+  if (!is_utf8(name) || stem.empty() || stem.front() == '.' || stem.front() == '-' ||
       !std::all_of(stem.begin(), stem.end(), good))
     return std::nullopt;
   return file;
 }
 
-/// As YAML takes it for a text, whatever the name holds.
+/// As YAML takes it for a text, whatever the name holds: a study expands no ${…}.
 std::string yaml_text(const std::string& name) {
   const auto plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||

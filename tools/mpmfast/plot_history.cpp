@@ -136,12 +136,9 @@ class Plot {
  public:
   Plot(const std::vector<RunHistory>& runs, const PlotFiles& files, const Expression& x,
        const CommandLine& line)
-      : runs_(runs),
-        files_(files),
-        x_(x),
-        line_(line),
-        per_metre_(
-            std::all_of(runs.begin(), runs.end(), [](const RunHistory& run) { return run.per_metre; })) {}
+      : runs_(runs), files_(files), x_(x), line_(line) {
+    for (const RunHistory& run : runs) per_metre_.push_back(run.per_metre);
+  }
 
   bool draw(const UsualChart& usual) const {
     std::vector<Expression> columns;
@@ -169,7 +166,7 @@ class Plot {
   }
 
  private:
-  std::string shown_unit(const std::string& unit) const { return per_metre_ ? unit_per_metre(unit) : unit; }
+  std::string shown_unit(const std::string& unit) const { return mpmfast::shown_unit(per_metre_, unit); }
 
   /// Then the legend names the runs alone.
   bool stands_on_axis(const std::vector<Expression>& columns) const {
@@ -211,7 +208,7 @@ class Plot {
   const PlotFiles& files_;
   const Expression& x_;
   const CommandLine& line_;
-  bool per_metre_;  ///< all runs
+  std::vector<bool> per_metre_;  ///< of each run
 };
 
 /// That of all of them, or none.

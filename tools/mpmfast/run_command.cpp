@@ -34,12 +34,10 @@ void print_passes(const RunSummary& summary) {
 
 void print_contact(const RunSummary::Contact& contact) {
   if (contact.nodes_peak == 0) return;
-  fmt::print(
-      "contact          {} nodes at most, {} screened in all; {} normals of {:.2f} iterations: {} did not "
-      "converge, {} fell back "
-      "({} doubtful)\n",
-      contact.nodes_peak, contact.screened, contact.regressions, contact.mean_iterations, contact.unconverged,
-      contact.fallbacks, contact.doubtful);
+  fmt::print("contact          {} nodes at most, {} screened in all; ", contact.nodes_peak, contact.screened);
+  fmt::print("{} normals of {:.2f} iterations: ", contact.regressions, contact.mean_iterations);
+  fmt::print("{} did not converge, {} fell back ({} doubtful)\n", contact.unconverged, contact.fallbacks,
+             contact.doubtful);
 }
 
 /// Where to look at the results.

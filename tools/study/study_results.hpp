@@ -23,7 +23,7 @@ struct StudyResult {
   double particle_steps = 0, wall = 0, speed = 0;  ///< speed: particle-steps per second of stepping
   double mean_iterations = 0, energy_error = 0;
   std::uint64_t fallbacks = 0, unconverged = 0;
-  double doubtful = 0;  ///< share of the normals of touching surfaces; not a number where none touched
+  double doubtful = 0;  ///< share of the normals of surfaces that touch or overlap; not a number without any
   bool pareto = false;
 };
 

@@ -1,6 +1,6 @@
 #include "study_units.hpp"
 
-#include <algorithm>
+#include <vector>
 
 #include "engine/output/shown_units.hpp"
 #include "handy_units.hpp"
@@ -8,9 +8,9 @@
 namespace mpmfast {
 
 std::string shown_unit(const StudyRuns& runs, const std::string& unit) {
-  const bool metre = std::all_of(runs.variants.begin(), runs.variants.end(),
-                                 [](const StudyRun& run) { return is_per_metre(run.scene); });
-  return metre ? unit_per_metre(unit) : unit;
+  std::vector<bool> per_metre;
+  for (const StudyRun& run : runs.variants) per_metre.push_back(is_per_metre(run.scene));
+  return shown_unit(per_metre, unit);
 }
 
 bool looks_for_value(const ErrorSpec& spec) {
@@ -24,7 +24,8 @@ std::string measured_unit(const StudyRuns& runs, const ErrorSpec& spec) {
 
 std::string axis_label(const StudyRuns& runs, const Expression& expression) {
   const std::string unit = unit_of(expression), name = name_beside(expression, unit);
-  return unit.empty() ? name : name + " (" + shown_unit(runs, unit) + ")";
+  const std::string shown = shown_unit(runs, unit);
+  return shown.empty() ? name : name + " (" + shown + ")";
 }
 
 }  // namespace mpmfast

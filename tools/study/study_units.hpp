@@ -8,7 +8,7 @@
 
 namespace mpmfast {
 
-/// "J/m" for "J" where every scene of the study is a metre of a plane.
+/// "J/m" for "J" where every scene of the study is a metre of a plane, nothing where some are.
 std::string shown_unit(const StudyRuns& runs, const std::string& unit);
 
 /// Does the rule look for one value: the last, or the place of a crossing?

@@ -8,8 +8,7 @@ namespace mpmfast {
 
 template <int Dim>
 void Contact<Dim>::find_nodes(const State<Dim>& state) {
-  const bool memory = has_memory();
-  if (memory) remember();
+  remember();
   list_.nodes.clear();
   list_.fields.clear();
   list_.entries.clear();
@@ -19,7 +18,7 @@ void Contact<Dim>::find_nodes(const State<Dim>& state) {
     if (stack.end - stack.begin > 1) list_stack(state, s);
   }
   list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, list_.nodes.size());
-  if (memory) recall(state);
+  recall(state);
 }
 
 template <int Dim>

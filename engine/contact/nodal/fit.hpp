@@ -110,7 +110,7 @@ class ContactFit {
                         room.tally);
         if (choice.separate)
           entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
-        const bool touches = fits && (!choice.separate || entry.separation < 0);
+        const bool touches = fits && (!choice.separate || entry.separation < 0 || entry.touched);
         const bool doubted = touches && fell_back;
         room.tally.touching += touches;
         if (choice.smooth)

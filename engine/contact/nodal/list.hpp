@@ -59,8 +59,9 @@ struct ContactNode {
 
 struct ContactCounters {
   std::uint64_t nodes_peak = 0, regressions = 0, iterations = 0, fallbacks = 0, unconverged = 0;
-  /// Fitted normals of surfaces that overlap (all, where separations come from the grid); of these, those
-  /// that fell back and that the normals around do not bear out.
+  /// Fitted normals of surfaces that overlap at the start of the step or were in contact at the end of the
+  /// last (all, where separations come from the grid); of these, those that fell back and that the normals
+  /// around do not bear out.
   std::uint64_t touching = 0, doubtful = 0;
   std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< explicit pairs solved, and left to the lump
   std::uint64_t meetings = 0;  ///< nodes of two and more fields that might touch, over all steps

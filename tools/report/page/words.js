@@ -63,7 +63,7 @@ function contactCard() {
     ['iterations', `${significant(contact.mean_iterations, 3)} in the mean`],
     ['did not converge', whole(contact.unconverged) + share(contact.unconverged, contact.regressions)],
     ['fell back', whole(contact.fallbacks) + share(contact.fallbacks, contact.regressions)],
-    ['of touching surfaces', contact.touching ? whole(contact.touching) : undefined],
+    ['of surfaces that touch or overlap', contact.touching ? whole(contact.touching) : undefined],
     ['of these doubtful', contact.touching ? whole(contact.doubtful) + share(contact.doubtful, contact.touching) : undefined],
     ['screened', contact.meetings !== undefined ? whole(contact.screened) + share(contact.screened, contact.meetings) : undefined],
     ['nodes of pairs', contact.pair_nodes ? whole(contact.pair_nodes) : undefined],
