@@ -17,7 +17,8 @@ enum Grains { loose, pressed };
 std::unique_ptr<Running<2>> grains(Grains kind, int threads) {
   const auto file = std::filesystem::path(MPMFAST_SOURCE_DIR) / "configs" / "ellipses.yaml";
   std::vector<Override> changes;
-  if (kind == pressed) changes = {{"grid.cell", "1/35 mm"}, {"boundaries.top.piston", "600 m/s"}};
+  if (kind == pressed)
+    changes = {{"grid.cell", "1/35 mm"}, {"boundaries.top.piston", "600 m/s"}, {"time.end", "2.5 us"}};
   auto running = std::make_unique<Running<2>>(threads, read_scene(file, changes));
   running->advance(kind == pressed ? 600 : 20);
   return running;
