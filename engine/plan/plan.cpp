@@ -17,6 +17,7 @@ namespace {
 constexpr double kWallShare = 0.009;
 
 void plan_method(const MethodSpec& method, Plan& plan) {
+  if (method.extended) plan.occupation = method.occupation;
   plan.update = method.update == UpdateKind::flip   ? ParticleUpdate::flip
                 : method.update == UpdateKind::pic  ? ParticleUpdate::pic
                 : method.update == UpdateKind::apic ? ParticleUpdate::apic
@@ -106,6 +107,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
+  if (plan.occupation > 0) plan.nodal_columns.push_back(Nodal::occupied);
   if (plan.re_extrapolate) plan.nodal_columns.push_back(Nodal::re_extrapolated);
   if (plan.moves_as_strained()) plan.nodal_columns.push_back(Nodal::pressed);
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
@@ -136,6 +138,7 @@ void list_passes(const Scene& scene, Plan& plan) {
   p.push_back("sort, when a particle has moved by half a cell");
   p.push_back(plan.force_with_mass ? "project mass, momentum and internal force"
                                    : "project mass and momentum");
+  if (plan.occupation > 0) p.push_back("nodes with too little material near, which follow others");
   if (plan.geometry) p.push_back(geometry_pass(plan));
   if (plan.contact) {
     p.push_back("find contact nodes");

@@ -19,6 +19,7 @@ struct Plan {
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};
+  double occupation = 0;           ///< C_c of extended splines; 0: they are not extended
   int order = 1;                   ///< m of XPIC(m) and FMPM(m)
   std::uint64_t filter_every = 1;  ///< steps from one filter of XPIC and FMPM to the next
   bool full_mass = false;          ///< FMPM: the series filters v⁺ instead of v and what it changes by

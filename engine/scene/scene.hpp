@@ -92,6 +92,9 @@ struct MethodSpec {
   int deformation_terms = 2;
   static constexpr int kAllTerms = 0;
   static constexpr int kInverse = -1;  ///< (I − Δt ∇v)⁻¹
+  bool extended =
+      false;  ///< splines: nodes with too little material near follow those with enough (K24 §3.3)
+  double occupation = 0.6;  ///< C_c: a cell has enough that is filled to more than this share
 };
 
 /// A law of kernels/materials, with its parameters.

@@ -27,8 +27,9 @@ enum class Nodal {
   mass_position,      ///< Σ S_pi M_p X_p
   volume,             ///< Σ S_pi V_p
   mass_displacement,  ///< Σ S_pi M_p (X_p − X_p0)
+  occupied,           ///< volume of the particles whose supports begin here: in one cell of a spline
 };
-inline constexpr int kNodalQuantities = 13;
+inline constexpr int kNodalQuantities = 14;
 
 struct NodalInfo {
   Nodal quantity;
@@ -51,6 +52,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::mass_position, "mass_position", true, false, "separation by position"},
     {Nodal::volume, "volume", false, false, "normals, screening and contact areas by volume"},
     {Nodal::mass_displacement, "mass_displacement", true, false, "separation by displacement"},
+    {Nodal::occupied, "occupied", false, false, "extended splines"},
 }};
 
 /// Columns over all slots of all velocity fields.
@@ -79,6 +81,8 @@ class Nodes {
   }
 
   std::size_t size() const { return size_; }
+  /// Columns of q; 0 if it is not planned.
+  int width(Nodal q) const { return static_cast<int>(columns_[index(q)].size()); }
   bool has(Nodal q) const { return !columns_[index(q)].empty(); }
   const std::vector<Nodal>& quantities() const { return quantities_; }
   double* column(Nodal q, int k = 0) { return columns_[index(q)][static_cast<std::size_t>(k)].data(); }

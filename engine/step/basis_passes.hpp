@@ -90,6 +90,15 @@ class BasisPasses final : public Passes<Dim> {
     });
   }
 
+  void occupy(State<Dim>& state) override {
+    if constexpr (Basis::kSpread > 0) {
+      const NodeColumns<1> out = state.nodes.template columns<1>(Nodal::occupied);
+      scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+        occupy_tile<Dim, Basis>(c, room.project, out);
+      });
+    }
+  }
+
   bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
     const auto velocity = state.nodes.columns(Nodal::velocity), force = state.nodes.columns(Nodal::force);
     inverted_.assign(rooms_.size(), 0);

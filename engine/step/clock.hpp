@@ -11,6 +11,7 @@ namespace mpmfast {
 enum class Pass {
   sort,
   project,
+  extension,
   contact_nodes,
   contact_geometry,
   contact_resolve,
@@ -21,9 +22,9 @@ enum class Pass {
   re_extrapolate,
   update
 };
-inline constexpr std::array<std::string_view, 11> kPassNames{
-    "sort",  "project",    "contact_nodes", "contact_geometry", "contact_resolve", "strain_force",
-    "nodes", "conditions", "xpic",          "re_extrapolate",   "update"};
+inline constexpr std::array<std::string_view, 12> kPassNames{
+    "sort",         "project", "extension",  "contact_nodes", "contact_geometry", "contact_resolve",
+    "strain_force", "nodes",   "conditions", "xpic",          "re_extrapolate",   "update"};
 
 class PassClock {
  public:

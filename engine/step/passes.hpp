@@ -23,6 +23,8 @@ class Passes : public ContactFitter<Dim> {
   /// wanted (not of particles with slopes, nor about an axis); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again
   virtual bool project(State<Dim>& state, bool with_force) = 0;
+  /// The volume of particles in each cell of the basis (Nodal::occupied, which must be zero).
+  virtual void occupy(State<Dim>& state) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
   /// @return whether each J is a positive number
   virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;

@@ -29,6 +29,8 @@ void Step<Dim>::re_extrapolate(double dt) {
     });
     passes_->re_extrapolate(state_, update_rule());
   });
+  restrict_columns({Nodal::momentum});
+  if (nodes.has(Nodal::pressed)) restrict_columns({Nodal::pressed});
   correct_contact(Correction::strain, dt);
   clock_.time(Pass::nodes, [&] {
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
@@ -38,6 +40,7 @@ void Step<Dim>::re_extrapolate(double dt) {
     });
   });
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
+  prolong({Nodal::re_extrapolated});
 }
 
 /// The particles of FLIP, XPIC and FMPM move with v′, which strains them too, and as far as they are pressed
@@ -74,6 +77,7 @@ void Step<Dim>::find_moving_velocities() {
     for (std::size_t k = 0; k < kept_slots_.size(); ++k)
       nodes.set(Nodal::velocity, kept_slots_[k], kept_velocities_[k]);
   });
+  prolong({Nodal::velocity});
 }
 
 // Here: the members that this file defines.

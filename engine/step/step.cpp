@@ -20,6 +20,7 @@ Step<Dim>::Step(const Scene& scene)
     : scene_(&scene),
       plan_(make_plan(scene)),
       passes_(make_passes<Dim>(scene.method.basis)),
+      extension_(scene, plan_),
       conditions_(scene),
       contact_(scene, plan_),
       rigid_(scene, plan_, seeded(scene)) {
@@ -93,6 +94,7 @@ void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   sort_if_due();
   project();  // N20 Eq. 5
+  extend();   // K24 §3.3
   rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
   find_contact();
@@ -131,6 +133,7 @@ void Step<Dim>::keep_own_velocities() {
                        state_.nodes.column(Nodal::star, d));
     });
   });
+  prolong({Nodal::star});
 }
 
 /// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of
@@ -140,6 +143,7 @@ void Step<Dim>::sort_if_due() {
   if (!sort_due_ && travelled_ < 0.5 * state_.grid.cell) return;
   clock_.time(Pass::sort, [&] { passes_->sort(state_); });
   conditions_.forget_nodes();
+  extension_.forget_nodes();
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
   sort_due_ = false;
   travelled_ = 0;
@@ -156,7 +160,7 @@ void Step<Dim>::project() {
           if (!nodes.has(q)) return;
           for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
         };
-        for (Nodal q : {Nodal::mass, Nodal::volume}) clear(q, 1);
+        for (Nodal q : {Nodal::mass, Nodal::volume, Nodal::occupied}) clear(q, 1);
         for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position,
                         Nodal::mass_displacement})
           clear(q, Dim);
@@ -165,6 +169,7 @@ void Step<Dim>::project() {
       });
       const bool all_inside = passes_->project(state_, plan_.force_with_mass);
       if (all_inside && plan_.geometry) passes_->project_geometry(state_);
+      if (all_inside && extension_.active()) passes_->occupy(state_);
       return all_inside;
     });
     if (inside) return;
@@ -172,6 +177,33 @@ void Step<Dim>::project() {
     sort_if_due();
   }
   fail("a support reaches further than the grid can follow in one step");
+}
+
+/// From here on the nodes that follow others have no mass.
+template <int Dim>
+void Step<Dim>::extend() {
+  if (!extension_.active()) return;
+  clock_.time(Pass::extension, [&] { extension_.find(state_); });
+  restrict_columns({Nodal::mass, Nodal::momentum});
+  if (plan_.force_with_mass) restrict_columns({Nodal::force});
+}
+
+/// What particles gave to nodes that follow others goes to these.
+template <int Dim>
+void Step<Dim>::restrict_columns(std::initializer_list<Nodal> quantities) {
+  if (!extension_.active()) return;
+  clock_.time(Pass::extension, [&] {
+    for (Nodal q : quantities) extension_.restrict_columns(state_, q);
+  });
+}
+
+/// What particles will read of nodes that follow others.
+template <int Dim>
+void Step<Dim>::prolong(std::initializer_list<Nodal> quantities) {
+  if (!extension_.active()) return;
+  clock_.time(Pass::extension, [&] {
+    for (Nodal q : quantities) extension_.prolong(state_, q);
+  });
 }
 
 template <int Dim>
@@ -211,6 +243,8 @@ void Step<Dim>::start_velocities() {
     });
   });
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
+  prolong({Nodal::velocity});
+  if (filtered) prolong({Nodal::star});
 }
 
 template <int Dim>
@@ -220,6 +254,7 @@ void Step<Dim>::strain_and_force(double dt) {
     return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
   });
   if (!sound) fail("a volume became zero or negative (J <= 0)");
+  restrict_columns({Nodal::force});
 }
 
 template <int Dim>
@@ -290,6 +325,7 @@ void Step<Dim>::end_velocities(double dt) {
       }
     });
   });
+  prolong({Nodal::velocity, Nodal::force});
 }
 
 /// series = m (v − v*), v* = Σ_{k=2..m} (−1)^k (v*_k + (m−1)/m Δv*_{k−1}), with v*_k = (m+1−k)/k S⁺S v*_{k−1}
@@ -323,6 +359,7 @@ void Step<Dim>::filter_velocities() {
       });
       passes_->xpic(state_, paired);
     });
+    restrict_columns({Nodal::next});
     const double sign = k % 2 == 0 ? m : -m;  // with the factor m of Eq. 41
     const double share = static_cast<double>(m - 1) / m;
     const double star_factor = static_cast<double>(m + 1 - k) / k,
@@ -342,7 +379,9 @@ void Step<Dim>::filter_velocities() {
         }
       });
     });
+    prolong({Nodal::star});
   }
+  prolong({Nodal::series});
 }
 
 template <int Dim>

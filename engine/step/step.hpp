@@ -2,6 +2,7 @@
 
 /// @file One time step (theory §2), for either dimension and any basis.
 
+#include <initializer_list>
 #include <memory>
 #include <span>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "engine/state/outflow.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/clock.hpp"
+#include "engine/step/extension.hpp"
 #include "engine/step/passes.hpp"
 
 namespace mpmfast {
@@ -71,6 +73,7 @@ class Step {
   Sums<Dim>& sums() { return sums_; }
   const PassClock& clock() const { return clock_; }
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
+  const Extension<Dim>& extension() const { return extension_; }
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
@@ -87,6 +90,9 @@ class Step {
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
   void project();
+  void extend();
+  void restrict_columns(std::initializer_list<Nodal> quantities);
+  void prolong(std::initializer_list<Nodal> quantities);
   void find_contact();
   void correct_contact(Correction correction, double dt);
   void keep_own_velocities();
@@ -116,6 +122,7 @@ class Step {
   Plan plan_;
   State<Dim> state_;
   std::unique_ptr<Passes<Dim>> passes_;
+  Extension<Dim> extension_;
   Conditions<Dim> conditions_;
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;

@@ -147,4 +147,18 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   flush(room.volume, out.volume);
 }
 
+/// The volume of the particles of each cell of the basis, at the first node of their supports: what share of
+/// it is filled (K24 §3.3).
+template <int Dim, class Basis>
+void occupy_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1>& out) {
+  clear(room.volume);
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; ++k)
+          room.volume.at[0][w.first[k]][0] +=
+              static_cast<Real>(section_volume<Dim>(*c.particles, begin + static_cast<std::uint32_t>(k)));
+      });
+  flush_window(room.volume, c.tile->slot, out);
+}
+
 }  // namespace mpmfast

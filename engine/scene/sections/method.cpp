@@ -78,6 +78,19 @@ void describe_update(Slot& slot, MethodSpec& method) {
                           fmt::join(good, " or ")));
 }
 
+/// none or {occupation}.
+void describe_extension(Slot& slot, MethodSpec& method) {
+  constexpr Limit kShare{"in (0, 1)", 0, 1, true, true};
+  if (slot.is_word("none", !method.extended)) return;
+  slot.map("none or a map {occupation}", [&](Keys& map) {
+    if (map.reads()) method.extended = true;
+    map.key("occupation", "A cell has enough of a body that is filled to more than this share.",
+            method.occupation, Number{Measure::number, kShare});
+  });
+  if (slot.reads() && method.extended && facts(method.basis).spread == 0)
+    slot.report("splines alone are extended (basis: bspline2 or bspline3)");
+}
+
 void check_position(Slot& slot, const MethodSpec& method) {
   const bool by_grid = method.position == PositionKind::grid || method.position == PositionKind::grid_end;
   if (method.update == UpdateKind::flip && !by_grid)
@@ -95,6 +108,9 @@ bool describe_method(Keys& top, MethodSpec& method) {
       "a map {basis, update, …}", [&](Keys& map) {
         constexpr int kMostBetween = 1000;
         map.key("basis", "Shape functions of the nodes.", method.basis, kBases);
+        map.at("extension",
+               "bspline2, bspline3: nodes with hardly any of a body near follow those that have enough.",
+               [&](Slot& slot) { describe_extension(slot, method); });
         map.at("update", "How particles take their velocity from the grid.",
                [&](Slot& slot) { describe_update(slot, method); });
         map.at("every", "xpic and fmpm: they filter every n-th step, and flip updates those between.",

@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <string>
+
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -25,9 +28,25 @@ void describe_head(Keys& top, Scene& scene) {
     });
 }
 
+/// Not with apic, whose slopes come back larger, nor with contact: a field without freedom on a node has no
+/// momentum there (theory.md, "Extended splines").
+void check_extension(const Value& top, const Scene& scene) {
+  const auto field = [&](const BodySpec& body) {
+    const bool shared = !scene.contact.active && !is_rigid(scene, body);
+    return shared ? std::string() : body.field.empty() ? body.name : body.field;
+  };
+  const auto meets = [&](const BodySpec& body) { return field(body) != field(scene.bodies[0]); };
+  const Value stated = *top.find("method")->find("extension");
+  if (scene.method.update == UpdateKind::apic) stated.report("apic makes energy with extended splines");
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), meets))
+    stated.report("extended splines do not know contact on nodes: one velocity field was expected",
+                  "contact: none; or leave the extension out");
+}
+
 /// What follows from several sections.
 void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
+  if (scene.method.extended) check_extension(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
