@@ -70,6 +70,7 @@ template <int Dim>
 void Extension<Dim>::find_neighbours(const State<Dim>& state) {
   const auto& tiling = state.tiling;
   neighbours_.resize(tiling.node_tiles.size());
+  full_.assign(tiling.node_tiles.size(), 0);
   for (const auto& stack : tiling.stacks)
     for (int t = stack.begin; t < stack.end; ++t)
       for (int m = 0; m < power(3, Dim); ++m) {
@@ -85,14 +86,27 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
   followed_at_.assign(static_cast<std::size_t>(tiling.slots()), -1);
 }
 
+/// Of all cells of a tile.
+template <int Dim>
+bool Extension<Dim>::has_enough(const State<Dim>& state, int tile) const {
+  const double* occupied = state.nodes.column(Nodal::occupied) + tile * kTileNodes<Dim>;
+  int enough = 0;
+  for (int local = 0; local < kTileNodes<Dim>; ++local) enough += occupied[local] > least();
+  return enough == kTileNodes<Dim>;
+}
+
 /// A node is stable if a cell in its support has enough material. The cells of a spline, between its knots,
 /// are known by the first node of the supports of what lies in them; the support of node I has I − q … I.
 template <int Dim>
 void Extension<Dim>::mark_stable(const State<Dim>& state, int tile) {
+  std::uint8_t* const stable = &stable_[static_cast<std::size_t>(tile * kTileNodes<Dim>)];
+  if (full_[static_cast<std::size_t>(tile)]) {
+    std::fill_n(stable, kTileNodes<Dim>, std::uint8_t{1});
+    return;
+  }
   constexpr int side = 2 * kTileSide;
   std::array<std::uint8_t, power(side, Dim)> enough{};
   const double* occupied = state.nodes.column(Nodal::occupied);
-  const double least = occupation_ * (1 + 1e-9);  // a share that is met to round-off is not passed
   for (int corner = 0; corner < kCorners<Dim>; ++corner) {
     int neighbour = 0, stride = 1;
     NodeIndex<Dim> first;
@@ -107,7 +121,7 @@ void Extension<Dim>::mark_stable(const State<Dim>& state, int tile) {
       NodeIndex<Dim> at = cube_node<Dim>(kTileSide, local);
       for (int d = 0; d < Dim; ++d) at[d] += first[d];
       enough[static_cast<std::size_t>(cube_index<Dim>(side, at))] =
-          occupied[from * kTileNodes<Dim> + local] > least;
+          occupied[from * kTileNodes<Dim> + local] > least();
     }
   }
   sweep<Dim>(enough, side, -1, degree_,
@@ -115,8 +129,7 @@ void Extension<Dim>::mark_stable(const State<Dim>& state, int tile) {
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
     NodeIndex<Dim> at = cube_node<Dim>(kTileSide, local);
     for (int d = 0; d < Dim; ++d) at[d] += kTileSide;
-    stable_[static_cast<std::size_t>(tile * kTileNodes<Dim> + local)] =
-        enough[static_cast<std::size_t>(cube_index<Dim>(side, at))];
+    stable[local] = enough[static_cast<std::size_t>(cube_index<Dim>(side, at))];
   }
 }
 
@@ -187,6 +200,7 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
 
 template <int Dim>
 void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) const {
+  if (full_[static_cast<std::size_t>(tile)]) return;  // all of its nodes are stable
   const double* mass = state.nodes.column(Nodal::mass);
   Around blocks;
   int of_order = -1;  // of `blocks`
@@ -307,8 +321,13 @@ void Extension<Dim>::find(const State<Dim>& state) {
   stale_ = false;
   lowered_.clear();
   const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static)
-  for (int t = 0; t < tiles; ++t) mark_stable(state, t);
+#pragma omp parallel num_threads(state.threads)
+  {
+#pragma omp for schedule(static)
+    for (int t = 0; t < tiles; ++t) full_[static_cast<std::size_t>(t)] = has_enough(state, t);
+#pragma omp for schedule(static)
+    for (int t = 0; t < tiles; ++t) mark_stable(state, t);
+  }
   do {
     list_all(state);
     list_followed();

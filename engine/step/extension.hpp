@@ -80,7 +80,10 @@ class Extension {
     std::uint64_t lowered = 0, alone = 0;
   };
 
+  /// A share that is met to round-off is not passed, m³.
+  double least() const { return occupation_ * (1 + 1e-9); }
   void find_neighbours(const State<Dim>& state);
+  bool has_enough(const State<Dim>& state, int tile) const;
   void mark_stable(const State<Dim>& state, int tile);
   void look_around(int tile, Around& stable) const;
   void list_tile(const State<Dim>& state, int tile, Found& found) const;
@@ -95,6 +98,7 @@ class Extension {
   std::vector<std::vector<Candidate>> candidates_;          ///< by order, the nearest first
   std::vector<std::array<int, power(3, Dim)>> neighbours_;  ///< by node tile, of its field; −1: none
   std::vector<std::uint8_t> stable_;                        ///< by slot
+  std::vector<std::uint8_t> full_;                          ///< by node tile: each of its cells has enough
   std::vector<Found> found_;                                ///< by thread
   std::vector<Shared> following_, followed_;
   std::vector<Share> shares_, takers_;  ///< of following_, of followed_
