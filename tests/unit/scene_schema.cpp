@@ -76,6 +76,7 @@ std::vector<std::string> small_scenes() {
           material("model: drucker_prager, density: 1, bulk: 1, shear: 1, friction_angle: 30 deg"),
           plain + "gravity: {acceleration: [0, 1 m/s^2]}\ncontact: {}\nboundaries: {left: {piston: 1 m/s}}\n",
           plain + "contact: {" + bond + "}\n",
+          replaced(plain, "method: {}", "method: {basis: bspline2, extension: {}}"),
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
