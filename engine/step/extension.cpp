@@ -43,6 +43,23 @@ void sweep(Cube& cube, int side, int step, int times, Merge merge) {
       }
 }
 
+/// The value of each node becomes the sum of its shares in others, and of its own if it keeps that.
+template <class Shared, class Share>
+void sum_shares(const std::vector<Shared>& nodes, const std::vector<Share>& shares, bool keeps_own,
+                int threads, double* x) {
+  const auto n = static_cast<std::int64_t>(nodes.size());
+#pragma omp parallel for num_threads(threads) schedule(static) if (n > 1000)
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Shared& node = nodes[static_cast<std::size_t>(i)];
+    double sum = keeps_own ? x[node.slot] : 0;
+    for (int k = node.begin; k < node.end; ++k) {
+      const Share& share = shares[static_cast<std::size_t>(k)];
+      sum += share.weight * x[share.slot];
+    }
+    x[node.slot] = sum;
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -341,35 +358,17 @@ void Extension<Dim>::find(const State<Dim>& state) {
 
 template <int Dim>
 void Extension<Dim>::restrict_columns(State<Dim>& state, Nodal q) const {
-  const auto n = static_cast<std::int64_t>(followed_.size());
-  for (int d = 0; d < static_cast<int>(state.nodes.width(q)); ++d) {
+  for (int d = 0; d < state.nodes.width(q); ++d) {
     double* x = state.nodes.column(q, d);
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 1000)
-    for (std::int64_t i = 0; i < n; ++i) {
-      const Shared& node = followed_[static_cast<std::size_t>(i)];
-      double sum = x[node.slot];
-      for (int k = node.begin; k < node.end; ++k)
-        sum += takers_[static_cast<std::size_t>(k)].weight * x[takers_[static_cast<std::size_t>(k)].slot];
-      x[node.slot] = sum;
-    }
+    sum_shares(followed_, takers_, true, state.threads, x);
     for (const Shared& node : following_) x[node.slot] = 0;
   }
 }
 
 template <int Dim>
 void Extension<Dim>::prolong(State<Dim>& state, Nodal q) const {
-  const auto n = static_cast<std::int64_t>(following_.size());
-  for (int d = 0; d < static_cast<int>(state.nodes.width(q)); ++d) {
-    double* x = state.nodes.column(q, d);
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 1000)
-    for (std::int64_t i = 0; i < n; ++i) {
-      const Shared& node = following_[static_cast<std::size_t>(i)];
-      double sum = 0;
-      for (int k = node.begin; k < node.end; ++k)
-        sum += shares_[static_cast<std::size_t>(k)].weight * x[shares_[static_cast<std::size_t>(k)].slot];
-      x[node.slot] = sum;
-    }
-  }
+  for (int d = 0; d < state.nodes.width(q); ++d)
+    sum_shares(following_, shares_, false, state.threads, state.nodes.column(q, d));
 }
 
 template class Extension<2>;
