@@ -27,7 +27,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   foreach(target mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_study mpmfast_report mpmfast
       test_main unit_tests short_tests validation_tests benchmarks)
     if(TARGET ${target})
-      target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
+      target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()
   endforeach()
 endif()

@@ -39,6 +39,7 @@ struct ParticleRun {
   std::uint32_t begin, end;
   std::uint32_t cell_begin[kTileNodes<Dim> + 1];  ///< first particle of each cell when last sorted
   int body;
+  bool on_surface;  ///< they are boundary points
 };
 
 /// The particles of one velocity field whose supports begin in one tile of nodes, and the nodes they touch.
@@ -112,24 +113,30 @@ inline bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
   return Basis::template stage<Wanted::both>(g, out);
 }
 
-/// Stages each chunk of the tile, with the weights that are wanted, and calls f(weights, run, begin, count).
-/// @return false if a particle's support left the window (the rest of the tile is then skipped).
+/// Stages each chunk of the run, with the weights that are wanted, and calls f(weights, run, begin, count).
+/// @return false if a particle's support left the window (the rest of the run is then skipped).
 template <int Dim, class Basis, class F>
-inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
-  for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
-    const ParticleRun<Dim>& run = c.runs[r];
-    for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
-      const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
-      const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
-      if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
-        if (!stage<Basis>(wanted, g, room.narrow)) return false;
-        f(room.narrow, run, begin, count);
-      } else {
-        if (!stage<Basis>(wanted, g, room.wide)) return false;
-        f(room.wide, run, begin, count);
-      }
+inline bool for_each_chunk_of_run(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
+                                  WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
+  for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
+    const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
+    const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
+    if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
+      if (!stage<Basis>(wanted, g, room.narrow)) return false;
+      f(room.narrow, run, begin, count);
+    } else {
+      if (!stage<Basis>(wanted, g, room.wide)) return false;
+      f(room.wide, run, begin, count);
     }
   }
+  return true;
+}
+
+/// The same of all runs of the tile.
+template <int Dim, class Basis, class F>
+inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
+  for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
+    if (!for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], room, wanted, f)) return false;
   return true;
 }
 

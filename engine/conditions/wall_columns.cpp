@@ -149,6 +149,7 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
   near.gap.fill({});
   for (int r = tile.run_begin; r < tile.run_end; ++r) {
     const ParticleRun<Dim>& run = state.tiling.runs[static_cast<std::size_t>(r)];
+    if (run.on_surface) continue;  // what is inside has the domains
     const BodyView<Dim>& body = state.bodies[static_cast<std::size_t>(run.body)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
       const double inside =

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "engine/contact/books.hpp"
 #include "engine/contact/fitter.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/plan/plan.hpp"
@@ -24,17 +25,6 @@ enum class Correction { initial, final, strain };
 
 /// Of a node with explicit pairs: none touches or they are solved, or the lump must do (N20 §3.4).
 enum class PairOutcome { none, solved, lump };
-
-/// What contact did in one step, for the balance and the history.
-template <int Dim>
-struct ContactBooks {
-  double friction_work = 0;                ///< J
-  double rigid_work = 0;                   ///< J, of rigid bodies on the others
-  std::vector<Vec<Dim>> rigid_impulse;     ///< N s, on rigid bodies; by field
-  std::vector<Vec<3>> rigid_moment;        ///< N m s, on rigid bodies about their pivots; by field
-  std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
-  std::vector<double> pair_friction_work;  ///< J; as ContactSpec::pairs
-};
 
 template <int Dim>
 class Contact {

@@ -227,11 +227,12 @@ Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads)
 /// Domains follow F alone: those of a rigid body that turns keep their directions.
 std::vector<ParticleDomain> particle_domains(const Particles<2>& particles,
                                              const std::vector<BodyView<2>>& bodies,
-                                             const std::vector<int>& owner) {
+                                             const std::vector<int>& owner, const Surfaces<2>& surfaces) {
   std::vector<ParticleDomain> domains;
   domains.reserve(particles.size());
   for (const std::uint32_t p : order_by_id(particles)) {
     const std::size_t body = particles.body()[p];
+    if (surfaces.holds(static_cast<int>(body), particles.id()[p])) continue;
     Mat<2> edges = particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p)
                                                                  : Mat<2>(Mat<2>::Identity());
     for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k];

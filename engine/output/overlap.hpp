@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/state/particles.hpp"
+#include "engine/state/surfaces.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
@@ -37,10 +38,11 @@ double common_area(const ParticleDomain& p, const ParticleDomain& q);
 Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads);
 
 /// The domains of all particles in the order of their ids, so that their sort does not show in the sums.
+/// Boundary points of surfaces that are followed have none.
 /// @param bodies   as Scene::bodies, for the undeformed sizes
 /// @param owner    of the particles of each body
 std::vector<ParticleDomain> particle_domains(const Particles<2>& particles,
                                              const std::vector<BodyView<2>>& bodies,
-                                             const std::vector<int>& owner);
+                                             const std::vector<int>& owner, const Surfaces<2>& surfaces = {});
 
 }  // namespace mpmfast

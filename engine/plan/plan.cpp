@@ -139,6 +139,7 @@ void list_passes(const Scene& scene, Plan& plan) {
   p.push_back(plan.force_with_mass ? "project mass, momentum and internal force"
                                    : "project mass and momentum");
   if (plan.occupation > 0) p.push_back("nodes with too little material near, which follow others");
+  if (plan.penalty) p.push_back("contact of surfaces: which points lie below which facets, and forces");
   if (plan.geometry) p.push_back(geometry_pass(plan));
   if (plan.contact) {
     p.push_back("find contact nodes");
@@ -184,7 +185,9 @@ Plan make_plan(const Scene& scene) {
   // Rigid bodies move the others even where these share one field.
   const auto acts = [](const auto& law) { return law.scope != LawScope::nowhere; };
   const auto ties = [](const auto& law) { return law.scope == LawScope::everywhere; };
-  plan.contact = plan.fields.size() > 1 && any_law(scene.contact, acts);
+  const bool meets = plan.fields.size() > 1 && any_law(scene.contact, acts);
+  plan.penalty = meets && scene.contact.family == ContactFamily::penalty;
+  plan.contact = meets && !plan.penalty;
   plan.contact_geometry = any_law(scene.contact, [&](const auto& law) { return acts(law) && !ties(law); });
   plan.exact_fields = any_law(scene.contact, ties);
   plan.first_correction = scene.contact.corrections == 2;
@@ -192,8 +195,7 @@ Plan make_plan(const Scene& scene) {
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&
                 !scene.method.own_filter && plan.first_correction;
   plan.own_filter = scene.method.own_filter && plan.order > 1 && !plan.full_mass;
-  if (plan.contact)
-    plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
+  if (meets) plan.pairs = make_pair_table(scene, plan.body_field, static_cast<int>(plan.fields.size()));
   if (plan.update == ParticleUpdate::flip || plan.filter_every > 1)
     plan.first_share = scene.contact.first_correction_share;
   plan.first_correction_stays =

@@ -27,7 +27,8 @@ struct Plan {
   bool re_extrapolate = false;  ///< the strain that comes last is taken from the particles' new momenta
   double wall_share = 1;  ///< of what walls take from velocities as a step begins: FLIP's particles take it
   int deformation_terms = 2;
-  bool contact = false;  ///< more than one velocity field, and a law that acts
+  bool contact = false;  ///< on nodes: more than one velocity field, and a law that acts
+  bool penalty = false;  ///< the same between surfaces that are followed
   bool own_filter = false;
   bool paired = false;                  ///< XPIC carries Δv* beside v*
   bool first_correction_stays = false;  ///< particles keep its impulse: PIC, and XPIC without the Δv terms

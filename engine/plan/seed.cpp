@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/plan/materials.hpp"
+#include "engine/plan/surfaces.hpp"
 #include "engine/quantities/time_table.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 
@@ -115,6 +117,38 @@ void turn_domain(Particles<Dim>& particles, std::size_t p, double angle) {
   f(0, 1) = -sine;
 }
 
+/// Of a body's mass and volume, on its boundary points where its surface is followed (K24 §3.5).
+constexpr double kOnSurface = 1e-3;
+
+[[noreturn]] void refuse_outside(const Scene& scene, std::size_t b, const Vec3& x) {
+  refuse(scene, b,
+         fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1], x[2]));
+}
+
+/// A domain's volume, m³, and the mass of what fills it, kg.
+struct Filling {
+  double volume, mass;
+};
+
+/// Particle p of body b, unstrained at x. @param share  of a domain that is its own
+template <int Dim>
+void place(const BodySpec& body, std::size_t b, const Vec3& x, double share, const Filling& domain,
+           std::size_t p, Particles<Dim>& particles) {
+  if (particles.has(Quantity::out_of_plane_stretch)) particles.column(Quantity::out_of_plane_stretch)[p] = 1;
+  for (int d = 0; d < Dim; ++d) {
+    const auto k = static_cast<std::size_t>(d);
+    particles.column(Quantity::position, d)[p] = x[k];
+    if (particles.has(Quantity::reference_position))
+      particles.column(Quantity::reference_position, d)[p] = x[k];
+    particles.column(Quantity::velocity, d)[p] = velocity_at(body, x)[k];
+    particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
+  }
+  particles.column(Quantity::mass)[p] = share * domain.mass;
+  particles.column(Quantity::initial_volume)[p] = share * domain.volume;
+  particles.id()[p] = static_cast<std::uint32_t>(p);
+  particles.body()[p] = static_cast<std::uint16_t>(b);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -132,6 +166,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.field_rigid = plan.field_rigid;
   for (const auto& m : scene.materials) state.materials.push_back(make_material(m, scene.grid.cell));
 
+  const std::vector<Outline> surfaces = outlines(scene);
+  if (!surfaces.empty()) state.tiling.part_surfaces();
   std::vector<Seeds> seeds;
   std::size_t count = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
@@ -142,15 +178,23 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     for (const Vec3& x : seeds.back().position)
       for (std::size_t d = 0; d < Dim; ++d)
         if (!(x[d] > scene.grid.origin[d] && x[d] < scene.grid.origin[d] + scene.grid.size[d]))
-          refuse(scene, b,
-                 fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1],
-                             x[2]));
+          refuse_outside(scene, b, x);
+    if (!surfaces.empty()) {
+      add_surface(surfaces[b], static_cast<std::uint32_t>(count), scene.thickness, state.surfaces);
+      count += surfaces[b].points.size();
+      for (const Vec3& x : surfaces[b].points)
+        for (std::size_t d = 0; d < Dim; ++d)
+          if (!(x[d] >= scene.grid.origin[d] && x[d] <= scene.grid.origin[d] + scene.grid.size[d]))
+            refuse_outside(scene, b, x);
+    }
     BodyView<Dim> view;
     for (std::size_t d = 0; d < Dim; ++d) view.half_size[d] = seeds.back().half_size[d];
     view.material = scene.bodies[b].material;
     view.rigid = is_rigid(scene, scene.bodies[b]);
     state.bodies.push_back(view);
   }
+  if (!surfaces.empty()) join(state.surfaces);
+  const std::vector<double> areas = tributary_areas(state.surfaces);
 
   auto& particles = state.particles;
   particles.allocate(count, plan.particle_columns);
@@ -158,30 +202,27 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     double volume = Dim == 2 ? scene.thickness : 1.0;
     for (std::size_t d = 0; d < Dim; ++d) volume *= 2 * seeds[b].half_size[d];
-    const double mass =
-        volume * density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
+    const double density = density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
+    const Filling domain{volume, volume * density};
+    // Axisymmetric particles are rings of a full turn.
+    const auto around = [&](const Vec3& x) { return plan.depth == Depth::hoop ? kFullTurn * x[0] : 1.0; };
+    const double inside = surfaces.empty() ? 1 : 1 - kOnSurface;
+    double filled = 0;
     for (std::size_t k = 0; k < seeds[b].position.size(); ++k) {
       const Vec3& x = seeds[b].position[k];
-      // Axisymmetric particles are rings of a full turn.
-      const double around = plan.depth == Depth::hoop ? kFullTurn * x[0] : 1.0;
-      const double share = around * (seeds[b].share.empty() ? 1.0 : seeds[b].share[k]);
-      if (particles.has(Quantity::out_of_plane_stretch))
-        particles.column(Quantity::out_of_plane_stretch)[p] = 1;
-      for (int d = 0; d < Dim; ++d) {
-        particles.column(Quantity::position, d)[p] = x[static_cast<std::size_t>(d)];
-        if (particles.has(Quantity::reference_position))
-          particles.column(Quantity::reference_position, d)[p] = x[static_cast<std::size_t>(d)];
-        particles.column(Quantity::velocity, d)[p] =
-            velocity_at(scene.bodies[b], x)[static_cast<std::size_t>(d)];
-        particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
-      }
+      const double share = around(x) * (seeds[b].share.empty() ? 1.0 : seeds[b].share[k]);
+      place(scene.bodies[b], b, x, inside * share, domain, p, particles);
       if (!seeds[b].angle.empty()) turn_domain(particles, p, seeds[b].angle[k]);
-      particles.column(Quantity::mass)[p] = share * mass;
-      particles.column(Quantity::initial_volume)[p] = share * volume;
-      particles.id()[p] = static_cast<std::uint32_t>(p);
-      particles.body()[p] = static_cast<std::uint16_t>(b);
+      filled += share;
       ++p;
     }
+    if (surfaces.empty()) continue;
+    const auto& surface = state.surfaces.bodies[b];
+    const auto first = areas.begin() + surface.first;
+    const double area = std::accumulate(first, first + surface.count, 0.0);
+    for (int k = 0; k < surface.count; ++k, ++p)
+      place(scene.bodies[b], b, surfaces[b].points[static_cast<std::size_t>(k)],
+            kOnSurface * filled * first[k] / area, domain, p, particles);
   }
   start_history(state);
   refresh_stress(state);

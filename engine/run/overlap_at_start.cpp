@@ -12,7 +12,8 @@ OverlapAtStart overlap_at_start(const State<2>& state, const Scene& scene) {
   if (scene.bodies.size() < 2) return {};
   std::vector<int> owner(state.bodies.size());
   std::iota(owner.begin(), owner.end(), 0);
-  const std::vector<ParticleDomain> domains = particle_domains(state.particles, state.bodies, owner);
+  const std::vector<ParticleDomain> domains =
+      particle_domains(state.particles, state.bodies, owner, state.surfaces);
   const Overlap overlap = measure_overlap(domains, state.threads);
   double all = 0;
   for (const ParticleDomain& domain : domains) all += domain.area();

@@ -16,6 +16,7 @@
 #include "engine/quantities/time_table.hpp"
 #include "kernels/basis/bases.hpp"
 #include "kernels/contact/laws.hpp"
+#include "kernels/contact/penalty.hpp"
 #include "kernels/materials/laws.hpp"
 
 namespace mpmfast {
@@ -167,9 +168,15 @@ struct ContactPair {
   SurfaceLaw law;
 };
 
+/// Where contact acts: on the nodes that several velocity fields share, or between surfaces that are
+/// followed.
+enum class ContactFamily { nodes, penalty };
+
 struct ContactSpec {
   bool active = true;  ///< false: every body shares one velocity field
-  SurfaceLaw law;      ///< of all pairs but those in `pairs`
+  ContactFamily family = ContactFamily::nodes;
+  PenaltySpec springs;  ///< of penalty contact
+  SurfaceLaw law;       ///< of all pairs but those in `pairs`
   NormalKind normal = NormalKind::smoothed_max_margin;
   Vec3 specified_normal{0, 0, 0};  ///< from the lower-numbered field to the higher
   SeparationKind separation = SeparationKind::ellipsoid;

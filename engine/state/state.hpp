@@ -7,6 +7,7 @@
 #include "engine/state/materials.hpp"
 #include "engine/state/nodes.hpp"
 #include "engine/state/particles.hpp"
+#include "engine/state/surfaces.hpp"
 #include "engine/state/tiling.hpp"
 
 namespace mpmfast {
@@ -15,6 +16,7 @@ template <int Dim>
 struct State {
   Particles<Dim> particles;
   Tiling<Dim> tiling;
+  Surfaces<Dim> surfaces;  ///< empty: nothing follows any
   Nodes<Dim> nodes;
   GridView<Dim> grid;
   std::vector<BodyView<Dim>> bodies;

@@ -106,7 +106,7 @@ NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
 
 template <int Dim>
 void Tiling<Dim>::start_keys(std::size_t n, std::size_t bodies) {
-  bodies_ = static_cast<int>(bodies);
+  bodies_ = kinds_ * static_cast<int>(bodies);
   buffers_.key.resize(n);
 }
 
@@ -188,6 +188,7 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
     ParticleRun<Dim> run;
     run.begin = p;
     run.body = particles.body()[p];
+    run.on_surface = kinds_ > 1 && run_key % 2 == 1;
     for (std::uint64_t cell = 0; cell < cells; ++cell) {
       run.cell_begin[cell] = p;
       while (p < n && buffers_.key[p] == run_key * cells + cell) ++p;

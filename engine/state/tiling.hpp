@@ -55,12 +55,15 @@ class Tiling {
  public:
   /// @param nodes  nodes of the domain along each axis; particles may be one cell beyond
   void set_domain(const std::array<int, 3>& nodes);
+  /// Boundary points lie in runs of their own, behind those of the particles inside.
+  void part_surfaces() { kinds_ = 2; }
 
   /// Makes room for the keys of n particles of some bodies.
   void start_keys(std::size_t n, std::size_t bodies);
   /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: field,
-  /// place of the particle tile, body, cell within the tile. Different particles may have theirs set at once.
-  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body) {
+  /// place of the particle tile, body, whether it is a boundary point, cell within the tile. Different
+  /// particles may have theirs set at once.
+  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface) {
     NodeIndex<Dim> tile;
     int cell = 0;
     for (int d = Dim - 1; d >= 0; --d) {
@@ -69,7 +72,7 @@ class Tiling {
       cell = cell * kTileSide + (b - tile[d] * kTileSide);
     }
     auto key = static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile));
-    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(body);
+    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(kinds_ * body + on_surface);
     buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
   }
   /// Sorts the particles by their keys and numbers the slots.
@@ -136,7 +139,8 @@ class Tiling {
 
   std::array<int, 3> span_{1, 1, 1};  ///< tiles along each axis, with a margin
   SortBuffers buffers_;
-  int bodies_ = 1;
+  int kinds_ = 1;   ///< of runs that a body may have in a tile
+  int bodies_ = 1;  ///< times kinds_
 };
 
 extern template class Tiling<2>;

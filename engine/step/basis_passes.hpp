@@ -54,7 +54,8 @@ class BasisPasses final : public Passes<Dim> {
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
-      state.tiling.set_key(at, first, state.body_field[static_cast<std::size_t>(body)], body);
+      state.tiling.set_key(at, first, state.body_field[static_cast<std::size_t>(body)], body,
+                           state.surfaces.holds(body, state.particles.id()[at]));
     }
     state.tiling.build(state.particles, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
@@ -97,6 +98,24 @@ class BasisPasses final : public Passes<Dim> {
         occupy_tile<Dim, Basis>(c, room.project, out);
       });
     }
+  }
+
+  void push(State<Dim>& state, const std::vector<Vec<Dim>>& force) override {
+    const NodeColumns<Dim> out = state.nodes.columns(Nodal::force);
+    const auto& id = state.particles.id();
+    const auto force_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> const Vec<Dim>& {
+      return force[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
+    };
+    const auto acts_in = [&](const TileContext<Dim>& c) {
+      for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
+        if (c.runs[r].on_surface)
+          for (std::uint32_t p = c.runs[r].begin; p < c.runs[r].end; ++p)
+            if (force_of(c.runs[r], p) != Vec<Dim>::Zero()) return true;
+      return false;
+    };
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+      if (!rigid && acts_in(c)) push_tile<Dim, Basis>(c, room.project, force_of, out);
+    });
   }
 
   bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {

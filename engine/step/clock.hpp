@@ -12,6 +12,7 @@ enum class Pass {
   sort,
   project,
   extension,
+  surfaces,
   contact_nodes,
   contact_geometry,
   contact_resolve,
@@ -22,9 +23,19 @@ enum class Pass {
   re_extrapolate,
   update
 };
-inline constexpr std::array<std::string_view, 12> kPassNames{
-    "sort",         "project", "extension",  "contact_nodes", "contact_geometry", "contact_resolve",
-    "strain_force", "nodes",   "conditions", "xpic",          "re_extrapolate",   "update"};
+inline constexpr std::array<std::string_view, 13> kPassNames{"sort",
+                                                             "project",
+                                                             "extension",
+                                                             "surfaces",
+                                                             "contact_nodes",
+                                                             "contact_geometry",
+                                                             "contact_resolve",
+                                                             "strain_force",
+                                                             "nodes",
+                                                             "conditions",
+                                                             "xpic",
+                                                             "re_extrapolate",
+                                                             "update"};
 
 class PassClock {
  public:

@@ -132,6 +132,14 @@ void Step<Dim>::fail_collapsed(double dt, double share) const {
 }
 
 template <int Dim>
+void Step<Dim>::fail_folded(const Fold& fold) const {
+  const auto& particles = state_.particles;
+  std::size_t p = 0;
+  while (particles.id()[p] != fold.id) ++p;
+  fail_at(p, "the surface folds onto itself there");
+}
+
+template <int Dim>
 void Step<Dim>::fail_at(std::size_t particle, const std::string& cause) const {
   const auto& particles = state_.particles;
   const Vec<Dim> x = place_of(particle);
@@ -156,6 +164,8 @@ template Vec<2> Step<2>::place_of(std::size_t) const;
 template Vec<3> Step<3>::place_of(std::size_t) const;
 template void Step<2>::fail(const char*) const;
 template void Step<3>::fail(const char*) const;
+template void Step<2>::fail_folded(const Fold&) const;
+template void Step<3>::fail_folded(const Fold&) const;
 template void Step<2>::fail_at(std::size_t, const std::string&) const;
 template void Step<3>::fail_at(std::size_t, const std::string&) const;
 template void Step<2>::fail_collapsed(double, double) const;

@@ -4,6 +4,7 @@
 /// particle.
 
 #include <memory>
+#include <vector>
 
 #include "engine/contact/fitter.hpp"
 #include "engine/scene/scene.hpp"
@@ -25,6 +26,9 @@ class Passes : public ContactFitter<Dim> {
   virtual bool project(State<Dim>& state, bool with_force) = 0;
   /// The volume of particles in each cell of the basis (Nodal::occupied, which must be zero).
   virtual void occupy(State<Dim>& state) = 0;
+  /// force += Σ_p S_pi F_p of the boundary points p.
+  /// @param force  N, by number of the point (Surfaces::number)
+  virtual void push(State<Dim>& state, const std::vector<Vec<Dim>>& force) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
   /// @return whether each J is a positive number
   virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;

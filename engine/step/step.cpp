@@ -23,7 +23,8 @@ Step<Dim>::Step(const Scene& scene)
       extension_(scene, plan_),
       conditions_(scene),
       contact_(scene, plan_),
-      rigid_(scene, plan_, seeded(scene)) {
+      rigid_(scene, plan_, seeded(scene)),
+      penalty_(scene, plan_, state_) {
   // Below a thousand particles a thread, waiting for each other costs more than the work.
   state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
   passes_->shape_domains(state_);
@@ -64,7 +65,8 @@ double Step<Dim>::fastest() const {
 
 template <int Dim>
 double Step<Dim>::stable_dt() const {
-  return std::min(scene_->time.max_step, scene_->time.cfl * scene_->grid.cell / fastest());
+  const double share = std::min(scene_->time.cfl, penalty_.stable_share());
+  return std::min(scene_->time.max_step, share * scene_->grid.cell / fastest());
 }
 
 template <int Dim>
@@ -93,8 +95,9 @@ template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   sort_if_due();
-  project();  // N20 Eq. 5
-  extend();   // K24 §3.3
+  project();           // N20 Eq. 5
+  press_surfaces(dt);  // K24 §3.5, 3.6
+  extend();            // K24 §3.3
   rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
   find_contact();
@@ -144,6 +147,7 @@ void Step<Dim>::sort_if_due() {
   clock_.time(Pass::sort, [&] { passes_->sort(state_); });
   conditions_.forget_nodes();
   extension_.forget_nodes();
+  penalty_.forget_tiles();
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
   sort_due_ = false;
   travelled_ = 0;
@@ -177,6 +181,16 @@ void Step<Dim>::project() {
     sort_if_due();
   }
   fail("a support reaches further than the grid can follow in one step");
+}
+
+template <int Dim>
+void Step<Dim>::press_surfaces(double dt) {
+  if (!penalty_.active()) return;
+  clock_.time(Pass::surfaces, [&] {
+    if (const auto fold = penalty_.look(state_)) fail_folded(*fold);
+    penalty_.press(state_, rigid_.pivots(), dt);
+    if (penalty_.pressed() > 0) passes_->push(state_, penalty_.forces());
+  });
 }
 
 /// From here on the nodes that follow others have no mass.
@@ -411,25 +425,28 @@ void Step<Dim>::book(double dt) {
   sums_.friction_work += conditions_.friction_work();
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
-  if (plan_.contact) {
-    const ContactBooks<Dim>& books = contact_.books();
-    sums_.friction_work += books.friction_work;
-    sums_.boundary_work += books.rigid_work;
-    for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) {
-      sums_.rigid_impulse[f] += books.rigid_impulse[f];
-      sums_.rigid_moment[f] += books.rigid_moment[f];
-    }
-    for (std::size_t k = 0; k < sums_.pair_impulse.size(); ++k) {
-      sums_.pair_impulse[k] += books.pair_impulse[k];
-      sums_.pair_friction_work[k] += books.pair_friction_work[k];
-    }
-  }
+  if (plan_.contact) book(contact_.books());
+  if (plan_.penalty) book(penalty_.books());
   if (plan_.gravity) sums_.body_force_work += body_force_work_;
 }
 
 template <int Dim>
+void Step<Dim>::book(const ContactBooks<Dim>& books) {
+  sums_.friction_work += books.friction_work;
+  sums_.boundary_work += books.rigid_work;
+  for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) {
+    sums_.rigid_impulse[f] += books.rigid_impulse[f];
+    sums_.rigid_moment[f] += books.rigid_moment[f];
+  }
+  for (std::size_t k = 0; k < sums_.pair_impulse.size(); ++k) {
+    sums_.pair_impulse[k] += books.pair_impulse[k];
+    sums_.pair_friction_work[k] += books.pair_friction_work[k];
+  }
+}
+
+template <int Dim>
 double Step<Dim>::stored_energy() {
-  return mpmfast::stored_energy(state_);
+  return mpmfast::stored_energy(state_) + (state_.step > 0 ? penalty_.stored_energy(state_) : 0);
 }
 
 template <int Dim>

@@ -10,6 +10,7 @@
 #include "engine/conditions/conditions.hpp"
 #include "engine/conditions/rigid_bodies.hpp"
 #include "engine/contact/contact.hpp"
+#include "engine/contact/penalty/penalty.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
@@ -73,10 +74,12 @@ class Step {
   Sums<Dim>& sums() { return sums_; }
   const PassClock& clock() const { return clock_; }
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
+  const Penalty<Dim>& penalty() const { return penalty_; }
   const Extension<Dim>& extension() const { return extension_; }
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
+  /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
@@ -90,6 +93,7 @@ class Step {
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
   void project();
+  void press_surfaces(double dt);
   void extend();
   void restrict_columns(std::initializer_list<Nodal> quantities);
   void prolong(std::initializer_list<Nodal> quantities);
@@ -114,8 +118,10 @@ class Step {
   void move_rigid_end(double dt);
   void let_leave();
   void book(double dt);
+  void book(const ContactBooks<Dim>& books);
   /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
   [[noreturn]] void fail(const char* otherwise) const;
+  [[noreturn]] void fail_folded(const Fold& fold) const;
   [[noreturn]] void fail_at(std::size_t particle, const std::string& cause) const;
 
   const Scene* scene_;
@@ -126,6 +132,7 @@ class Step {
   Conditions<Dim> conditions_;
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;
+  Penalty<Dim> penalty_;
   Sums<Dim> sums_;
   PassClock clock_;
   Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m

@@ -86,12 +86,14 @@ void Step<Dim>::visit(Archive& archive) {
   archive.column("step/seconds", clock_.seconds().data(), clock_.seconds().size());
   visit_sums(archive, "sums", sums_);
   contact_.visit(archive);
+  penalty_.visit(archive);
   conditions_.visit(archive);
   visit_particles(archive, state_.particles);
   state_.tiling.visit(archive, state_.particles, state_.body_field);
   if (!archive.reading()) return;
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
+  penalty_.forget_tiles();
 }
 
 template void Contact<2>::visit(Archive&);

@@ -80,6 +80,7 @@ std::vector<std::string> small_scenes() {
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
+          two + "contact: {family: penalty}\n",
           solid("ellipse: {centre: [5 mm, 5 mm], radii: [2 mm, 3 mm]}", "plane_strain"),
           solid("ellipsoid: {centre: [5 mm, 5 mm, 5 mm], radii: [2 mm, 3 mm, 3 mm]}", "3d"),
           replaced(solid("stl: {file: ball.stl, scale: 1 mm}", "3d"), "grid: {",

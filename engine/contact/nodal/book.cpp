@@ -10,11 +10,7 @@ namespace mpmfast {
 template <int Dim>
 void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
   pivots_ = pivots;
-  books_.friction_work = books_.rigid_work = 0;
-  books_.rigid_impulse.assign(pivots.size(), Vec<Dim>::Zero());
-  books_.rigid_moment.assign(pivots.size(), Vec<3>::Zero());
-  books_.pair_impulse.assign(spec_.pairs.size(), Vec<Dim>::Zero());
-  books_.pair_friction_work.assign(spec_.pairs.size(), 0);
+  books_.open(pivots.size(), spec_.pairs.size());
 }
 
 /// Adds up, in a fixed order, what the particles will keep of a correction.

@@ -69,6 +69,13 @@ inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
+inline constexpr std::array<Word<ContactFamily>, 2> kFamilies{{
+    {ContactFamily::nodes, "nodes",
+     "on nodes that two bodies share: their velocities are corrected (default)"},
+    {ContactFamily::penalty, "penalty",
+     "between surfaces that points follow: springs push out what overlaps (K24)"},
+}};
+
 inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
     {NormalKind::smoothed_max_margin, "smoothed_max_margin",
      "the mean of max_margin over the touching nodes around; with all that follows (default)"},

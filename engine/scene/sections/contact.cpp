@@ -87,20 +87,21 @@ void check_fields(Slot& fields, const ContactSpec& contact) {
         "separation: ellipsoid)");
 }
 
-void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
-  constexpr Limit kWhole{"in [0, 1]", 0, 1};
-  ContactSpec& contact = scene.contact;
-  StrainKind& strain = scene.method.strain;
+/// Where the normal and the gap of contact on nodes come from.
+void describe_geometry(Keys& map, int dimension, ContactSpec& contact) {
   map.key("normal", "Where the normal of contact comes from.", contact.normal, kNormals);
   if (!map.writes()) set_defaults(contact);
-  describe_normal(map, scene.dimension(), contact);
+  describe_normal(map, dimension, contact);
   map.key("separation", "How the gap between two bodies is measured.", contact.separation, kSeparations);
   map.key("position_offset", "Cells that position_offset takes off the gap.", contact.position_offset,
           Number{Measure::number, kNotNegative});
   map.key("piecewise_particles", "Particles along a cell's side that position_piecewise is made for.",
           contact.piecewise_particles, Whole{1, 2});
   map.key("detection", "What makes two bodies touch.", contact.detection, kDetections);
-  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact.law);
+}
+
+void describe_corrections(Keys& map, bool strain_stated, ContactSpec& contact, StrainKind& strain) {
+  constexpr Limit kWhole{"in [0, 1]", 0, 1};
   describe_regression(map, contact);
   describe_touching(map, contact);
   map.key("corrections", "Contact corrections a step; 1: only after the forces have acted.",
@@ -114,6 +115,21 @@ void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
     slot.take(contact.fields, kManyFields);
     check_fields(slot, contact);
   });
+}
+
+void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
+  ContactSpec& contact = scene.contact;
+  map.key("family", "Where contact acts.", contact.family, kFamilies);
+  const bool nodes = contact.family == ContactFamily::nodes || map.tells(),
+             surfaces = contact.family == ContactFamily::penalty || map.tells();
+  if (nodes) describe_geometry(map, scene.dimension(), contact);
+  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact.law);
+  if (nodes) describe_corrections(map, strain_stated, contact, scene.method.strain);
+  if (surfaces) {
+    contact.springs.describe(map);
+    map.key("points_per_cell", "Points that follow a surface, along the side of a cell.",
+            contact.springs.per_cell, Whole{1, 64});
+  }
   describe_pairs(map, top, scene);
 }
 

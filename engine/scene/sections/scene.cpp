@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <string>
 
+#include "engine/geometry/outline.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -38,14 +39,37 @@ void check_extension(const Value& top, const Scene& scene) {
   const auto meets = [&](const BodySpec& body) { return field(body) != field(scene.bodies[0]); };
   const Value stated = *top.find("method")->find("extension");
   if (scene.method.update == UpdateKind::apic) stated.report("apic makes energy with extended splines");
-  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), meets))
+  if (scene.contact.family == ContactFamily::nodes &&
+      std::any_of(scene.bodies.begin(), scene.bodies.end(), meets))
     stated.report("extended splines do not know contact on nodes: one velocity field was expected",
-                  "contact: none; or leave the extension out");
+                  "family: penalty; contact: none; or leave the extension out");
+}
+
+/// Penalty contact needs outlines, of points that stay, and laws that only push.
+void check_penalty(const Value& top, const std::vector<BodyPlace>& places, const Scene& scene) {
+  const Value stated = *top.find("contact")->find("family");
+  for (std::size_t b = 0; b < places.size(); ++b)
+    if (const std::string fault = outline_fault(scene.bodies[b].shape, scene.dimension()); !fault.empty())
+      places[b].entry.report(fault + ": penalty contact follows outlines");
+  const auto bonds = [](const SurfaceLaw& law) {
+    return std::visit(
+        [](const auto& one) { return one.scope == LawScope::everywhere || one.scope == LawScope::bonded; },
+        law.acts);
+  };
+  const auto& pairs = scene.contact.pairs;
+  if (bonds(scene.contact.law) ||
+      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return bonds(pair.law); }))
+    stated.report("penalty contact only pushes: it has no bonds");
+  if (scene.grid.leaving == LeavingKind::outflow)
+    stated.report("surfaces are followed whole: none may flow out (grid.leaving)");
+  if (scene.space == Space::axisymmetric)
+    stated.report("penalty contact does not know scenes about an axis yet");
 }
 
 /// What follows from several sections.
 void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
+  if (scene.contact.family == ContactFamily::penalty) check_penalty(top, places, scene);
   if (scene.method.extended) check_extension(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);

@@ -1,0 +1,367 @@
+/// Which boundary points lie below which facets.
+
+#include <omp.h>
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/penalty/penalty.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// A smooth corner whose facets' unit normals add up to less is folded.
+constexpr double kFolded = 0.1;
+
+}  // namespace
+
+/// The foot of a point on the nearest facet of a piece.
+template <int Dim>
+struct Penalty<Dim>::Candidate {
+  int body, piece, facet;
+  Foot<Dim> foot;
+};
+
+template <int Dim>
+std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
+  gather(state);
+  if (stale_) find_near(state);
+  stale_ = false;
+  const int fold = find_normals(state.threads);
+  if (fold >= 0) {
+    const int body = surfaces_->point_body[static_cast<std::size_t>(fold)];
+    const auto& own = surfaces_->bodies[static_cast<std::size_t>(body)];
+    return Fold{body, own.first_id + static_cast<std::uint32_t>(fold - own.first)};
+  }
+  fill_bins();
+  for (auto& room : rooms_) room.touches.clear();
+  const auto n = static_cast<std::int64_t>(near_facets_.size());
+  // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
+  for (std::int64_t k = 0; k < n; ++k) {
+    Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+    const int own = near_facets_[static_cast<std::size_t>(k)];
+    list_around(own, room.around);
+    for (int at = 0; at < Dim && !room.around.empty(); ++at) look_around(own, at, room.around, room.touches);
+  }
+  return std::nullopt;
+}
+
+template <int Dim>
+void Penalty<Dim>::gather(const State<Dim>& state) {
+  const auto& particles = state.particles;
+  const double* x[Dim];
+  for (int d = 0; d < Dim; ++d) x[d] = particles.column(Quantity::position, d);
+  const auto runs = static_cast<std::int64_t>(state.tiling.runs.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static)
+  for (std::int64_t r = 0; r < runs; ++r) {
+    const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
+    if (!run.on_surface) continue;
+    for (std::uint32_t p = run.begin; p < run.end; ++p) {
+      Vec<Dim>& out = now_[static_cast<std::size_t>(surfaces_->number(run.body, particles.id()[p]))];
+      for (int d = 0; d < Dim; ++d) out[d] = x[d][p];
+    }
+  }
+}
+
+/// What lies in tiles that share nodes with another field: the others touch nothing before the next sort.
+template <int Dim>
+void Penalty<Dim>::find_near(const State<Dim>& state) {
+  const auto& tiling = state.tiling;
+  std::vector<std::uint8_t> shared(tiling.node_tiles.size(), 0);
+  for (const auto& stack : tiling.stacks)
+    if (stack.end - stack.begin > 1)
+      for (int t = stack.begin; t < stack.end; ++t) shared[static_cast<std::size_t>(t)] = 1;
+  is_near_.assign(surfaces_->points(), 0);
+  for (const auto& tile : tiling.tiles) {
+    bool meets = false;
+    for (const int slot : tile.slot) meets |= shared[static_cast<std::size_t>(slot / kTileNodes<Dim>)] != 0;
+    if (!meets) continue;
+    for (int r = tile.run_begin; r < tile.run_end; ++r) {
+      const auto& run = tiling.runs[static_cast<std::size_t>(r)];
+      if (!run.on_surface) continue;
+      for (std::uint32_t p = run.begin; p < run.end; ++p)
+        is_near_[static_cast<std::size_t>(surfaces_->number(run.body, state.particles.id()[p]))] = 1;
+    }
+  }
+  near_facets_.clear();
+  near_wedges_.clear();
+  is_near_wedge_.assign(surfaces_->wedges.size(), 0);
+  for (std::size_t f = 0; f < surfaces_->facets.size(); ++f) {
+    const auto& facet = surfaces_->facets[f];
+    if (std::none_of(facet.point.begin(), facet.point.end(),
+                     [&](int p) { return is_near_[static_cast<std::size_t>(p)]; }))
+      continue;
+    near_facets_.push_back(static_cast<int>(f));
+    for (int w : facet.wedge) is_near_wedge_[static_cast<std::size_t>(w)] = 1;
+  }
+  for (std::size_t w = 0; w < is_near_wedge_.size(); ++w)
+    if (is_near_wedge_[w]) near_wedges_.push_back(static_cast<int>(w));
+}
+
+/// Unit, out of the body.
+template <int Dim>
+Vec<Dim> Penalty<Dim>::facet_normal(int f) const {
+  const auto& facet = surfaces_->facets[static_cast<std::size_t>(f)];
+  const Vec<Dim> edge = at(facet.point[1]) - at(facet.point[0]);
+  if constexpr (Dim == 2)
+    return Vec<2>(edge[1], -edge[0]).normalized();
+  else
+    return edge.cross(at(facet.point[2]) - at(facet.point[0])).normalized();
+}
+
+/// @return  a point where the surface folds; −1: none
+template <int Dim>
+int Penalty<Dim>::find_normals(int threads) {
+  for (auto& room : rooms_) room.fold = -1;
+  const auto n = static_cast<std::int64_t>(near_wedges_.size());
+#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto w = static_cast<std::size_t>(near_wedges_[static_cast<std::size_t>(k)]);
+    const auto& wedge = surfaces_->wedges[w];
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (int f = wedge.begin; f < wedge.end; ++f)
+      sum += facet_normal(surfaces_->wedge_facets[static_cast<std::size_t>(f)]);
+    const double length = sum.norm();
+    if (!(length > kFolded)) {
+      int& fold = rooms_[static_cast<std::size_t>(omp_get_thread_num())].fold;
+      if (fold < 0) fold = wedge.point;
+    }
+    wedge_normal_[w] = sum / length;
+  }
+  for (const auto& room : rooms_)
+    if (room.fold >= 0) return room.fold;
+  return -1;
+}
+
+template <int Dim>
+NodeIndex<Dim> Penalty<Dim>::cell_of(const Vec<Dim>& x) const {
+  NodeIndex<Dim> cell;
+  for (int d = 0; d < Dim; ++d) cell[d] = static_cast<int>(std::floor(x[d] / side_));
+  return cell;
+}
+
+template <int Dim>
+std::size_t Penalty<Dim>::bucket_of(const NodeIndex<Dim>& cell) const {
+  constexpr std::uint32_t kPrimes[3] = {73856093u, 19349663u, 83492791u};
+  std::uint32_t hash = 0;
+  for (int d = 0; d < Dim; ++d) hash ^= static_cast<std::uint32_t>(cell[d]) * kPrimes[d];
+  hash ^= hash >> 15;
+  return hash & (static_cast<std::uint32_t>(bucket_begin_.size()) - 2);
+}
+
+/// Facets by the cell of their middle, of such a side that what is within a cell of the grid of any point of
+/// a facet lies in the cells around the facet's own.
+template <int Dim>
+void Penalty<Dim>::fill_bins() {
+  const auto n = near_facets_.size();
+  middle_.resize(n);
+  radius_ = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto& corner = facet(near_facets_[k]).point;
+    middle_[k] = Vec<Dim>::Zero();
+    for (int p : corner) middle_[k] += at(p);
+    middle_[k] /= Dim;
+    for (int p : corner) radius_ = std::max(radius_, (at(p) - middle_[k]).squaredNorm());
+  }
+  radius_ = std::sqrt(radius_);
+  side_ = cell_ + 2 * radius_;
+  std::size_t buckets = 16;
+  while (buckets < 2 * n) buckets *= 2;
+  bucket_begin_.assign(buckets + 1, 0);
+  binned_.resize(n);
+  for (const Vec<Dim>& middle : middle_) ++bucket_begin_[bucket_of(cell_of(middle))];
+  for (std::size_t b = 0; b < buckets; ++b) bucket_begin_[b + 1] += bucket_begin_[b];
+  // From behind, so that each bucket has its facets in rising order.
+  for (std::size_t k = n; k-- > 0;) {
+    const NodeIndex<Dim> cell = cell_of(middle_[k]);
+    const int f = near_facets_[k];
+    binned_[static_cast<std::size_t>(--bucket_begin_[bucket_of(cell)])] = {cell, f, facet(f).body,
+                                                                           middle_[k]};
+  }
+}
+
+template <int Dim>
+std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
+                                               const typename Surfaces<Dim>::Facet& facet) const {
+  std::array<Vec<Dim>, Dim> corner, normal;
+  std::array<bool, Dim> ends;
+  for (std::size_t k = 0; k < Dim; ++k) {
+    corner[k] = at(facet.point[k]);
+    normal[k] = wedge_normal_[static_cast<std::size_t>(facet.wedge[k])];
+    ends[k] = facet.joint[k] != Joint::smooth;
+  }
+  auto foot = foot_on(x, corner, normal, ends, cell_);
+  if (foot && foot->clipped) {
+    // 2-D: the end with all of the foot; 3-D: the edge opposite the corner with none.
+    std::size_t at = 0;
+    while (at + 1 < Dim && (Dim == 2 ? !(foot->share[at] > 0) : foot->share[at] != 0)) ++at;
+    foot->convex = facet.joint[at] == Joint::convex;
+  }
+  return foot;
+}
+
+/// The facets of other bodies that may touch a facet.
+template <int Dim>
+void Penalty<Dim>::list_around(int own, std::vector<const Binned*>& around) const {
+  around.clear();
+  const int body = facet(own).body, field = field_of(body);
+  const bool rigid = body_rigid_[static_cast<std::size_t>(body)];
+  Vec<Dim> middle = Vec<Dim>::Zero();
+  for (int p : facet(own).point) middle += at(p) / Dim;
+  const NodeIndex<Dim> cell = cell_of(middle);
+  const double most = side_ * side_;
+  for (int k = 0; k < power(3, Dim); ++k) {
+    NodeIndex<Dim> there = cell;
+    int digits = k;
+    for (int d = 0; d < Dim; ++d, digits /= 3) there[d] += digits % 3 - 1;
+    const std::size_t bucket = bucket_of(there);
+    for (int b = bucket_begin_[bucket]; b < bucket_begin_[bucket + 1]; ++b) {
+      const Binned& binned = binned_[static_cast<std::size_t>(b)];
+      if (field_of(binned.body) == field || binned.cell != there) continue;
+      if (rigid && body_rigid_[static_cast<std::size_t>(binned.body)]) continue;
+      if ((middle - binned.middle).squaredNorm() <= most) around.push_back(&binned);
+    }
+  }
+}
+
+template <int Dim>
+void Penalty<Dim>::look_around(int own, int k_th, const std::vector<const Binned*>& around,
+                               std::vector<Touch>& out) const {
+  const Vec<Dim> x = mean(own, k_th, now_);
+  // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
+  struct Nearest {
+    int body, facet;
+    double squared;
+  };
+  Nearest nearest[kNear];
+  int bodies = 0;
+  for (const Binned* one : around) {
+    const Binned& binned = *one;
+    const double squared = (x - binned.middle).squaredNorm();
+    int b = 0;
+    while (b < bodies && nearest[b].body != binned.body) ++b;
+    if (b == kNear) continue;
+    if (b == bodies) nearest[bodies++] = {binned.body, binned.facet, squared};
+    if (squared < nearest[b].squared) nearest[b] = {binned.body, binned.facet, squared};
+  }
+  int kept = 0;
+  for (int b = 0; b < bodies; ++b) {
+    const double height = facet_normal(nearest[b].facet).dot(x - at(facet(nearest[b].facet).point[0]));
+    if (height <= 2 * radius_) nearest[kept++] = nearest[b];
+  }
+  if (kept == 0) return;
+  Candidate found[kNear];
+  int count = 0;
+  for (const Binned* one : around) {
+    const Binned& binned = *one;
+    int b = 0;
+    while (b < kept && nearest[b].body != binned.body) ++b;
+    if (b == kept) continue;
+    const double squared = (x - binned.middle).squaredNorm();
+    const auto& other = facet(binned.facet);
+    int place = 0;  // in order of the pieces, so that those of a body follow each other
+    while (place < count && found[place].piece < other.piece) ++place;
+    const bool known = place < count && found[place].piece == other.piece;
+    const double least = std::sqrt(squared) - radius_;
+    if (known && least > found[place].foot.distance) continue;
+    if (other.piece == facet(nearest[b].facet).piece && least > 1.5 * std::sqrt(nearest[b].squared) + radius_)
+      continue;
+    const std::optional<Foot<Dim>> foot = foot_of(x, other);
+    if (!foot) continue;
+    const Candidate candidate{other.body, other.piece, binned.facet, *foot};
+    if (known) {
+      if (foot->distance < found[place].foot.distance) found[place] = candidate;
+    } else if (count < kNear) {
+      for (int m = count++; m > place; --m) found[m] = found[m - 1];
+      found[place] = candidate;
+    }
+  }
+  for (int begin = 0; begin < count;) {
+    int end = begin;
+    while (end < count && found[end].body == found[begin].body) ++end;
+    touch_body(own, k_th, found + begin, found + end, out);
+    begin = end;
+  }
+}
+
+/// Of a body that holds the point: how deep, and which of its pieces push. About an edge that sticks out the
+/// depth is 1/d² = Σ 1/d_j² over the pieces j there, so that it is zero on both and their forces, −½ k
+/// ∂d²/∂x, never jump; about one that is sunk in, and inside a piece, it is the least.
+template <int Dim>
+void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const Candidate* end,
+                              std::vector<Touch>& out) const {
+  const Candidate* nearest = std::min_element(
+      begin, end, [](const Candidate& a, const Candidate& b) { return a.foot.distance < b.foot.distance; });
+  const Foot<Dim>& first = nearest->foot;
+  if (!(first.distance > 0) || (first.clipped ? first.convex : !first.below)) return;
+  const double reach = 1 / (cell_ * cell_);
+  const auto weight = [&](const Candidate& c) {  // 1/d_j²
+    const double d = c.foot.distance;
+    if (&c == nearest) return 1 / (d * d);
+    const bool counts = c.foot.clipped ? c.foot.convex : c.foot.below;
+    return counts && d > 0 && !first.clipped ? std::max(0.0, 1 / (d * d) - reach) : 0.0;
+  };
+  double sum = 0;
+  for (const Candidate* c = begin; c != end; ++c) sum += weight(*c);
+  const double depth = 1 / std::sqrt(sum);
+  Vec<Dim> way = Vec<Dim>::Zero();
+  const auto part = [&](const Candidate& c) {  // (d/d_j)³ of ∂d/∂x
+    const double ratio = depth / c.foot.distance;
+    return weight(c) > 0 ? ratio * ratio * ratio : 0.0;
+  };
+  for (const Candidate* c = begin; c != end; ++c) way += part(*c) * c->foot.exit;
+  const double length = way.norm();
+  if (!(length > 0)) return;
+  const int body = facet(own).body;
+  if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return;
+  // What lies round an edge does not press. The area is the undeformed one, so that springs keep energy.
+  const double facing = std::max(0.0, -facet_normal(own).dot(way) / length);
+  const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / Dim;
+  if (!(stiffness > 0)) return;
+  double energy = 0.5 * stiffness * depth * depth;
+  for (const Candidate* c = begin; c != end; ++c) {
+    const double share = part(*c);
+    if (!(share > 0)) continue;
+    Touch touch{own, k_th, c->facet, stiffness, share * depth, energy, c->foot.exit, {}, {}};
+    const auto& other = facet(c->facet);
+    touch.to_foot = -mean(own, k_th, now_);
+    for (int k = 0; k < Dim; ++k) {
+      touch.share[k] = c->foot.share[k];
+      touch.to_foot += touch.share[k] * at(other.point[static_cast<std::size_t>(k)]);
+    }
+    out.push_back(touch);
+    energy = 0;
+  }
+}
+
+// Here: the members that this file defines.
+template std::optional<Fold> Penalty<2>::look(const State<2>&);
+template void Penalty<2>::gather(const State<2>&);
+template void Penalty<2>::find_near(const State<2>&);
+template Vec<2> Penalty<2>::facet_normal(int) const;
+template int Penalty<2>::find_normals(int);
+template NodeIndex<2> Penalty<2>::cell_of(const Vec<2>&) const;
+template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
+template void Penalty<2>::fill_bins();
+template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
+template void Penalty<2>::list_around(int, std::vector<const Binned*>&) const;
+template void Penalty<2>::look_around(int, int, const std::vector<const Binned*>&, std::vector<Touch>&) const;
+template void Penalty<2>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
+template std::optional<Fold> Penalty<3>::look(const State<3>&);
+template void Penalty<3>::gather(const State<3>&);
+template void Penalty<3>::find_near(const State<3>&);
+template Vec<3> Penalty<3>::facet_normal(int) const;
+template int Penalty<3>::find_normals(int);
+template NodeIndex<3> Penalty<3>::cell_of(const Vec<3>&) const;
+template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
+template void Penalty<3>::fill_bins();
+template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
+template void Penalty<3>::list_around(int, std::vector<const Binned*>&) const;
+template void Penalty<3>::look_around(int, int, const std::vector<const Binned*>&, std::vector<Touch>&) const;
+template void Penalty<3>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
+
+}  // namespace mpmfast

@@ -1,0 +1,165 @@
+#pragma once
+
+/// @file Contact between surfaces that are followed (K24 §3.5, 3.6): what lies of a body's facets below the
+/// facets of another is pushed out by springs, at points of integration on them. Both bodies' facets are
+/// asked, each with half of the stiffness. Theory: tools/manual/theory.md, "Penalty contact".
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "engine/contact/books.hpp"
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
+#include "engine/state/state.hpp"
+
+namespace mpmfast {
+
+/// A boundary point where a surface folds onto itself.
+struct Fold {
+  int body;
+  std::uint32_t id;
+};
+
+template <int Dim>
+class Penalty {
+ public:
+  /// @param seeded  the state at time 0
+  Penalty(const Scene& scene, const Plan& plan, const State<Dim>& seeded);
+
+  bool active() const { return active_; }
+  /// After a sort: tiles are others.
+  void forget_tiles() { stale_ = true; }
+
+  /// Which points lie below which facets, where the particles are now.
+  /// @return where a surface folds
+  std::optional<Fold> look(const State<Dim>& state);
+  /// The forces of what look() found; sticking is held by springs that remember.
+  /// @param pivots  as Contact::open_books
+  void press(const State<Dim>& state, const std::vector<Vec<Dim>>& pivots, double dt);
+
+  /// N, by number of the boundary point.
+  const std::vector<Vec<Dim>>& forces() const { return force_; }
+  const ContactBooks<Dim>& books() const { return books_; }
+  /// Of the springs, where the particles are now, J.
+  double stored_energy(const State<Dim>& state);
+  /// Points of facets that are pressed, and the most in any step.
+  std::size_t pressed() const { return pressed_; }
+  std::uint64_t pressed_peak() const { return pressed_peak_; }
+  /// The most of the time in which waves cross a cell that a step may take. A spring of ω = s ρc²/Δh on the
+  /// mass of a node adds s (c/Δh)² to the squares of its frequencies; rings of s = 1, 4 and 16 gain energy
+  /// from 0.75, 0.5 and 0.3 on.
+  double stable_share() const { return active_ ? 0.8 / std::sqrt(1 + spec_.stiffness) : kInfinity; }
+
+  /// What lasts from one step to the next.
+  void visit(Archive& archive);
+
+ private:
+  /// A point of a facet that a piece of another body pushes out, at the nearest of its facets.
+  struct Touch {
+    int own, at, facet;  ///< its facet, which of its points; the other's facet
+    double stiffness;    ///< N/m
+    double depth;        ///< m: force over stiffness
+    double energy;       ///< J, of all pieces of the body at the first of them; else zero
+    Vec<Dim> exit;       ///< unit, the way out
+    double share[Dim];   ///< of the facet's points
+    Vec<Dim> to_foot;    ///< m
+  };
+  /// What holds a point that sticks to a piece.
+  struct Hold {
+    int piece = -1;
+    bool slides = false;
+    Vec<Dim> stretch = Vec<Dim>::Zero();  ///< m, of the tangential spring
+  };
+  static constexpr int kHolds = 4;  ///< pieces that a point touches at once
+  static constexpr int kNear = 8;   ///< pieces of other bodies within reach of a point
+  struct Holds {
+    std::uint64_t step = 0;  ///< when they were
+    std::array<Hold, kHolds> of;
+  };
+  struct Candidate;
+  struct Binned {
+    NodeIndex<Dim> cell;
+    int facet, body;
+    Vec<Dim> middle;  ///< m
+  };
+  struct Room {
+    std::vector<Touch> touches;
+    std::vector<const Binned*> around;  ///< a facet
+    int fold = -1;
+  };
+
+  void gather(const State<Dim>& state);
+  void find_near(const State<Dim>& state);
+  int find_normals(int threads);
+  void fill_bins();
+  std::optional<Foot<Dim>> foot_of(const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet) const;
+  void list_around(int own, std::vector<const Binned*>& around) const;
+  void look_around(int own, int k_th, const std::vector<const Binned*>& around,
+                   std::vector<Touch>& out) const;
+  void touch_body(int own, int at, const Candidate* begin, const Candidate* end,
+                  std::vector<Touch>& out) const;
+  double stiffness_between(int body_a, int body_b) const;
+  Vec<Dim> facet_normal(int facet) const;
+  void add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim> (&back)[Dim]) const;
+  Vec<Dim> rub(const Touch& touch, Hold& hold, double normal, double elapsed, double& lost);
+  const AnyLaw& law_between(int field_a, int field_b) const;
+  void book(const State<Dim>& state, const Touch& touch, const Vec<Dim>& force, double lost, double dt);
+  void book_rigid(const State<Dim>& state, int point, const Vec<Dim>& force,
+                  const std::vector<Vec<Dim>>& pivots, double dt);
+  NodeIndex<Dim> cell_of(const Vec<Dim>& x) const;
+  std::size_t bucket_of(const NodeIndex<Dim>& cell) const;
+  int field_of(int body) const { return body_field_[static_cast<std::size_t>(body)]; }
+  const typename Surfaces<Dim>::Facet& facet(int f) const {
+    return surfaces_->facets[static_cast<std::size_t>(f)];
+  }
+  const Vec<Dim>& at(int point) const { return now_[static_cast<std::size_t>(point)]; }
+  /// Of the k-th point of integration of a facet, of what its corners have.
+  Vec<Dim> mean(int f, int k, const std::vector<Vec<Dim>>& of) const {
+    Vec<Dim> sum = Vec<Dim>::Zero();
+    for (std::size_t c = 0; c < Dim; ++c)
+      sum += corner_share(k, static_cast<int>(c)) * of[static_cast<std::size_t>(facet(f).point[c])];
+    return sum;
+  }
+  /// As many points as corners, each nearest to one: exact for quadratics.
+  static double corner_share(int k, int corner) {
+    constexpr double kNear = Dim == 2 ? 0.7886751345948129 : 2.0 / 3;
+    return k == corner ? kNear : (1 - kNear) / (Dim - 1);
+  }
+
+  bool active_ = false, stale_ = true, known_ = false;
+  const Surfaces<Dim>* surfaces_ = nullptr;
+  PenaltySpec spec_;
+  double cell_ = 1;               ///< m, of the grid
+  double side_ = 1;               ///< m, of a bin
+  double radius_ = 0;             ///< m: no corner of a near facet is further from its middle
+  std::vector<Vec<Dim>> middle_;  ///< as near_facets_, m
+  std::vector<int> body_field_;
+  std::vector<bool> body_rigid_;
+  std::vector<double> modulus_;  ///< ρc² by body, Pa
+  PairTable pairs_;
+  std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
+
+  std::vector<Vec<Dim>> now_, before_;          ///< positions by number of the point, m
+  double time_before_ = 0;                      ///< s
+  std::vector<Holds> holds_;                    ///< by number
+  std::vector<int> near_facets_, near_wedges_;  ///< that another field's nodes are near
+  std::vector<std::uint8_t> is_near_, is_near_wedge_;
+  std::vector<Vec<Dim>> wedge_normal_;
+  std::vector<int> bucket_begin_;
+  std::vector<Binned> binned_;
+  std::vector<Room> rooms_;  ///< by thread
+  std::vector<Vec<Dim>> force_;
+  ContactBooks<Dim> books_;
+  double stretch_energy_ = 0;  ///< of tangential springs, J
+  std::size_t pressed_ = 0;
+  std::uint64_t pressed_peak_ = 0;
+};
+
+extern template class Penalty<2>;
+extern template class Penalty<3>;
+
+}  // namespace mpmfast
