@@ -16,6 +16,7 @@ struct ContactBooks {
   std::vector<Vec<3>> rigid_moment;        ///< N m s, on rigid bodies about their pivots; by field
   std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction_work;  ///< J; as ContactSpec::pairs
+  std::vector<double> pair_area;           ///< m², of surfaces that press; likewise
 
   /// Empty ones. @param fields, pairs  how many there are
   void open(std::size_t fields, std::size_t pairs) {
@@ -24,6 +25,7 @@ struct ContactBooks {
     rigid_moment.assign(fields, Vec<3>::Zero());
     pair_impulse.assign(pairs, Vec<Dim>::Zero());
     pair_friction_work.assign(pairs, 0);
+    pair_area.assign(pairs, 0);
   }
 };
 

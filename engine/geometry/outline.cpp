@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/geometry/outline_bitmap.hpp"
 #include "engine/geometry/outline_solid.hpp"
 
 namespace mpmfast {
@@ -102,7 +103,7 @@ struct Loops {
   std::vector<Loop> operator()(const PolygonShape& polygon) const {
     return {divided(polygon.points, spacing)};
   }
-  std::vector<Loop> operator()(const BitmapShape&) const { return {}; }
+  std::vector<Loop> operator()(const BitmapShape& bitmap) const { return bitmap_loops(bitmap, spacing); }
   std::vector<Loop> operator()(const StlShape&) const { return {}; }
 };
 
@@ -132,12 +133,6 @@ void add_loop(const Loop& loop, Outline& out) {
 }
 
 }  // namespace
-
-std::string outline_fault(const Shape& shape, int dimension) {
-  if (dimension == 2 && std::holds_alternative<BitmapShape>(shape))
-    return "the outline of a bitmap is a staircase";
-  return "";
-}
 
 Outline outline(const Shape& shape, double spacing, int dimension) {
   if (dimension == 3) return solid_outline(shape, spacing);

@@ -3,7 +3,6 @@
 /// @file The surface of a shape as points and the facets between them.
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "engine/geometry/shapes.hpp"
@@ -29,9 +28,6 @@ struct Outline {
 
 /// Facets whose normals are further apart than this meet in a crease, rad.
 inline constexpr double kCrease = 0.5;
-
-/// Why the shape has no outline; empty where it has one.
-std::string outline_fault(const Shape& shape, int dimension);
 
 /// Points at about `spacing` (m) along the surface, corners kept.
 Outline outline(const Shape& shape, double spacing, int dimension);

@@ -102,6 +102,8 @@ std::vector<std::string> column_names(const Scene& scene) {
   }
   for (const auto& boundary : scene.boundaries)
     if (piston_of(boundary)) names.push_back(boundary.name + ".strain");
+  if (scene.contact.family == ContactFamily::penalty)
+    for (const auto& pair : scene.contact.pairs) names.push_back(pair_name(scene, pair) + ".area_m2");
   return names;
 }
 
@@ -192,6 +194,9 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
   }
   for (const auto& boundary : scene.boundaries)
     if (const WallSpec* piston = piston_of(boundary)) numbers.add(nominal_strain(scene, *piston, row.time));
+  if (scene.contact.family == ContactFamily::penalty)
+    for (std::size_t k = 0; k < scene.contact.pairs.size(); ++k)
+      numbers.add(k < row.pair_area.size() ? row.pair_area[k] : 0.0);
   return numbers.all;
 }
 

@@ -53,6 +53,7 @@ struct HistoryRow {
   std::vector<Vec3> rigid_moment;     ///< N m, likewise, about the body's pivot
   std::vector<Vec3> pair_force;       ///< N, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
+  std::vector<double> pair_area;      ///< m², of surfaces that press, at the time of the row; likewise
   std::optional<Overlap> overlap;     ///< with output.overlap
   std::optional<Outflow> outflow;     ///< with grid.leaving: outflow; up to now
 };

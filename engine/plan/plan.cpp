@@ -202,7 +202,13 @@ Plan make_plan(const Scene& scene) {
       plan.update == ParticleUpdate::pic || plan.update == ParticleUpdate::apic ||
       (plan.update == ParticleUpdate::xpic &&
        (plan.full_mass || (!scene.method.contact_correction && !scene.method.own_filter)));
-  for (double g : scene.gravity.acceleration) plan.gravity |= g != 0;
+  plan.field_acceleration.assign(plan.fields.size(), Vec3{});
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+    for (std::size_t d = 0; d < 3 && !is_rigid(scene, scene.bodies[b]); ++d) {
+      const double a = scene.gravity.acceleration[d] + scene.bodies[b].acceleration[d];
+      plan.field_acceleration[static_cast<std::size_t>(plan.body_field[b])][d] = a;
+      plan.gravity |= a != 0;
+    }
   plan_columns(scene, plan);
   list_passes(scene, plan);
   return plan;

@@ -38,13 +38,14 @@ struct Plan {
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected
-  bool gravity = false;
+  bool gravity = false;           ///< or an acceleration of some body
   bool force_with_mass =
       false;  ///< no strain comes first: forces follow from stresses known as a step begins
   std::vector<std::string> fields;  ///< names of the velocity fields
   std::vector<int> body_field;      ///< as Scene::bodies
   std::vector<bool> field_rigid;
-  PairTable pairs;  ///< laws of their own between fields; empty: one law for all
+  std::vector<Vec3> field_acceleration;  ///< m/s², gravity and the bodies' own; zero of rigid ones
+  PairTable pairs;                       ///< laws of their own between fields; empty: one law for all
   std::vector<Quantity> particle_columns;
   std::vector<Nodal> nodal_columns;
   std::vector<std::string> passes;  ///< of a step, in order

@@ -122,6 +122,7 @@ struct BodySpec {
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
   std::optional<RotationSpec> rotation;
+  Vec3 acceleration{0, 0, 0};  ///< m/s², of a body that deforms, beside gravity and with its ramp
 };
 
 /// Where a wall acts: on the nodes at and beyond its plane; at the plane where that cuts a cell; or on what

@@ -272,26 +272,26 @@ void Step<Dim>::strain_and_force(double dt) {
 }
 
 template <int Dim>
-bool Step<Dim>::is_rigid_slot(std::int64_t slot) const {
+std::size_t Step<Dim>::field_of_slot(std::int64_t slot) const {
   const auto tile = static_cast<std::size_t>(slot / kTileNodes<Dim>);
-  return state_.field_rigid[static_cast<std::size_t>(state_.tiling.node_tiles[tile].field)];
+  return static_cast<std::size_t>(state_.tiling.node_tiles[tile].field);
 }
 
 /// f += m g(t), g ramped from zero; rigid bodies move as they are told.
 template <int Dim>
 void Step<Dim>::add_body_force(double dt) {
   if (!plan_.gravity) return;
-  const auto& gravity = scene_->gravity;
-  const double middle = state_.time + 0.5 * dt;
-  const double share = gravity.ramp > 0 ? std::min(1.0, middle / gravity.ramp) : 1.0;
+  const double ramp = scene_->gravity.ramp, middle = state_.time + 0.5 * dt;
+  ramped_ = ramp > 0 ? std::min(1.0, middle / ramp) : 1.0;
   const double* mass = state_.nodes.column(Nodal::mass);
-  for (int d = 0; d < Dim; ++d) {
-    const double g = share * gravity.acceleration[static_cast<std::size_t>(d)];
-    gravity_[d] = g;
-    double* f = state_.nodes.column(Nodal::force, d);
+  for (std::size_t d = 0; d < Dim; ++d) {
+    double* f = state_.nodes.column(Nodal::force, static_cast<int>(d));
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t i = begin; i < end; ++i)
-        if (!is_rigid_slot(i)) f[i] += mass[i] * g;
+      for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>) {
+        const double g = ramped_ * plan_.field_acceleration[field_of_slot(tile)][d];
+        if (g == 0) continue;
+        for (std::int64_t i = tile; i < tile + kTileNodes<Dim>; ++i) f[i] += mass[i] * g;
+      }
     });
   }
 }
@@ -302,12 +302,15 @@ void Step<Dim>::weigh_body_force(double dt) {
   if (!plan_.gravity) return;
   body_force_work_ = 0;
   const double* mass = state_.nodes.column(Nodal::mass);
-  for (int d = 0; d < Dim; ++d) {
-    const double *v = state_.nodes.column(Nodal::velocity, d), *jump = state_.nodes.column(Nodal::force, d);
-    double momentum = 0;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double *v = state_.nodes.column(Nodal::velocity, static_cast<int>(d)),
+                 *jump = state_.nodes.column(Nodal::force, static_cast<int>(d));
+    std::vector<double>& momentum = field_momentum_;
+    momentum.assign(plan_.fields.size(), 0);
     for (int i = 0; i < state_.tiling.slots(); ++i)
-      if (!is_rigid_slot(i)) momentum += mass[i] * (v[i] - 0.5 * jump[i]);
-    body_force_work_ += gravity_[d] * momentum * dt;
+      momentum[field_of_slot(i)] += mass[i] * (v[i] - 0.5 * jump[i]);
+    for (std::size_t f = 0; f < momentum.size(); ++f)
+      body_force_work_ += ramped_ * plan_.field_acceleration[f][d] * momentum[f] * dt;
   }
 }
 

@@ -102,7 +102,8 @@ class Step {
   void keep_own_velocities();
   void start_velocities();
   void strain_and_force(double dt);
-  bool is_rigid_slot(std::int64_t slot) const;
+  std::size_t field_of_slot(std::int64_t slot) const;
+  bool is_rigid_slot(std::int64_t slot) const { return state_.field_rigid[field_of_slot(slot)]; }
   void add_body_force(double dt);
   void update_momenta(double dt);
   void end_velocities(double dt);
@@ -138,7 +139,8 @@ class Step {
   Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m
   double fastest_ = 0;                     ///< max_p (c_p + |v_p|), m/s
   double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
-  Vec<Dim> gravity_ = Vec<Dim>::Zero();    ///< of this step, m/s²
+  double ramped_ = 1;                      ///< share of the body forces in this step
+  std::vector<double> field_momentum_;     ///< along an axis, by velocity field, N s
   double body_force_work_ = 0;             ///< of this step, J
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s

@@ -84,8 +84,19 @@ TEST_CASE("outlines of plane shapes close, keep their corners and have the mater
   CHECK(angle.pieces == 6);
   CHECK(joints(angle, Joint::convex) == 5);
   CHECK(joints(angle, Joint::reentrant) == 1);
-  CHECK(!outline_fault(BitmapShape{}, 2).empty());
-  CHECK(outline_fault(BoxShape{}, 2).empty());
+
+  // A disk of pixels, beside which another level begins: a line without staircase between the two.
+  auto image = std::make_shared<GreyImage>();
+  image->width = image->height = 60;
+  for (int row = 0; row < 60; ++row)
+    for (int column = 0; column < 60; ++column)
+      image->pixel.push_back(std::hypot(column - 29.5, row - 29.5) < 20 ? 7 : 200);
+  const Outline pixels = outline(BitmapShape{"", {0, 0, 0}, {6, 6, 0}, 7, image}, 0.05, 2);
+  CHECK(pixels.pieces == 1);
+  CHECK(area_of(pixels) == doctest::Approx(4 * pi).epsilon(0.01));
+  CHECK(length_of(pixels) == doctest::Approx(4 * pi).epsilon(0.01));
+  const Outline around = outline(BitmapShape{"", {0, 0, 0}, {6, 6, 0}, 200, image}, 0.05, 2);
+  CHECK(area_of(around) == doctest::Approx(36 - 4 * pi).epsilon(0.02));
 }
 
 std::string two_bodies(const std::string& a, const std::string& b, const std::string& contact) {

@@ -337,5 +337,44 @@ boundaries:
   CHECK((impulse[0] + impulse[1] - change).norm() < 1e-12 * impulse[0].norm());
 }
 
+TEST_CASE("a body's own acceleration acts on it alone, beside gravity and with its ramp") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [40 mm, 20 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: pulled, box: {from: [4 mm, 8 mm], to: [8 mm, 12 mm]}, material: m, acceleration: [300 m/s^2, 0 m/s^2]}
+  - {name: falls, box: {from: [24 mm, 8 mm], to: [28 mm, 12 mm]}, material: m}
+gravity: {acceleration: [0 m/s^2, -100 m/s^2], ramp: 1 ms}
+)");
+  Step<2> step(scene);
+  while (step.state().time < 2e-3) step.advance(std::min(step.stable_dt(), 2e-3 - step.state().time));
+  const auto& particles = step.state().particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {  // half of the ramp, then all
+    const Vec<2> v = particles.vector(Quantity::velocity, p);
+    CHECK(v[0] == doctest::Approx(particles.body()[p] == 0 ? 300 * 1.5e-3 : 0).epsilon(1e-6).scale(1));
+    CHECK(v[1] == doctest::Approx(-100 * 1.5e-3).epsilon(1e-6));
+  }
+  const double mass = 1000 * 16e-6, kinetic = 0.5 * mass * (0.45 * 0.45 + 2 * 0.15 * 0.15);
+  CHECK(step.sums().body_force_work == doctest::Approx(kinetic).epsilon(1e-6));
+}
+
+TEST_CASE("accelerations are refused of rigid bodies, and where one velocity field would have two") {
+  const std::string head = R"(
+space: plane_strain
+grid: {size: [40 mm, 20 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1, bulk: 1, shear: 1}, r: {model: rigid}}
+bodies:
+  - {name: a, box: {from: [4 mm, 8 mm], to: [8 mm, 12 mm]}, material: m}
+  - {name: b, box: {from: [24 mm, 8 mm], to: [28 mm, 12 mm]}, acceleration: [1 m/s^2, 0 m/s^2], )";
+  CHECK_THROWS_WITH(scene_from(head + "material: r}\n"), doctest::Contains("moves as it is told"));
+  CHECK_THROWS_WITH(scene_from(head + "material: m, field: a}\n"), doctest::Contains("another acceleration"));
+  CHECK_THROWS_WITH(scene_from(head + "material: m}\ncontact: none\n"),
+                    doctest::Contains("another acceleration"));
+  CHECK_NOTHROW(scene_from(head + "material: m}\n"));
+}
+
 }  // namespace
 }  // namespace mpmfast

@@ -225,6 +225,8 @@ void Penalty<Dim>::book(const State<Dim>&, const Touch& touch, const Vec<Dim>& f
   const bool same = pairs_.group[static_cast<std::size_t>(a)] == pairs_.group[static_cast<std::size_t>(b)];
   books_.pair_impulse[k] += (pairs_.forward[place] && !(same && a > b) ? dt : -dt) * force;
   books_.pair_friction_work[k] += lost;
+  if (touch.energy > 0)  // once a point; each of two surfaces is seen
+    books_.pair_area[k] += 0.5 / Dim * facet(touch.own).area;
 }
 
 template <int Dim>

@@ -165,6 +165,11 @@ void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string
            [&](Slot& seeding) { describe_seeding(seeding, body.seeding); });
     map.at("velocity", "At the start; of a rigid body always, and each component may be a table in time.",
            [&](Slot& velocity) { describe_velocity(velocity, dimension, body); });
+    map.at("acceleration", "A body force over mass of its own, beside gravity and with its ramp.",
+           [&](Slot& acceleration) {
+             if (acceleration.writes() && body.acceleration == Vec3{}) return;
+             acceleration.take(body.acceleration, Vector{Measure::acceleration, dimension});
+           });
     map.at("rotation", "Turns a rigid body; of one that deforms, its spin at the start.",
            [&](Slot& rotation) { describe_rotation(rotation, dimension, body); });
   });

@@ -90,6 +90,21 @@ void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
     places[0].entry.report("every body is rigid: there is nothing to compute");
 }
 
+/// One velocity field has one acceleration.
+void check_accelerations(const Scene& scene, const std::vector<BodyPlace>& places) {
+  std::map<std::string, Vec3> known;
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+    const BodySpec& body = scene.bodies[b];
+    if (is_rigid(scene, body) && body.acceleration != Vec3{})
+      places[b].entry.find("acceleration")->report("a rigid body moves as it is told");
+    if (is_rigid(scene, body)) continue;
+    const auto one = known.emplace(scene.contact.active ? body.field : "", body.acceleration).first;
+    if (one->second != body.acceleration)
+      places[b].entry.report(
+          fmt::format("'{}' shares a velocity field with a body of another acceleration", body.name));
+  }
+}
+
 }  // namespace
 
 void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known) {
@@ -108,6 +123,7 @@ void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool
     check_count(scene, body, places[b]);
   }
   if (names.size() == scene.bodies.size()) check_rigid(scene, places);  // two of one name share a field too
+  check_accelerations(scene, places);
   constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
   if (scene.bodies.size() > kMostBodies) {
     places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <string>
 
-#include "engine/geometry/outline.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -45,12 +44,9 @@ void check_extension(const Value& top, const Scene& scene) {
                   "family: penalty; contact: none; or leave the extension out");
 }
 
-/// Penalty contact needs outlines, of points that stay, and laws that only push.
-void check_penalty(const Value& top, const std::vector<BodyPlace>& places, const Scene& scene) {
+/// Penalty contact needs surfaces that stay whole, and laws that only push.
+void check_penalty(const Value& top, const Scene& scene) {
   const Value stated = *top.find("contact")->find("family");
-  for (std::size_t b = 0; b < places.size(); ++b)
-    if (const std::string fault = outline_fault(scene.bodies[b].shape, scene.dimension()); !fault.empty())
-      places[b].entry.report(fault + ": penalty contact follows outlines");
   const auto bonds = [](const SurfaceLaw& law) {
     return std::visit(
         [](const auto& one) { return one.scope == LawScope::everywhere || one.scope == LawScope::bonded; },
@@ -69,7 +65,7 @@ void check_penalty(const Value& top, const std::vector<BodyPlace>& places, const
 /// What follows from several sections.
 void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
-  if (scene.contact.family == ContactFamily::penalty) check_penalty(top, places, scene);
+  if (scene.contact.family == ContactFamily::penalty) check_penalty(top, scene);
   if (scene.method.extended) check_extension(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
