@@ -19,7 +19,7 @@ namespace mpmfast {
 struct PenaltySpec {
   double stiffness = 1;   ///< ω = this × ρc²/Δh of the softer body, Pa/m
   double tangential = 1;  ///< ω_t/ω
-  int per_cell = 4;       ///< boundary points along the side of a cell
+  int per_cell = 2;       ///< boundary points along the side of a cell
 
   template <class Keys>
   void describe(Keys& map) {

@@ -108,7 +108,7 @@ materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 3
 bodies:
   - {name: a, )" +
          a + ", material: m}\n  - {name: b, " + b + ", material: m}\nmethod: {basis: bspline2}\n" +
-         "contact: {family: penalty, " + contact + "}\n";
+         "contact: {family: penalty, points_per_cell: 4, " + contact + "}\n";
 }
 
 /// Surfaces of a scene as it stands, with forces between them.

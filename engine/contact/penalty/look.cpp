@@ -29,6 +29,7 @@ template <int Dim>
 std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   gather(state);
   if (stale_) find_near(state);
+  if (stale_ || !lists_hold()) list_all(state.threads);
   stale_ = false;
   const int fold = find_normals(state.threads);
   if (fold >= 0) {
@@ -36,18 +37,27 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
     const auto& own = surfaces_->bodies[static_cast<std::size_t>(body)];
     return Fold{body, own.first_id + static_cast<std::uint32_t>(fold - own.first)};
   }
-  fill_bins();
   for (auto& room : rooms_) room.touches.clear();
-  const auto n = static_cast<std::int64_t>(near_facets_.size());
+  const auto n = static_cast<std::int64_t>(listing_.size());
   // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
   for (std::int64_t k = 0; k < n; ++k) {
-    Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
-    const int own = near_facets_[static_cast<std::size_t>(k)];
-    list_around(own, room.around);
-    for (int at = 0; at < Dim && !room.around.empty(); ++at) look_around(own, at, room.around, room.touches);
+    const Listing& listing = listing_[static_cast<std::size_t>(k)];
+    const std::span<const int> around(listed_.data() + listing.begin, listed_.data() + listing.end);
+    for (int at = 0; at < Dim; ++at)
+      look_around(listing.facet, at, around, rooms_[static_cast<std::size_t>(omp_get_thread_num())].touches);
   }
   return std::nullopt;
+}
+
+/// Has no point gone half of what the lists allow for?
+template <int Dim>
+bool Penalty<Dim>::lists_hold() const {
+  double squared = 0;
+  for (int p : near_points_)
+    squared = std::max(squared, (at(p) - listed_at_[static_cast<std::size_t>(p)]).squaredNorm());
+  const double most = 0.5 * kSkin * cell_;
+  return squared <= most * most;
 }
 
 template <int Dim>
@@ -87,19 +97,16 @@ void Penalty<Dim>::find_near(const State<Dim>& state) {
         is_near_[static_cast<std::size_t>(surfaces_->number(run.body, state.particles.id()[p]))] = 1;
     }
   }
+  near_points_.clear();
+  for (std::size_t p = 0; p < is_near_.size(); ++p)
+    if (is_near_[p]) near_points_.push_back(static_cast<int>(p));
   near_facets_.clear();
-  near_wedges_.clear();
-  is_near_wedge_.assign(surfaces_->wedges.size(), 0);
   for (std::size_t f = 0; f < surfaces_->facets.size(); ++f) {
-    const auto& facet = surfaces_->facets[f];
-    if (std::none_of(facet.point.begin(), facet.point.end(),
-                     [&](int p) { return is_near_[static_cast<std::size_t>(p)]; }))
-      continue;
-    near_facets_.push_back(static_cast<int>(f));
-    for (int w : facet.wedge) is_near_wedge_[static_cast<std::size_t>(w)] = 1;
+    const auto& corner = surfaces_->facets[f].point;
+    if (std::any_of(corner.begin(), corner.end(),
+                    [&](int p) { return is_near_[static_cast<std::size_t>(p)]; }))
+      near_facets_.push_back(static_cast<int>(f));
   }
-  for (std::size_t w = 0; w < is_near_wedge_.size(); ++w)
-    if (is_near_wedge_[w]) near_wedges_.push_back(static_cast<int>(w));
 }
 
 /// Unit, out of the body.
@@ -117,10 +124,10 @@ Vec<Dim> Penalty<Dim>::facet_normal(int f) const {
 template <int Dim>
 int Penalty<Dim>::find_normals(int threads) {
   for (auto& room : rooms_) room.fold = -1;
-  const auto n = static_cast<std::int64_t>(near_wedges_.size());
+  const auto n = static_cast<std::int64_t>(listed_wedges_.size());
 #pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
   for (std::int64_t k = 0; k < n; ++k) {
-    const auto w = static_cast<std::size_t>(near_wedges_[static_cast<std::size_t>(k)]);
+    const auto w = static_cast<std::size_t>(listed_wedges_[static_cast<std::size_t>(k)]);
     const auto& wedge = surfaces_->wedges[w];
     Vec<Dim> sum = Vec<Dim>::Zero();
     for (int f = wedge.begin; f < wedge.end; ++f)
@@ -153,8 +160,8 @@ std::size_t Penalty<Dim>::bucket_of(const NodeIndex<Dim>& cell) const {
   return hash & (static_cast<std::uint32_t>(bucket_begin_.size()) - 2);
 }
 
-/// Facets by the cell of their middle, of such a side that what is within a cell of the grid of any point of
-/// a facet lies in the cells around the facet's own.
+/// Facets by the cell of their middle, of such a side that what comes within a cell of the grid of any point
+/// of a facet, as long as the lists hold, lies in the cells around the facet's own.
 template <int Dim>
 void Penalty<Dim>::fill_bins() {
   const auto n = near_facets_.size();
@@ -168,7 +175,7 @@ void Penalty<Dim>::fill_bins() {
     for (int p : corner) radius_ = std::max(radius_, (at(p) - middle_[k]).squaredNorm());
   }
   radius_ = std::sqrt(radius_);
-  side_ = cell_ + 2 * radius_;
+  side_ = (1 + kSkin) * cell_ + 2 * radius_;
   std::size_t buckets = 16;
   while (buckets < 2 * n) buckets *= 2;
   bucket_begin_.assign(buckets + 1, 0);
@@ -204,16 +211,14 @@ std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
   return foot;
 }
 
-/// The facets of other bodies that may touch a facet.
+/// The facets of other bodies that may touch a facet, by their numbers.
 template <int Dim>
-void Penalty<Dim>::list_around(int own, std::vector<const Binned*>& around) const {
-  around.clear();
-  const int body = facet(own).body, field = field_of(body);
+void Penalty<Dim>::list_around(std::size_t k_th, std::vector<int>& out) const {
+  const int body = facet(near_facets_[k_th]).body, field = field_of(body);
   const bool rigid = body_rigid_[static_cast<std::size_t>(body)];
-  Vec<Dim> middle = Vec<Dim>::Zero();
-  for (int p : facet(own).point) middle += at(p) / Dim;
+  const Vec<Dim>& middle = middle_[k_th];
   const NodeIndex<Dim> cell = cell_of(middle);
-  const double most = side_ * side_;
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (int k = 0; k < power(3, Dim); ++k) {
     NodeIndex<Dim> there = cell;
     int digits = k;
@@ -223,15 +228,55 @@ void Penalty<Dim>::list_around(int own, std::vector<const Binned*>& around) cons
       const Binned& binned = binned_[static_cast<std::size_t>(b)];
       if (field_of(binned.body) == field || binned.cell != there) continue;
       if (rigid && body_rigid_[static_cast<std::size_t>(binned.body)]) continue;
-      if ((middle - binned.middle).squaredNorm() <= most) around.push_back(&binned);
+      if ((middle - binned.middle).squaredNorm() <= side_ * side_) out.push_back(binned.facet);
     }
   }
+  std::sort(out.begin() + begin, out.end());
+}
+
+/// Which facets may touch which until a point has gone half of kSkin.
+template <int Dim>
+void Penalty<Dim>::list_all(int threads) {
+  fill_bins();
+  const auto n = static_cast<std::int64_t>(near_facets_.size());
+  for (Room& room : rooms_) {
+    room.listing.clear();
+    room.listed.clear();
+  }
+#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
+  for (std::int64_t k = 0; k < n; ++k) {
+    Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+    const int begin = static_cast<int>(room.listed.size());
+    list_around(static_cast<std::size_t>(k), room.listed);
+    const int end = static_cast<int>(room.listed.size());
+    if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end});
+  }
+  listing_.clear();
+  listed_.clear();
+  for (const Room& room : rooms_) {
+    const int before = static_cast<int>(listed_.size());
+    for (const Listing& one : room.listing)
+      listing_.push_back({one.facet, before + one.begin, before + one.end});
+    listed_.insert(listed_.end(), room.listed.begin(), room.listed.end());
+  }
+  // Who lists is listed too.
+  listed_wedges_.clear();
+  for (const Listing& one : listing_)
+    for (int w : facet(one.facet).wedge) listed_wedges_.push_back(w);
+  std::sort(listed_wedges_.begin(), listed_wedges_.end());
+  listed_wedges_.erase(std::unique(listed_wedges_.begin(), listed_wedges_.end()), listed_wedges_.end());
+  listed_at_ = now_;
 }
 
 template <int Dim>
-void Penalty<Dim>::look_around(int own, int k_th, const std::vector<const Binned*>& around,
+void Penalty<Dim>::look_around(int own, int k_th, std::span<const int> around,
                                std::vector<Touch>& out) const {
   const Vec<Dim> x = mean(own, k_th, now_);
+  const auto squared_to = [&](int f) {
+    Vec<Dim> middle = Vec<Dim>::Zero();
+    for (int p : facet(f).point) middle += at(p);
+    return (x - middle / Dim).squaredNorm();
+  };
   // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
   struct Nearest {
     int body, facet;
@@ -239,14 +284,13 @@ void Penalty<Dim>::look_around(int own, int k_th, const std::vector<const Binned
   };
   Nearest nearest[kNear];
   int bodies = 0;
-  for (const Binned* one : around) {
-    const Binned& binned = *one;
-    const double squared = (x - binned.middle).squaredNorm();
+  for (const int f : around) {
+    const double squared = squared_to(f);
     int b = 0;
-    while (b < bodies && nearest[b].body != binned.body) ++b;
+    while (b < bodies && nearest[b].body != facet(f).body) ++b;
     if (b == kNear) continue;
-    if (b == bodies) nearest[bodies++] = {binned.body, binned.facet, squared};
-    if (squared < nearest[b].squared) nearest[b] = {binned.body, binned.facet, squared};
+    if (b == bodies) nearest[bodies++] = {facet(f).body, f, squared};
+    if (squared < nearest[b].squared) nearest[b] = {facet(f).body, f, squared};
   }
   int kept = 0;
   for (int b = 0; b < bodies; ++b) {
@@ -256,23 +300,21 @@ void Penalty<Dim>::look_around(int own, int k_th, const std::vector<const Binned
   if (kept == 0) return;
   Candidate found[kNear];
   int count = 0;
-  for (const Binned* one : around) {
-    const Binned& binned = *one;
+  for (const int f : around) {
+    const auto& other = facet(f);
     int b = 0;
-    while (b < kept && nearest[b].body != binned.body) ++b;
+    while (b < kept && nearest[b].body != other.body) ++b;
     if (b == kept) continue;
-    const double squared = (x - binned.middle).squaredNorm();
-    const auto& other = facet(binned.facet);
     int place = 0;  // in order of the pieces, so that those of a body follow each other
     while (place < count && found[place].piece < other.piece) ++place;
     const bool known = place < count && found[place].piece == other.piece;
-    const double least = std::sqrt(squared) - radius_;
+    const double least = std::sqrt(squared_to(f)) - radius_;
     if (known && least > found[place].foot.distance) continue;
     if (other.piece == facet(nearest[b].facet).piece && least > 1.5 * std::sqrt(nearest[b].squared) + radius_)
       continue;
     const std::optional<Foot<Dim>> foot = foot_of(x, other);
     if (!foot) continue;
-    const Candidate candidate{other.body, other.piece, binned.facet, *foot};
+    const Candidate candidate{other.body, other.piece, f, *foot};
     if (known) {
       if (foot->distance < found[place].foot.distance) found[place] = candidate;
     } else if (count < kNear) {
@@ -340,6 +382,7 @@ void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const C
 
 // Here: the members that this file defines.
 template std::optional<Fold> Penalty<2>::look(const State<2>&);
+template bool Penalty<2>::lists_hold() const;
 template void Penalty<2>::gather(const State<2>&);
 template void Penalty<2>::find_near(const State<2>&);
 template Vec<2> Penalty<2>::facet_normal(int) const;
@@ -348,10 +391,12 @@ template NodeIndex<2> Penalty<2>::cell_of(const Vec<2>&) const;
 template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
 template void Penalty<2>::fill_bins();
 template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
-template void Penalty<2>::list_around(int, std::vector<const Binned*>&) const;
-template void Penalty<2>::look_around(int, int, const std::vector<const Binned*>&, std::vector<Touch>&) const;
+template void Penalty<2>::list_around(std::size_t, std::vector<int>&) const;
+template void Penalty<2>::list_all(int);
+template void Penalty<2>::look_around(int, int, std::span<const int>, std::vector<Touch>&) const;
 template void Penalty<2>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 template std::optional<Fold> Penalty<3>::look(const State<3>&);
+template bool Penalty<3>::lists_hold() const;
 template void Penalty<3>::gather(const State<3>&);
 template void Penalty<3>::find_near(const State<3>&);
 template Vec<3> Penalty<3>::facet_normal(int) const;
@@ -360,8 +405,9 @@ template NodeIndex<3> Penalty<3>::cell_of(const Vec<3>&) const;
 template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
 template void Penalty<3>::fill_bins();
 template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
-template void Penalty<3>::list_around(int, std::vector<const Binned*>&) const;
-template void Penalty<3>::look_around(int, int, const std::vector<const Binned*>&, std::vector<Touch>&) const;
+template void Penalty<3>::list_around(std::size_t, std::vector<int>&) const;
+template void Penalty<3>::list_all(int);
+template void Penalty<3>::look_around(int, int, std::span<const int>, std::vector<Touch>&) const;
 template void Penalty<3>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 
 }  // namespace mpmfast

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/contact/books.hpp"
@@ -86,9 +87,16 @@ class Penalty {
     int facet, body;
     Vec<Dim> middle;  ///< m
   };
+  /// A facet and, from begin to end, the facets that may touch it.
+  struct Listing {
+    int facet, begin, end;
+  };
+  /// Cells that points of two bodies may come closer by until they are listed anew.
+  static constexpr double kSkin = 0.2;
   struct Room {
     std::vector<Touch> touches;
-    std::vector<const Binned*> around;  ///< a facet
+    std::vector<Listing> listing;
+    std::vector<int> listed;
     int fold = -1;
   };
 
@@ -97,9 +105,10 @@ class Penalty {
   int find_normals(int threads);
   void fill_bins();
   std::optional<Foot<Dim>> foot_of(const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet) const;
-  void list_around(int own, std::vector<const Binned*>& around) const;
-  void look_around(int own, int k_th, const std::vector<const Binned*>& around,
-                   std::vector<Touch>& out) const;
+  void list_around(std::size_t k_th, std::vector<int>& out) const;
+  void list_all(int threads);
+  bool lists_hold() const;
+  void look_around(int own, int k_th, std::span<const int> around, std::vector<Touch>& out) const;
   void touch_body(int own, int at, const Candidate* begin, const Candidate* end,
                   std::vector<Touch>& out) const;
   double stiffness_between(int body_a, int body_b) const;
@@ -146,8 +155,11 @@ class Penalty {
   std::vector<Vec<Dim>> now_, before_;          ///< positions by number of the point, m
   double time_before_ = 0;                      ///< s
   std::vector<Holds> holds_;                    ///< by number
-  std::vector<int> near_facets_, near_wedges_;  ///< that another field's nodes are near
-  std::vector<std::uint8_t> is_near_, is_near_wedge_;
+  std::vector<int> near_points_, near_facets_;  ///< that another field's nodes are near
+  std::vector<std::uint8_t> is_near_;           ///< by number
+  std::vector<Listing> listing_;                ///< by facet
+  std::vector<int> listed_, listed_wedges_;
+  std::vector<Vec<Dim>> listed_at_;  ///< positions by number when they were listed, m
   std::vector<Vec<Dim>> wedge_normal_;
   std::vector<int> bucket_begin_;
   std::vector<Binned> binned_;

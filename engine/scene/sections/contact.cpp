@@ -120,16 +120,13 @@ void describe_corrections(Keys& map, bool strain_stated, ContactSpec& contact, S
 void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   ContactSpec& contact = scene.contact;
   map.key("family", "Where contact acts.", contact.family, kFamilies);
-  const bool nodes = contact.family == ContactFamily::nodes || map.tells(),
-             surfaces = contact.family == ContactFamily::penalty || map.tells();
+  const bool nodes = contact.family == ContactFamily::nodes || map.tells();
   if (nodes) describe_geometry(map, scene.dimension(), contact);
   describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact.law);
   if (nodes) describe_corrections(map, strain_stated, contact, scene.method.strain);
-  if (surfaces) {
-    contact.springs.describe(map);
-    map.key("points_per_cell", "Points that follow a surface, along the side of a cell.",
-            contact.springs.per_cell, Whole{1, 64});
-  }
+  contact.springs.describe(map);  // with either family, so that --set can choose it
+  map.key("points_per_cell", "Points that follow a surface, along the side of a cell.",
+          contact.springs.per_cell, Whole{1, 64});
   describe_pairs(map, top, scene);
 }
 
