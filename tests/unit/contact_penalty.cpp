@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/contact/penalty/penalty.hpp"
@@ -354,6 +356,124 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   CHECK(last[2] == doctest::Approx(first[2]).epsilon(5e-3));  // FLIP of B-splines loses a little
   CHECK(last[3] + step.stored_energy() == doctest::Approx(first[3]).epsilon(3e-3));
   CHECK(last[3] < 0.97 * first[3]);
+}
+
+double surface_of(const Outline& outline) {
+  double sum = 0;
+  for (const auto& f : outline.facets) {
+    Vec<3> x[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int d = 0; d < 3; ++d)
+        x[k][d] = outline.points[static_cast<std::size_t>(f.point[k])][static_cast<std::size_t>(d)];
+    sum += 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+  }
+  return sum;
+}
+
+/// Positive where all triangles turn counter-clockwise seen from outside.
+double volume_of(const Outline& outline) {
+  double sum = 0;
+  for (const auto& f : outline.facets) {
+    Vec<3> x[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      for (int d = 0; d < 3; ++d)
+        x[k][d] = outline.points[static_cast<std::size_t>(f.point[k])][static_cast<std::size_t>(d)];
+    sum += x[0].dot(x[1].cross(x[2])) / 6;
+  }
+  return sum;
+}
+
+/// Each edge belongs to two triangles, which pass it in opposite ways.
+bool closes(const Outline& outline) {
+  std::map<std::pair<int, int>, int> passed;
+  for (const auto& f : outline.facets)
+    for (std::size_t k = 0; k < 3; ++k) ++passed[{f.point[k], f.point[(k + 1) % 3]}];
+  for (const auto& [edge, times] : passed)
+    if (times != 1 || !passed.contains({edge.second, edge.first})) return false;
+  return true;
+}
+
+TEST_CASE("outlines of solid shapes close, face outwards and keep their creases") {
+  const double pi = std::numbers::pi;
+  const Outline box = outline(BoxShape{{1, 2, 3}, {3, 3, 4}}, 0.3, 3);
+  CHECK(closes(box));
+  CHECK(box.pieces == 6);
+  CHECK(surface_of(box) == doctest::Approx(10));
+  CHECK(volume_of(box) == doctest::Approx(2));
+
+  const Outline ball = outline(EllipsoidShape{{1, 0, 0}, {2, 2, 2}, 0}, 0.2, 3);
+  CHECK(closes(ball));
+  CHECK(ball.pieces == 1);
+  CHECK(surface_of(ball) == doctest::Approx(16 * pi).epsilon(5e-3));
+  CHECK(volume_of(ball) == doctest::Approx(32 * pi / 3).epsilon(5e-3));
+  const Outline egg = outline(EllipsoidShape{{0, 0, 0}, {3, 2, 1}, 0.4}, 0.2, 3);
+  CHECK(volume_of(egg) == doctest::Approx(8 * pi).epsilon(5e-3));
+
+  const Outline tube = outline(RingShape{{0, 0, 1}, 1, 2, 0.5}, 0.1, 3);
+  CHECK(closes(tube));
+  CHECK(tube.pieces == 4);
+  CHECK(volume_of(tube) == doctest::Approx(3 * pi).epsilon(2e-3));
+  const Outline rod = outline(RingShape{{0, 0, 0}, 0, 1, 2}, 0.1, 3);
+  CHECK(closes(rod));
+  CHECK(rod.pieces == 3);
+  CHECK(volume_of(rod) == doctest::Approx(4 * pi).epsilon(2e-3));
+
+  const Outline angle = outline(PolygonShape{{{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}}, 0, 1}, 0.3, 3);
+  CHECK(closes(angle));
+  CHECK(angle.pieces == 8);
+  CHECK(volume_of(angle) == doctest::Approx(3));
+  int sunk = 0;
+  for (const auto& f : angle.facets)
+    for (const Joint joint : f.joint) sunk += joint == Joint::reentrant;
+  CHECK(sunk > 0);
+}
+
+TEST_CASE("spheres that collide obliquely with friction: forces and moments sum to zero") {
+  const Scene scene = scene_from(R"(
+space: 3d
+grid: {size: [16 mm, 16 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, sphere: {centre: [5 mm, 6 mm, 7 mm], radius: 3 mm}, material: m, velocity: [20 m/s, 0 m/s, 0 m/s]}
+  - {name: b, box: {from: [8.2 mm, 5 mm, 5 mm], to: [12 mm, 12 mm, 11 mm]}, material: m, velocity: [-20 m/s, 8 m/s, 3 m/s]}
+contact: {family: penalty, friction: 0.3}
+method: {basis: bspline2, extension: {occupation: 0.75}}
+)");
+  Step<3> step(scene);
+  const auto momentum = [&] {
+    Vec<3> sum = Vec<3>::Zero();
+    const auto& particles = step.state().particles;
+    for (std::size_t p = 0; p < particles.size(); ++p)
+      sum += particles.column(Quantity::mass)[p] * particles.vector(Quantity::velocity, p);
+    return sum;
+  };
+  const Vec<3> first = momentum();
+  int tried = 0;
+  for (int k = 0; k < 25; ++k) {
+    const auto& state = step.state();
+    std::vector<Vec<3>> place(state.surfaces.points());
+    for (std::size_t p = 0; p < state.particles.size(); ++p)
+      if (const int number = state.surfaces.number(state.particles.body()[p], state.particles.id()[p]);
+          number >= 0)
+        place[static_cast<std::size_t>(number)] = state.particles.vector(Quantity::position, p);
+    step.advance(step.stable_dt());
+    Vec<3> sum = Vec<3>::Zero(), moment = Vec<3>::Zero();
+    double size = 0;
+    const auto& forces = step.penalty().forces();
+    for (std::size_t p = 0; p < forces.size(); ++p) {
+      sum += forces[p];
+      moment += place[p].cross(forces[p]);
+      size += forces[p].norm();
+    }
+    if (size == 0) continue;
+    ++tried;
+    CHECK(sum.norm() < 1e-12 * size);
+    CHECK(moment.norm() < 1e-12 * size * 0.016);
+  }
+  CHECK(tried > 5);
+  CHECK(step.sums().friction_work > 0);
+  CHECK((momentum() - first).norm() < 1e-12 * first.norm());
 }
 
 TEST_CASE("penalty contact refuses what it cannot follow") {
