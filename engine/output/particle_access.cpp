@@ -38,6 +38,10 @@ double CauchyStress::von_mises() const {
   return std::sqrt(0.5 * (xy * xy + yz * yz + zx * zx) + 3 * shear);
 }
 
+double CauchyStress::difference_in_plane() const {
+  return std::hypot(component[0] - component[1], 2 * component[3]);
+}
+
 template <int Dim>
 CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p) {
   CauchyStress stress;
@@ -65,7 +69,8 @@ FieldValues collect(const Particles<Dim>& particles, Quantity needed, std::strin
 }  // namespace
 
 std::vector<std::string> field_names(int dimension) {
-  std::vector<std::string> names{"pressure", "von_mises", "stress_xx", "stress_yy", "stress_zz", "stress_xy"};
+  std::vector<std::string> names{"pressure",  "von_mises", "stress_difference", "stress_xx",
+                                 "stress_yy", "stress_zz", "stress_xy"};
   if (dimension == 3) names.insert(names.end(), {"stress_yz", "stress_xz"});
   names.insert(names.end(), {"speed", "velocity_x", "velocity_y"});
   if (dimension == 3) names.emplace_back("velocity_z");
@@ -88,6 +93,9 @@ FieldValues values_of_all(const Particles<Dim>& particles, const Scene& scene, c
   if (field == "von_mises")
     return collect(particles, stress, "von Mises stress", "Pa",
                    [&](std::size_t p) { return cauchy_stress(particles, p).von_mises(); });
+  if (field == "stress_difference")
+    return collect(particles, stress, "stress difference in the plane", "Pa",
+                   [&](std::size_t p) { return cauchy_stress(particles, p).difference_in_plane(); });
   for (std::size_t k = 0; k < kStressNames.size(); ++k)
     if (field == kStressNames[k])
       return collect(particles, stress, "stress " + field.substr(7), "Pa",

@@ -28,6 +28,8 @@ struct CauchyStress {
   std::array<double, 6> component{};
   double pressure() const { return -(component[0] + component[1] + component[2]) / 3; }
   double von_mises() const;
+  /// σ1 − σ2 of the xy plane: fringes of photo-elastic pictures follow it (K24 Eq. 50).
+  double difference_in_plane() const;
 };
 template <int Dim>
 CauchyStress cauchy_stress(const Particles<Dim>& particles, std::size_t p);

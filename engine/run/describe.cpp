@@ -81,6 +81,9 @@ std::string contact_text(const ContactSpec& contact) {
   if (!contact.pairs.empty())
     pairs = fmt::format(", and {} pair{} with laws of their own", contact.pairs.size(),
                         contact.pairs.size() == 1 ? "" : "s");
+  if (contact.family == ContactFamily::penalty)
+    return fmt::format("{}{}; between surfaces, with springs of {:g} moduli a cell", law, pairs,
+                       contact.springs.stiffness);
   return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
 }
 

@@ -39,6 +39,9 @@ class Suspicions {
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
     falls();
+    if (scene_.contact.family == ContactFamily::penalty && !scene_.method.extended)
+      say("contact.family", "penalty forces throw nodes at surfaces that have hardly any mass",
+          "method: {basis: bspline2, extension: {occupation: 0.75}}");
   }
 
  private:

@@ -171,6 +171,17 @@ TEST_CASE("a particle's picture has the sides of its share of a cell") {
   CHECK(framing.box[1]->width() == doctest::Approx(0.025));
 }
 
+TEST_CASE("the stress difference in the plane is that of the principal stresses there") {
+  CauchyStress stress;
+  stress.component = {3, -1, 7, 0, 5, 6};
+  CHECK(stress.difference_in_plane() == doctest::Approx(4));
+  stress.component = {1, 1, 0, 2, 0, 0};  // 3 and -1
+  CHECK(stress.difference_in_plane() == doctest::Approx(4));
+  const double angle = 0.3, turned = 2 * angle;  // the first, turned
+  stress.component = {1 + 2 * std::cos(turned), 1 - 2 * std::cos(turned), 0, 2 * std::sin(turned), 0, 0};
+  CHECK(stress.difference_in_plane() == doctest::Approx(4));
+}
+
 TEST_CASE("an animation read as a viewer does shows the pictures that went in") {
   const TemporaryFolder folder;
   constexpr int kWidth = 7, kHeight = 5;

@@ -121,6 +121,8 @@ TEST_CASE("times, friction and frames far from the usual are told") {
         "(3.33e-07 s)\n");
   CHECK(holds(warnings(plain_scene(), {{"time.end", "10 s"}}),
               "warning: time.end: about 1.2e+08 steps of 8.3e-08 s"));
+  CHECK(holds(warnings(plain_scene(), {{"contact.family", "penalty"}}),
+              "warning: contact.family: penalty forces throw nodes at surfaces that have hardly any mass"));
   CHECK(warnings(plain_scene(), {{"contact.friction", "2"}}).empty());
   CHECK(holds(warnings(plain_scene(), {{"contact.friction", "30"}}),
               "warning: contact.friction: 30 is a lot of friction"));

@@ -134,9 +134,9 @@ inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
 }};
 
 /// Fields that output.picture can show.
-inline constexpr std::array<const char*, 11> kPictures{"pressure",  "von_mises", "stress_xx", "stress_yy",
-                                                       "stress_zz", "stress_xy", "stress_yz", "stress_xz",
-                                                       "speed",     "body",      "none"};
+inline constexpr std::array<const char*, 12> kPictures{
+    "pressure",  "von_mises", "stress_difference", "stress_xx", "stress_yy", "stress_zz",
+    "stress_xy", "stress_yz", "stress_xz",         "speed",     "body",      "none"};
 
 /// What a face of the grid is in a word.
 enum class FaceKind { wall, symmetry, fixed, free };
