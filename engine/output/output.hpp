@@ -178,6 +178,7 @@ struct RunSummary {
     std::uint64_t touching = 0, doubtful = 0;          ///< as ContactCounters
     std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< with fields: pairs
     std::uint64_t meetings = 0, screened = 0;          ///< as ContactCounters
+    std::uint64_t points_peak = 0;                     ///< of surfaces that press, with penalty contact
   } contact;
   double energy_error = 0;
   bool averaged_strain = false;    ///< method.strain: average

@@ -33,7 +33,8 @@ nlohmann::ordered_json contact_json(const RunSummary::Contact& contact) {
           {"pair_nodes", contact.pair_nodes},
           {"pair_fallbacks", contact.pair_fallbacks},
           {"meetings", contact.meetings},
-          {"screened", contact.screened}};
+          {"screened", contact.screened},
+          {"points_peak", contact.points_peak}};
 }
 
 }  // namespace

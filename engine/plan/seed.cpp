@@ -166,7 +166,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.field_rigid = plan.field_rigid;
   for (const auto& m : scene.materials) state.materials.push_back(make_material(m, scene.grid.cell));
 
-  const std::vector<Outline> surfaces = outlines(scene);
+  const std::vector<Outline> surfaces = outlines(scene, plan);
   if (!surfaces.empty()) state.tiling.part_surfaces();
   std::vector<Seeds> seeds;
   std::size_t count = 0;

@@ -8,9 +8,9 @@
 
 namespace mpmfast {
 
-std::vector<Outline> outlines(const Scene& scene) {
+std::vector<Outline> outlines(const Scene& scene, const Plan& plan) {
   std::vector<Outline> out;
-  if (!scene.contact.active || scene.contact.family != ContactFamily::penalty) return out;
+  if (!plan.penalty) return out;
   const double spacing = scene.grid.cell / scene.contact.springs.per_cell;
   for (const BodySpec& body : scene.bodies) out.push_back(outline(body.shape, spacing, scene.dimension()));
   return out;

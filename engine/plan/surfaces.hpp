@@ -2,13 +2,14 @@
 
 /// @file The surfaces of a scene's bodies at time zero.
 
+#include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/surfaces.hpp"
 
 namespace mpmfast {
 
-/// The outline of each body; empty where the scene's contact follows none.
-std::vector<Outline> outlines(const Scene& scene);
+/// The outline of each body; empty where the plan follows none.
+std::vector<Outline> outlines(const Scene& scene, const Plan& plan);
 
 /// Enters the outline of the next body. @param first_id  of its boundary points
 template <int Dim>

@@ -277,43 +277,6 @@ std::size_t Step<Dim>::field_of_slot(std::int64_t slot) const {
   return static_cast<std::size_t>(state_.tiling.node_tiles[tile].field);
 }
 
-/// f += m g(t), g ramped from zero; rigid bodies move as they are told.
-template <int Dim>
-void Step<Dim>::add_body_force(double dt) {
-  if (!plan_.gravity) return;
-  const double ramp = scene_->gravity.ramp, middle = state_.time + 0.5 * dt;
-  ramped_ = ramp > 0 ? std::min(1.0, middle / ramp) : 1.0;
-  const double* mass = state_.nodes.column(Nodal::mass);
-  for (std::size_t d = 0; d < Dim; ++d) {
-    double* f = state_.nodes.column(Nodal::force, static_cast<int>(d));
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>) {
-        const double g = ramped_ * plan_.field_acceleration[field_of_slot(tile)][d];
-        if (g == 0) continue;
-        for (std::int64_t i = tile; i < tile + kTileNodes<Dim>; ++i) f[i] += mass[i] * g;
-      }
-    });
-  }
-}
-
-/// The work of the body force on what moves with v⁺ − ½ a Δt.
-template <int Dim>
-void Step<Dim>::weigh_body_force(double dt) {
-  if (!plan_.gravity) return;
-  body_force_work_ = 0;
-  const double* mass = state_.nodes.column(Nodal::mass);
-  for (std::size_t d = 0; d < Dim; ++d) {
-    const double *v = state_.nodes.column(Nodal::velocity, static_cast<int>(d)),
-                 *jump = state_.nodes.column(Nodal::force, static_cast<int>(d));
-    std::vector<double>& momentum = field_momentum_;
-    momentum.assign(plan_.fields.size(), 0);
-    for (int i = 0; i < state_.tiling.slots(); ++i)
-      momentum[field_of_slot(i)] += mass[i] * (v[i] - 0.5 * jump[i]);
-    for (std::size_t f = 0; f < momentum.size(); ++f)
-      body_force_work_ += ramped_ * plan_.field_acceleration[f][d] * momentum[f] * dt;
-  }
-}
-
 template <int Dim>
 void Step<Dim>::update_momenta(double dt) {
   clock_.time(Pass::nodes, [&] {

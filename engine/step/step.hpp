@@ -140,7 +140,6 @@ class Step {
   double fastest_ = 0;                     ///< max_p (c_p + |v_p|), m/s
   double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
   double ramped_ = 1;                      ///< share of the body forces in this step
-  std::vector<double> field_momentum_;     ///< along an axis, by velocity field, N s
   double body_force_work_ = 0;             ///< of this step, J
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s

@@ -358,29 +358,21 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   CHECK(last[3] < 0.97 * first[3]);
 }
 
-double surface_of(const Outline& outline) {
-  double sum = 0;
-  for (const auto& f : outline.facets) {
-    Vec<3> x[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      for (int d = 0; d < 3; ++d)
-        x[k][d] = outline.points[static_cast<std::size_t>(f.point[k])][static_cast<std::size_t>(d)];
-    sum += 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
-  }
-  return sum;
-}
+struct Measures {
+  double area = 0, volume = 0;  ///< volume: positive where triangles turn counter-clockwise from outside
+};
 
-/// Positive where all triangles turn counter-clockwise seen from outside.
-double volume_of(const Outline& outline) {
-  double sum = 0;
+Measures measures_of(const Outline& outline) {
+  Measures out;
   for (const auto& f : outline.facets) {
     Vec<3> x[3];
     for (std::size_t k = 0; k < 3; ++k)
       for (int d = 0; d < 3; ++d)
         x[k][d] = outline.points[static_cast<std::size_t>(f.point[k])][static_cast<std::size_t>(d)];
-    sum += x[0].dot(x[1].cross(x[2])) / 6;
+    out.area += 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    out.volume += x[0].dot(x[1].cross(x[2])) / 6;
   }
-  return sum;
+  return out;
 }
 
 /// Each edge belongs to two triangles, which pass it in opposite ways.
@@ -398,30 +390,30 @@ TEST_CASE("outlines of solid shapes close, face outwards and keep their creases"
   const Outline box = outline(BoxShape{{1, 2, 3}, {3, 3, 4}}, 0.3, 3);
   CHECK(closes(box));
   CHECK(box.pieces == 6);
-  CHECK(surface_of(box) == doctest::Approx(10));
-  CHECK(volume_of(box) == doctest::Approx(2));
+  CHECK(measures_of(box).area == doctest::Approx(10));
+  CHECK(measures_of(box).volume == doctest::Approx(2));
 
   const Outline ball = outline(EllipsoidShape{{1, 0, 0}, {2, 2, 2}, 0}, 0.2, 3);
   CHECK(closes(ball));
   CHECK(ball.pieces == 1);
-  CHECK(surface_of(ball) == doctest::Approx(16 * pi).epsilon(5e-3));
-  CHECK(volume_of(ball) == doctest::Approx(32 * pi / 3).epsilon(5e-3));
+  CHECK(measures_of(ball).area == doctest::Approx(16 * pi).epsilon(5e-3));
+  CHECK(measures_of(ball).volume == doctest::Approx(32 * pi / 3).epsilon(5e-3));
   const Outline egg = outline(EllipsoidShape{{0, 0, 0}, {3, 2, 1}, 0.4}, 0.2, 3);
-  CHECK(volume_of(egg) == doctest::Approx(8 * pi).epsilon(5e-3));
+  CHECK(measures_of(egg).volume == doctest::Approx(8 * pi).epsilon(5e-3));
 
   const Outline tube = outline(RingShape{{0, 0, 1}, 1, 2, 0.5}, 0.1, 3);
   CHECK(closes(tube));
   CHECK(tube.pieces == 4);
-  CHECK(volume_of(tube) == doctest::Approx(3 * pi).epsilon(2e-3));
+  CHECK(measures_of(tube).volume == doctest::Approx(3 * pi).epsilon(2e-3));
   const Outline rod = outline(RingShape{{0, 0, 0}, 0, 1, 2}, 0.1, 3);
   CHECK(closes(rod));
   CHECK(rod.pieces == 3);
-  CHECK(volume_of(rod) == doctest::Approx(4 * pi).epsilon(2e-3));
+  CHECK(measures_of(rod).volume == doctest::Approx(4 * pi).epsilon(2e-3));
 
   const Outline angle = outline(PolygonShape{{{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}}, 0, 1}, 0.3, 3);
   CHECK(closes(angle));
   CHECK(angle.pieces == 8);
-  CHECK(volume_of(angle) == doctest::Approx(3));
+  CHECK(measures_of(angle).volume == doctest::Approx(3));
   int sunk = 0;
   for (const auto& f : angle.facets)
     for (const Joint joint : f.joint) sunk += joint == Joint::reentrant;
@@ -474,6 +466,47 @@ method: {basis: bspline2, extension: {occupation: 0.75}}
   CHECK(tried > 5);
   CHECK(step.sums().friction_work > 0);
   CHECK((momentum() - first).norm() < 1e-12 * first.norm());
+}
+
+TEST_CASE("a plate that moves gives a body the momentum and the energy that are booked") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [20 mm, 24 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}, r: {model: rigid}}
+bodies:
+  - {name: plate, box: {from: [2 mm, 2 mm], to: [18 mm, 5 mm]}, material: r, velocity: [0 m/s, 8 m/s]}
+  - {name: disk, disk: {centre: [10 mm, 9.2 mm], radius: 4 mm}, material: m}
+method: {basis: bspline2, extension: {occupation: 0.75}}
+contact: {family: penalty, law: frictionless, pairs: [{between: [disk, plate], law: frictionless}]}
+)");
+  Step<2> step(scene);
+  while (step.state().time < 3e-4) step.advance(step.stable_dt());
+  Vec<2> momentum = Vec<2>::Zero();
+  double energy = step.stored_energy();
+  const auto& particles = step.state().particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    if (particles.body()[p] == 0) continue;
+    const Vec<2> v = particles.vector(Quantity::velocity, p);
+    momentum += particles.column(Quantity::mass)[p] * v;
+    energy += 0.5 * particles.column(Quantity::mass)[p] * v.squaredNorm();
+  }
+  const auto& sums = step.sums();
+  REQUIRE(momentum[1] > 0.1);
+  CHECK((sums.pair_impulse[0] - momentum).norm() < 1e-11 * momentum.norm());
+  CHECK((sums.rigid_impulse[0] + momentum).norm() < 1e-11 * momentum.norm());
+  CHECK(sums.boundary_work == doctest::Approx(8 * momentum[1]).epsilon(5e-3));
+  CHECK(energy == doctest::Approx(sums.boundary_work).epsilon(0.01));
+  // Between planes of symmetry the plate feels no moment about its middle.
+  CHECK(std::abs(sums.rigid_moment[0][2]) < 1e-6 * momentum[1] * 0.01);
+}
+
+TEST_CASE("bodies that ignore each other have no surfaces to follow") {
+  const Scene scene =
+      scene_from(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
+                            "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "law: ignore"));
+  const Step<2> step(scene);
+  CHECK(step.state().surfaces.empty());
 }
 
 TEST_CASE("penalty contact refuses what it cannot follow") {

@@ -73,8 +73,8 @@ TEST_CASE("run.json has the keys of the output contract") {
                           "command",
                           "overrides"})
     CHECK_MESSAGE(json.contains(key), key);
-  for (const char* key : {"nodes_peak", "regressions", "mean_iterations", "fallbacks", "unconverged",
-                          "touching", "doubtful", "meetings", "screened"})
+  for (const char* key : {"points_peak", "nodes_peak", "regressions", "mean_iterations", "fallbacks",
+                          "unconverged", "touching", "doubtful", "meetings", "screened"})
     CHECK_MESSAGE(json["contact"].contains(key), key);
   CHECK(json["status"] == "failed");
   CHECK(json["steps"] == 12);

@@ -35,7 +35,7 @@ class Penalty {
   /// After a sort: tiles are others.
   void forget_tiles() { stale_ = true; }
 
-  /// Which points lie below which facets, where the particles are now.
+  /// Which points lie below which facets (K24 Eq. 28), where the particles are now.
   /// @return where a surface folds
   std::optional<Fold> look(const State<Dim>& state);
   /// The forces of what look() found; sticking is held by springs that remember.
@@ -116,9 +116,8 @@ class Penalty {
   void add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim> (&back)[Dim]) const;
   Vec<Dim> rub(const Touch& touch, Hold& hold, double normal, double elapsed, double& lost);
   const AnyLaw& law_between(int field_a, int field_b) const;
-  void book(const State<Dim>& state, const Touch& touch, const Vec<Dim>& force, double lost, double dt);
-  void book_rigid(const State<Dim>& state, int point, const Vec<Dim>& force,
-                  const std::vector<Vec<Dim>>& pivots, double dt);
+  void book(const Touch& touch, const Vec<Dim>& force, double lost, double dt);
+  void book_rigid(int point, const Vec<Dim>& force, const std::vector<Vec<Dim>>& pivots, double dt);
   NodeIndex<Dim> cell_of(const Vec<Dim>& x) const;
   std::size_t bucket_of(const NodeIndex<Dim>& cell) const;
   int field_of(int body) const { return body_field_[static_cast<std::size_t>(body)]; }

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace mpmfast {
 
@@ -91,7 +90,7 @@ struct Carried {
 }  // namespace
 
 /// The force along the surface on the point: of a spring that stretches with the slip, up to what the law
-/// carries (K24 Eq. 33 to 35); of a film, of the slip's speed.
+/// carries (K24 Eq. 29, 32); of a film, of the slip's speed.
 /// @param lost  J: what the slip beyond the spring takes
 template <int Dim>
 Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double normal, double elapsed, double& lost) {
@@ -156,6 +155,7 @@ void Penalty<Dim>::add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim
   }
 }
 
+/// K24 Eq. 31, 33 to 35, of all touches in their order.
 template <int Dim>
 void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& pivots, double dt) {
   books_.open(pivots.size(), laws_.size() - 1);
@@ -198,7 +198,7 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
       // What rubs does so at the foot, not at the point: normal forces on the facet take the couple.
       add_couple(touch, force, back);
       for (std::size_t k = 0; k < Dim; ++k) force_[static_cast<std::size_t>(other.point[k])] += back[k];
-      book(state, touch, force, lost, dt);
+      book(touch, force, lost, dt);
     }
   keep();
   pressed_peak_ = std::max<std::uint64_t>(pressed_peak_, pressed_);
@@ -206,7 +206,7 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
     if (!body_rigid_[b]) continue;
     const auto& own = surfaces_->bodies[b];
     for (int p = own.first; p < own.first + own.count; ++p)
-      book_rigid(state, p, force_[static_cast<std::size_t>(p)], pivots, dt);
+      book_rigid(p, force_[static_cast<std::size_t>(p)], pivots, dt);
   }
   before_ = now_;
   time_before_ = state.time;
@@ -214,8 +214,7 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
 }
 
 template <int Dim>
-void Penalty<Dim>::book(const State<Dim>&, const Touch& touch, const Vec<Dim>& force, double lost,
-                        double dt) {
+void Penalty<Dim>::book(const Touch& touch, const Vec<Dim>& force, double lost, double dt) {
   books_.friction_work += lost;
   if (pairs_.empty()) return;
   const int a = field_of(facet(touch.own).body), b = field_of(facet(touch.facet).body);
@@ -230,8 +229,8 @@ void Penalty<Dim>::book(const State<Dim>&, const Touch& touch, const Vec<Dim>& f
 }
 
 template <int Dim>
-void Penalty<Dim>::book_rigid(const State<Dim>&, int point, const Vec<Dim>& force,
-                              const std::vector<Vec<Dim>>& pivots, double dt) {
+void Penalty<Dim>::book_rigid(int point, const Vec<Dim>& force, const std::vector<Vec<Dim>>& pivots,
+                              double dt) {
   if (force == Vec<Dim>::Zero()) return;
   const auto field =
       static_cast<std::size_t>(field_of(surfaces_->point_body[static_cast<std::size_t>(point)]));
