@@ -13,6 +13,7 @@
 #include "engine/step/passes.hpp"
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
+#include "kernels/transfer/boundary.hpp"
 #include "kernels/transfer/project.hpp"
 #include "kernels/transfer/re_extrapolate.hpp"
 #include "kernels/transfer/update.hpp"
@@ -100,11 +101,11 @@ class BasisPasses final : public Passes<Dim> {
     }
   }
 
-  void push(State<Dim>& state, const std::vector<Vec<Dim>>& force) override {
-    const NodeColumns<Dim> out = state.nodes.columns(Nodal::force);
+  void push(State<Dim>& state, const std::vector<Vec<Dim>>& of, Nodal to, double times) override {
+    const NodeColumns<Dim> out = state.nodes.columns(to);
     const auto& id = state.particles.id();
-    const auto force_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> const Vec<Dim>& {
-      return force[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
+    const auto force_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> Vec<Dim> {
+      return times * of[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
     };
     const auto acts_in = [&](const TileContext<Dim>& c) {
       for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
@@ -116,6 +117,23 @@ class BasisPasses final : public Passes<Dim> {
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (!rigid && acts_in(c)) push_tile<Dim, Basis>(c, room.project, force_of, out);
     });
+  }
+
+  void settle(State<Dim>& state, std::vector<Vec<Dim>>& excess) override {
+    const NodeColumns<Dim> in = state.nodes.columns(Nodal::velocity);
+    const auto& id = state.particles.id();
+    const auto excess_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> Vec<Dim>& {
+      return excess[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
+    };
+    const ParticleView<Dim> view = state.view();
+    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static)
+    for (std::int64_t t = 0; t < n; ++t) {
+      const auto& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
+      if (state.field_rigid[static_cast<std::size_t>(tile.field)]) continue;
+      settle_tile<Dim, Basis>(context(state, view, static_cast<int>(t)),
+                              rooms_[static_cast<std::size_t>(omp_get_thread_num())]->project, in, excess_of);
+    }
   }
 
   bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {

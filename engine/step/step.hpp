@@ -94,6 +94,8 @@ class Step {
   void sort_if_due();
   void project();
   void press_surfaces(double dt);
+  void settle_surfaces(double dt);
+  void find_velocities();
   void extend();
   void restrict_columns(std::initializer_list<Nodal> quantities);
   void prolong(std::initializer_list<Nodal> quantities);
@@ -134,6 +136,7 @@ class Step {
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;
   Penalty<Dim> penalty_;
+  std::vector<Vec<Dim>> excess_;  ///< of momentum, by number of the boundary point, kg m/s
   Sums<Dim> sums_;
   PassClock clock_;
   Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m

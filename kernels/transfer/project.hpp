@@ -161,25 +161,4 @@ void occupy_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
   flush_window(room.volume, c.tile->slot, out);
 }
 
-/// Forces on boundary points: f_i += Σ_p S_pi F_p. @param force_of  of a particle, N
-template <int Dim, class Basis, class Force>
-void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const Force& force_of,
-               const NodeColumns<Dim>& out) {
-  clear(room.mass_position);
-  for (int r = c.tile->run_begin; r < c.tile->run_end; ++r) {
-    if (!c.runs[r].on_surface) continue;
-    for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], room.weights, Wanted::values,
-                                      [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
-                                        for (int k = 0; k < count; ++k) {
-                                          const Vec<Dim> force =
-                                              force_of(run, begin + static_cast<std::uint32_t>(k));
-                                          Record f{};
-                                          for (int d = 0; d < Dim; ++d) f[d] = static_cast<Real>(force[d]);
-                                          scatter_values(w, k, f, room.mass_position.at[0]);
-                                        }
-                                      });
-  }
-  flush_window(room.mass_position, c.tile->slot, out);
-}
-
 }  // namespace mpmfast
