@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/contact/penalty/penalty.hpp"
+#include "engine/geometry/clip.hpp"
 #include "engine/geometry/outline.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 #include "tests/support.hpp"
@@ -174,26 +175,60 @@ struct Pressed {
   std::vector<Vec<2>> first_;
 };
 
-TEST_CASE("a body's mass is the same with a surface, of which 0.1 % lies on boundary points") {
-  const std::string scene =
-      two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
-                 "box: {from: [20 mm, 10 mm], to: [30 mm, 30 mm]}", "law: frictionless");
-  const Scene with = scene_from(scene), without = scene_from(scene, {{"contact.family", "nodes"}});
-  const Step<2> followed(with), plain(without);
-  const auto mass = [](const Step<2>& step, int body, bool surface) {
-    const auto& state = step.state();
-    double sum = 0;
-    for (std::size_t p = 0; p < state.particles.size(); ++p)
-      if (state.particles.body()[p] == body &&
-          (!surface || state.surfaces.holds(body, state.particles.id()[p])))
-        sum += state.particles.column(Quantity::mass)[p];
-    return sum;
-  };
-  for (int body : {0, 1}) {
-    CHECK(mass(followed, body, false) == doctest::Approx(mass(plain, body, false)).epsilon(1e-12));
-    CHECK(mass(followed, body, true) == doctest::Approx(1e-3 * mass(plain, body, false)).epsilon(1e-12));
+TEST_CASE("domains that an outline cuts keep its area and its moments, whatever it looks like") {
+  // A wheel with a hole, a needle that crosses cells, a corner in a cell's corner.
+  const std::vector<Shape> shapes{RingShape{{2.03, 2.11, 0}, 0.4, 1.3, 0},
+                                  EllipsoidShape{{2, 2, 0}, {1.9, 0.13, 0}, 0.4},
+                                  PolygonShape{{{1, 1}, {3, 1}, {3, 3}, {2, 1.5}, {1, 3}}, 0, 0}};
+  for (const Shape& shape : shapes) {
+    const CellLattice grid{{0.5, 0.25, 0}, {4, 4, 0}, 0.25, {2, 3, 1}};
+    const Outline around = outline(shape, 0.1, 2);
+    Seeds seeds = fill(shape, {}, grid, 2);
+    clip(around, grid.origin, seeds);
+    double area = 0, x[2] = {0, 0}, least = 1;
+    const double domain = 4 * seeds.half_size[0] * seeds.half_size[1];
+    for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+      area += seeds.share[k] * domain;
+      least = std::min(least, seeds.share[k]);
+      for (std::size_t d = 0; d < 2; ++d) x[d] += seeds.share[k] * domain * seeds.position[k][d];
+    }
+    double moment[2] = {0, 0};
+    for (const auto& f : around.facets) {
+      const Vec3 &a = around.points[static_cast<std::size_t>(f.point[0])],
+                 &b = around.points[static_cast<std::size_t>(f.point[1])];
+      for (std::size_t d = 0; d < 2; ++d) moment[d] += (a[d] + b[d]) * (a[0] * b[1] - b[0] * a[1]) / 6;
+    }
+    CHECK(area == doctest::Approx(area_of(around)).epsilon(1e-12));
+    CHECK(x[0] == doctest::Approx(moment[0]).epsilon(1e-12));
+    CHECK(x[1] == doctest::Approx(moment[1]).epsilon(1e-12));
+    CHECK(least > 1e-6);
   }
-  CHECK(plain.state().surfaces.empty());
+}
+
+TEST_CASE("a body has the mass within its outline, a thousandth of the cells along that on boundary points") {
+  const Scene scene =
+      scene_from(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
+                            "box: {from: [20 mm, 10 mm], to: [30 mm, 30 mm]}", "law: frictionless"));
+  const Step<2> step(scene);
+  const auto& state = step.state();
+  for (int body : {0, 1}) {
+    double mass = 0, on_surface = 0, length = 0;
+    for (std::size_t p = 0; p < state.particles.size(); ++p) {
+      if (state.particles.body()[p] != body) continue;
+      const double m = state.particles.column(Quantity::mass)[p];
+      mass += m;
+      if (state.surfaces.holds(body, state.particles.id()[p])) on_surface += m;
+    }
+    for (const auto& facet : state.surfaces.facets)
+      if (facet.body == body) length += facet.area;
+    const auto b = static_cast<std::size_t>(body);
+    const double density = density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
+    const double exact =
+        area_of(outline(scene.bodies[b].shape, scene.grid.cell / scene.contact.springs.per_cell, 2)) *
+        density;
+    CHECK(mass == doctest::Approx(exact).epsilon(1e-12));
+    CHECK(on_surface == doctest::Approx(1e-3 * length * scene.grid.cell * density).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("flat surfaces that overlap press with stiffness times depth") {
@@ -356,6 +391,17 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   CHECK(last[2] == doctest::Approx(first[2]).epsilon(5e-3));  // FLIP of B-splines loses a little
   CHECK(last[3] + step.stored_energy() == doctest::Approx(first[3]).epsilon(3e-3));
   CHECK(last[3] < 0.97 * first[3]);
+  // FLIP leaves the motion of the outline alone that the grid does not see.
+  const auto& state = step.state();
+  double mass = 0, squares = 0;
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    if (!state.surfaces.holds(state.particles.body()[p], state.particles.id()[p])) continue;
+    mass += state.particles.column(Quantity::mass)[p];
+    squares += state.particles.column(Quantity::mass)[p] *
+               state.particles.vector(Quantity::velocity, p).squaredNorm();
+  }
+  const double of_all = 2 * last[3] / (2 * 1000 * std::numbers::pi * 16e-6);
+  CHECK(squares / mass < 1.2 * of_all);  // measured 0.93; 1.53 where they keep their own velocity
 }
 
 struct Measures {
