@@ -112,5 +112,69 @@ TEST_CASE("slow: disks that are pulled together touch as far as Hertz says, alon
   CHECK(across[1] == doctest::Approx(along[1]).epsilon(0.02));  // measured 1.434 mm both; Hertz 1.490
 }
 
+/// K24 Eq. 45: of the stress across the plane at boundary points within Hertz's half-width, over its largest.
+double pressure_error(const char* cell) {
+  const Scene scene =
+      scene_file("hertz_plane.yaml", {{"grid.cell", cell}, {"output.frames", "0"}, {"output.history", "1"}});
+  Step<2> step(scene);
+  const double first = step.stable_dt();
+  while (step.state().time < scene.time.end * (1 - 1e-9))
+    step.advance(step.dt_towards(scene.time.end, first));
+  step.find_stresses();
+  const double force = 156.7e3, half_width = std::sqrt(4 * force * 8e-3 / (std::numbers::pi * 10e9)),
+               largest = 2 * force / (std::numbers::pi * half_width);
+  const auto& state = step.state();
+  double sum = 0;
+  int points = 0;
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    const Vec<2> x = state.particles.vector(Quantity::position, p);
+    const double s = (x[0] - 8.4e-3) / half_width;
+    const int body = state.particles.body()[p];
+    if (body != 1 || x[1] > 2e-3 || std::abs(s) > 1 || !state.surfaces.holds(body, state.particles.id()[p]))
+      continue;
+    const double stress =
+        state.particles.column(Quantity::kirchhoff_stress, 1)[p] / state.particles.volume_ratio(p);
+    const double error = stress + largest * std::sqrt(1 - s * s);
+    sum += error * error;
+    ++points;
+  }
+  REQUIRE(points > 8);
+  return std::sqrt(sum / points) / largest;
+}
+
+TEST_CASE("slow: the pressure of half a disk on a plane comes to Hertz's with the cells") {
+  const double coarse = pressure_error("0.2 mm"), fine = pressure_error("0.1 mm");
+  CHECK(coarse < 0.055);  // measured 0.046 and 0.024
+  CHECK(fine < 0.03);
+  CHECK(fine < 0.6 * coarse);
+}
+
+/// When the speed of a body comes to a tenth of the striker's, s.
+double arrival(const Outcome& out, const std::string& body) {
+  const auto &time = out.history.at("time_s"), &vx = out.history.at(body + ".vx"),
+             &vy = out.history.at(body + ".vy");
+  double before = 0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double speed = std::hypot(vx[k], vy[k]);
+    if (speed >= 0.56) return time[k - 1] + (0.56 - before) / (speed - before) * (time[k] - time[k - 1]);
+    before = speed;
+  }
+  return 0;
+}
+
+TEST_CASE(
+    "slow: waves through disks that touch at points arrive at the same time on finer grids, without loss") {
+  const auto of = [](const char* scene, const char* cell) {
+    const Outcome out = run(scene_file(scene, {{"grid.cell", cell}, {"output.frames", "0"}}));
+    REQUIRE(out.failure == "");
+    CHECK(std::abs(out.summary.energy_error) < 1e-3);  // measured up to 2e-4
+    return out;
+  };
+  CHECK(arrival(of("grains_line.yaml", "2.5 mm"), "fourth") ==
+        doctest::Approx(arrival(of("grains_line.yaml", "1.25 mm"), "fourth")).epsilon(0.02));
+  CHECK(arrival(of("grains_box.yaml", "2.5 mm"), "third") ==
+        doctest::Approx(arrival(of("grains_box.yaml", "1.25 mm"), "third")).epsilon(0.02));
+}
+
 }  // namespace
 }  // namespace mpmfast
