@@ -135,6 +135,8 @@ TEST_CASE(
     "the scenes that come with the program raise no suspicion, but for those that are meant to be hard") {
   const std::set<std::string> meant{
       "clouds.yaml",             // bodies of one and a few particles
+      "grains_box.yaml",         // a striker of a hundred times the disks' density
+      "grains_line.yaml",        // the same
       "ratio.yaml",              // a density of a thousand times the other
       "rest.yaml",               // a block of four particles
       "sheet.yaml",              // a sheet of one row of particles
