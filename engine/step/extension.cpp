@@ -27,21 +27,70 @@ NodeIndex<Dim> cube_node(int side, int index) {
   return at;
 }
 
-/// In each line of a cube along each axis, an entry becomes what `merge` makes of it and of the one `step`
-/// further on (beyond the end: of 0), `times` times, in place.
-template <int Dim, class Cube, class Merge>
-void sweep(Cube& cube, int side, int step, int times, Merge merge) {
-  int stride = 1;
-  for (int d = 0; d < Dim; ++d, stride *= side)
-    for (int t = 0; t < times; ++t)
-      for (int k = 0; k < static_cast<int>(cube.size()); ++k) {
-        const int index = step > 0 ? k : static_cast<int>(cube.size()) - 1 - k;
-        const int at = index / stride % side + step;
-        const bool within = at >= 0 && at < side;
-        auto& own = cube[static_cast<std::size_t>(index)];
-        own = merge(own, within ? cube[static_cast<std::size_t>(index + step * stride)] : std::uint8_t{0});
+/// A cube of nodes as rows along x of a bit each: rows of kSide bits, kSide^(Dim − 1) of them.
+template <int Dim, int kSide>
+struct BitCube {
+  static constexpr int kRows = power(kSide, Dim - 1);
+  std::array<std::uint16_t, static_cast<std::size_t>(kRows)> row{};
+
+  /// Puts in a tile's nodes, a bit each (x fastest). @param place  of the tile in the cube, in tiles
+  void put(std::uint64_t nodes, const NodeIndex<Dim>& place) {
+    for (int r = 0; r < kTileNodes<Dim> / kTileSide; ++r)
+      at(place, r) |=
+          static_cast<std::uint16_t>((nodes >> (r * kTileSide) & kNodesOfRow) << (place[0] * kTileSide));
+  }
+  std::uint64_t take(const NodeIndex<Dim>& place) {
+    std::uint64_t nodes = 0;
+    for (int r = 0; r < kTileNodes<Dim> / kTileSide; ++r)
+      nodes |= std::uint64_t{at(place, r) >> (place[0] * kTileSide) & kNodesOfRow} << (r * kTileSide);
+    return nodes;
+  }
+  /// Each becomes what any of it and the `count` below it along each axis is.
+  void spread_up(int count) {
+    for (auto& r : row)
+      for (int t = 0; t < count; ++t) r = static_cast<std::uint16_t>(r | r << 1);
+    for_each_line([&](int first, int stride) {
+      for (int t = 0; t < count; ++t)
+        for (int k = kSide - 1; k > 0; --k) {
+          auto& own = at(first + k * stride);
+          own = static_cast<std::uint16_t>(own | at(first + (k - 1) * stride));
+        }
+    });
+  }
+  /// Each becomes what all of it and the `count` above it along each axis are.
+  void shrink_down(int count) {
+    for (auto& r : row)
+      for (int t = 0; t < count; ++t) r = static_cast<std::uint16_t>(r & r >> 1);
+    for_each_line([&](int first, int stride) {
+      for (int t = 0; t < count; ++t) {
+        for (int k = 0; k + 1 < kSide; ++k) {
+          auto& own = at(first + k * stride);
+          own = static_cast<std::uint16_t>(own & at(first + (k + 1) * stride));
+        }
+        at(first + (kSide - 1) * stride) = 0;
       }
-}
+    });
+  }
+
+ private:
+  static constexpr std::uint64_t kNodesOfRow = (1u << kTileSide) - 1;
+
+  /// Of rows, along each axis but x: calls line(first, stride).
+  template <class Line>
+  static void for_each_line(const Line& line) {
+    for (int stride = 1; stride < kRows; stride *= kSide)
+      for (int r = 0; r < kRows; ++r)
+        if (r / stride % kSide == 0) line(r, stride);
+  }
+  std::uint16_t& at(int r) { return row[static_cast<std::size_t>(r)]; }
+  /// The r-th row of the tile.
+  std::uint16_t& at(const NodeIndex<Dim>& place, int r) {
+    int index = 0, stride = 1;
+    for (int d = 1; d < Dim; ++d, r /= kTileSide, stride *= kSide)
+      index += (place[d] * kTileSide + r % kTileSide) * stride;
+    return at(index);
+  }
+};
 
 /// The value of each node becomes the sum of its shares in others, and of its own if it keeps that.
 template <class Shared, class Share>
@@ -87,7 +136,7 @@ template <int Dim>
 void Extension<Dim>::find_neighbours(const State<Dim>& state) {
   const auto& tiling = state.tiling;
   neighbours_.resize(tiling.node_tiles.size());
-  full_.assign(tiling.node_tiles.size(), 0);
+  enough_.assign(tiling.node_tiles.size(), 0);
   for (const auto& stack : tiling.stacks)
     for (int t = stack.begin; t < stack.end; ++t)
       for (int m = 0; m < power(3, Dim); ++m) {
@@ -99,72 +148,52 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
               tiling.node_tiles[static_cast<std::size_t>(t)].field)
             found = u;
       }
-  stable_.assign(static_cast<std::size_t>(tiling.slots()), 0);
+  stable_.assign(tiling.node_tiles.size(), 0);
   followed_at_.assign(static_cast<std::size_t>(tiling.slots()), -1);
 }
 
-/// Of all cells of a tile.
+/// Which cells of a tile have enough, a bit each.
 template <int Dim>
-bool Extension<Dim>::has_enough(const State<Dim>& state, int tile) const {
+std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) const {
   const double* occupied = state.nodes.column(Nodal::occupied) + tile * kTileNodes<Dim>;
-  int enough = 0;
-  for (int local = 0; local < kTileNodes<Dim>; ++local) enough += occupied[local] > least();
-  return enough == kTileNodes<Dim>;
+  std::uint64_t enough = 0;
+  for (int local = 0; local < kTileNodes<Dim>; ++local)
+    enough |= std::uint64_t{occupied[local] > least()} << local;
+  return enough;
 }
 
 /// A node is stable if a cell in its support has enough material. The cells of a spline, between its knots,
 /// are known by the first node of the supports of what lies in them; the support of node I has I − q … I.
 template <int Dim>
-void Extension<Dim>::mark_stable(const State<Dim>& state, int tile) {
-  std::uint8_t* const stable = &stable_[static_cast<std::size_t>(tile * kTileNodes<Dim>)];
-  if (full_[static_cast<std::size_t>(tile)]) {
-    std::fill_n(stable, kTileNodes<Dim>, std::uint8_t{1});
-    return;
-  }
-  constexpr int side = 2 * kTileSide;
-  std::array<std::uint8_t, power(side, Dim)> enough{};
-  const double* occupied = state.nodes.column(Nodal::occupied);
+std::uint64_t Extension<Dim>::find_stable(int tile) const {
+  if (enough_[static_cast<std::size_t>(tile)] == kAll) return kAll;
+  BitCube<Dim, 2 * kTileSide> enough;
   for (int corner = 0; corner < kCorners<Dim>; ++corner) {
     int neighbour = 0, stride = 1;
-    NodeIndex<Dim> first;
+    NodeIndex<Dim> place;
     for (int d = 0; d < Dim; ++d, stride *= 3) {
-      const int upper = corner >> d & 1;
-      neighbour += upper * stride;
-      first[d] = upper * kTileSide;
+      place[d] = corner >> d & 1;
+      neighbour += place[d] * stride;
     }
     const int from = neighbours_[static_cast<std::size_t>(tile)][static_cast<std::size_t>(neighbour)];
-    if (from < 0) continue;
-    for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      NodeIndex<Dim> at = cube_node<Dim>(kTileSide, local);
-      for (int d = 0; d < Dim; ++d) at[d] += first[d];
-      enough[static_cast<std::size_t>(cube_index<Dim>(side, at))] =
-          occupied[from * kTileNodes<Dim> + local] > least();
-    }
+    if (from >= 0) enough.put(enough_[static_cast<std::size_t>(from)], place);
   }
-  sweep<Dim>(enough, side, -1, degree_,
-             [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a | b); });
-  for (int local = 0; local < kTileNodes<Dim>; ++local) {
-    NodeIndex<Dim> at = cube_node<Dim>(kTileSide, local);
-    for (int d = 0; d < Dim; ++d) at[d] += kTileSide;
-    stable[local] = enough[static_cast<std::size_t>(cube_index<Dim>(side, at))];
-  }
+  enough.spread_up(degree_);
+  NodeIndex<Dim> own;
+  for (int d = 0; d < Dim; ++d) own[d] = 1;
+  return enough.take(own);
 }
 
-/// The stable nodes of a tile and of those around it.
+/// The first nodes of blocks of stable ones, in a tile and those around it.
 template <int Dim>
-void Extension<Dim>::look_around(int tile, Around& stable) const {
-  stable.fill(0);
+void Extension<Dim>::look_around(int tile, int order, Around& blocks) const {
+  BitCube<Dim, kAround> stable;
   for (int m = 0; m < power(3, Dim); ++m) {
     const int from = neighbours_[static_cast<std::size_t>(tile)][static_cast<std::size_t>(m)];
-    if (from < 0) continue;
-    const NodeIndex<Dim> place = cube_node<Dim>(3, m);
-    for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      NodeIndex<Dim> at = cube_node<Dim>(kTileSide, local);
-      for (int d = 0; d < Dim; ++d) at[d] += place[d] * kTileSide;
-      stable[static_cast<std::size_t>(cube_index<Dim>(kAround, at))] =
-          stable_[static_cast<std::size_t>(from * kTileNodes<Dim> + local)];
-    }
+    if (from >= 0) stable.put(stable_[static_cast<std::size_t>(from)], cube_node<Dim>(3, m));
   }
+  stable.shrink_down(order);
+  blocks = stable.row;
 }
 
 template <int Dim>
@@ -182,9 +211,9 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
   for (int d = 0; d < Dim; ++d) own[d] += kTileSide;
   const auto& candidates = candidates_[static_cast<std::size_t>(order)];
   const auto is_block = [&](const Candidate& c) {
-    NodeIndex<Dim> at = own;
-    for (int d = 0; d < Dim; ++d) at[d] += c.first[d];
-    return blocks[static_cast<std::size_t>(cube_index<Dim>(kAround, at))] != 0;
+    int row = 0;
+    for (int d = Dim - 1; d > 0; --d) row = row * kAround + own[d] + c.first[d];
+    return (blocks[static_cast<std::size_t>(row)] >> (own[0] + c.first[0]) & 1) != 0;
   };
   const auto nearest = std::find_if(candidates.begin(), candidates.end(), is_block);
   if (nearest == candidates.end()) return false;
@@ -217,20 +246,19 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
 
 template <int Dim>
 void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) const {
-  if (full_[static_cast<std::size_t>(tile)]) return;  // all of its nodes are stable
+  const std::uint64_t stable = stable_[static_cast<std::size_t>(tile)];
+  if (stable == kAll) return;
   const double* mass = state.nodes.column(Nodal::mass);
   Around blocks;
   int of_order = -1;  // of `blocks`
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
     const int slot = tile * kTileNodes<Dim> + local;
-    if (!(mass[slot] > 0) || stable_[static_cast<std::size_t>(slot)]) continue;
+    if ((stable >> local & 1) != 0 || !(mass[slot] > 0)) continue;
     bool follows = false;
     int order = order_of(slot);
     for (; order >= 0 && !follows; --order) {
       if (of_order != order) {
-        look_around(tile, blocks);
-        sweep<Dim>(blocks, kAround, 1, order,
-                   [](std::uint8_t a, std::uint8_t b) { return static_cast<std::uint8_t>(a & b); });
+        look_around(tile, order, blocks);
         of_order = order;
       }
       follows = follow_block(tile, local, order, blocks, found);
@@ -341,9 +369,9 @@ void Extension<Dim>::find(const State<Dim>& state) {
 #pragma omp parallel num_threads(state.threads)
   {
 #pragma omp for schedule(static)
-    for (int t = 0; t < tiles; ++t) full_[static_cast<std::size_t>(t)] = has_enough(state, t);
+    for (int t = 0; t < tiles; ++t) enough_[static_cast<std::size_t>(t)] = find_enough(state, t);
 #pragma omp for schedule(static)
-    for (int t = 0; t < tiles; ++t) mark_stable(state, t);
+    for (int t = 0; t < tiles; ++t) stable_[static_cast<std::size_t>(t)] = find_stable(t);
   }
   do {
     list_all(state);

@@ -66,7 +66,8 @@ class Extension {
 
  private:
   static constexpr int kAround = 3 * kTileSide;  ///< a tile and its neighbours, along a side
-  using Around = std::array<std::uint8_t, power(kAround, Dim)>;
+  using Around = std::array<std::uint16_t, power(kAround, Dim - 1)>;  ///< rows along x, a bit a node
+  static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kTileNodes<Dim>);
   struct Candidate {
     NodeIndex<Dim> first;  ///< of a block, from the node that follows
     double distance;       ///< squared, from the node to the block's middle, in cells
@@ -83,9 +84,9 @@ class Extension {
   /// A share that is met to round-off is not passed, m³.
   double least() const { return occupation_ * (1 + 1e-9); }
   void find_neighbours(const State<Dim>& state);
-  bool has_enough(const State<Dim>& state, int tile) const;
-  void mark_stable(const State<Dim>& state, int tile);
-  void look_around(int tile, Around& stable) const;
+  std::uint64_t find_enough(const State<Dim>& state, int tile) const;
+  std::uint64_t find_stable(int tile) const;
+  void look_around(int tile, int order, Around& blocks) const;
   void list_tile(const State<Dim>& state, int tile, Found& found) const;
   bool follow_block(int tile, int local, int order, const Around& blocks, Found& found) const;
   void list_all(const State<Dim>& state);
@@ -97,8 +98,7 @@ class Extension {
   int degree_;
   std::vector<std::vector<Candidate>> candidates_;          ///< by order, the nearest first
   std::vector<std::array<int, power(3, Dim)>> neighbours_;  ///< by node tile, of its field; −1: none
-  std::vector<std::uint8_t> stable_;                        ///< by slot
-  std::vector<std::uint8_t> full_;                          ///< by node tile: each of its cells has enough
+  std::vector<std::uint64_t> enough_, stable_;              ///< by node tile: cells, nodes, a bit each
   std::vector<Found> found_;                                ///< by thread
   std::vector<Shared> following_, followed_;
   std::vector<Share> shares_, takers_;  ///< of following_, of followed_
