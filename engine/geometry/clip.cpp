@@ -8,12 +8,14 @@ namespace mpmfast {
 
 namespace {
 
-constexpr double kLeast = 0.5;  ///< of a domain
+constexpr double kRoundOff = 1e-9;          ///< of a domain
+constexpr double kLeast = 0.5 - kRoundOff;  ///< of a domain
 
 /// Area and first moments, in cells from the lattice's corner.
 struct Part {
   double area = 0, x = 0, y = 0;
 
+  Part times(double share) const { return {share * area, share * x, share * y}; }
   void add(const Part& other) {
     area += other.area;
     x += other.x;
@@ -127,22 +129,30 @@ void clip(const Outline& outline, const Vec3& origin, Seeds& seeds) {
     parts[index(i, j)] = part;
     crossed[index(i, j)] = runs_through;
   });
-  // What is left of small ones; the largest neighbour takes it.
-  std::vector<std::size_t> small;
-  for (std::size_t c = 0; c < parts.size(); ++c)
-    if (crossed[c] && parts[c].area < kLeast) small.push_back(c);
+  const std::vector<std::uint8_t> crossed_by_outline = crossed;
   const std::vector<Part> before = parts;
-  const std::ptrdiff_t around[4] = {-1, 1, -columns, columns};
-  for (const std::size_t c : small) {
-    std::size_t largest = c;
-    for (const std::ptrdiff_t step : around) {
-      const auto n = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(c) + step);
-      if (n < before.size() && before[n].area > before[largest].area) largest = n;
+  const std::ptrdiff_t beside[] = {-1, 1, -columns, columns},
+                       diagonal[] = {-columns - 1, -columns + 1, columns - 1, columns + 1};
+  for (std::size_t c = 0; c < before.size(); ++c) {
+    if (!crossed_by_outline[c] || before[c].area >= kLeast) continue;
+    for (const auto& steps : {beside, diagonal}) {
+      double largest = kLeast;
+      std::vector<std::size_t> takers;  // those that are equal take equal parts
+      for (int k = 0; k < 4; ++k) {
+        const auto n = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(c) + steps[k]);
+        if (n >= before.size() || before[n].area < largest - kRoundOff || before[n].area < kLeast) continue;
+        if (before[n].area > largest + kRoundOff) takers.clear();
+        largest = std::max(largest, before[n].area);
+        takers.push_back(n);
+      }
+      if (takers.empty()) continue;
+      for (const std::size_t n : takers) {
+        parts[n].add(before[c].times(1.0 / static_cast<double>(takers.size())));
+        crossed[n] = 1;
+      }
+      parts[c] = {};
+      break;
     }
-    if (largest == c || before[largest].area < kLeast) continue;
-    parts[largest].add(before[c]);
-    crossed[largest] = 1;
-    parts[c] = {};
   }
   seeds.position.clear();
   seeds.share.clear();
@@ -150,7 +160,7 @@ void clip(const Outline& outline, const Vec3& origin, Seeds& seeds) {
     for (long i = first_x; i < first_x + columns; ++i) {
       const Part& part = parts[index(i, j)];
       const bool whole = !crossed[index(i, j)];
-      if (whole ? part.area < 0.5 : !(part.area > 1e-6)) continue;
+      if (whole ? part.area < 0.5 : !(part.area > kRoundOff)) continue;
       const double x = whole ? static_cast<double>(i) + 0.5 : part.x / part.area,
                    y = whole ? static_cast<double>(j) + 0.5 : part.y / part.area;
       seeds.position.push_back({origin[0] + side[0] * x, origin[1] + side[1] * y, 0});
