@@ -128,8 +128,8 @@ constexpr double kOnSurface = 1e-3;
          fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1], x[2]));
 }
 
-/// Whether the outline cuts domains. (Grains of a picture, four cells wide and pressed, hold longer with whole
-/// ones.)
+/// Whether the outline cuts domains. (Grains of a picture, four cells wide and pressed, hold longer with
+/// whole ones.)
 bool ends_in_steps(const BodySpec& body) {
   return !body.seeding.turned() && !std::holds_alternative<BoxShape>(body.shape) &&
          !std::holds_alternative<BitmapShape>(body.shape);

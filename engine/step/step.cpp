@@ -95,10 +95,10 @@ template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   sort_if_due();
-  project();           // N20 Eq. 5
-  press_surfaces(dt);  // K24 §3.5, 3.6
-  extend();            // K24 §3.3
-  settle_surfaces(dt);
+  project();            // N20 Eq. 5
+  press_surfaces(dt);   // K24 §3.5, 3.6
+  extend();             // K24 §3.3
+  settle_surfaces(dt);  // tools/manual/theory.md, "Penalty contact"
   if (plan_.force_with_mass) restrict_columns({Nodal::force});
   rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
@@ -126,18 +126,24 @@ void Step<Dim>::advance(double dt, bool stresses) {
   if (stresses) find_stresses();
 }
 
-/// What `own_filter` filters: the velocities of each field before contact changes them.
+/// p/m, in `to`.
 template <int Dim>
-void Step<Dim>::keep_own_velocities() {
-  if (!plan_.own_filter) return;
+void Step<Dim>::find_velocities(Nodal to) {
   clock_.time(Pass::nodes, [&] {
     const double* mass = state_.nodes.column(Nodal::mass);
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d)
         divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
-                       state_.nodes.column(Nodal::star, d));
+                       state_.nodes.column(to, d));
     });
   });
+}
+
+/// What `own_filter` filters: the velocities of each field before contact changes them.
+template <int Dim>
+void Step<Dim>::keep_own_velocities() {
+  if (!plan_.own_filter) return;
+  find_velocities(Nodal::star);
   prolong({Nodal::star});
 }
 
@@ -210,7 +216,7 @@ void Step<Dim>::extend() {
 template <int Dim>
 void Step<Dim>::settle_surfaces(double dt) {
   if (!penalty_.active() || update_rule() != ParticleUpdate::flip) return;
-  find_velocities();
+  find_velocities(Nodal::velocity);
   prolong({Nodal::velocity});
   clock_.time(Pass::surfaces, [&] {
     excess_.resize(state_.surfaces.points(), Vec<Dim>::Zero());
@@ -258,35 +264,14 @@ void Step<Dim>::correct_contact(Correction correction, double dt) {
   clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, correction, dt); });
 }
 
-/// v = p/m.
-template <int Dim>
-void Step<Dim>::find_velocities() {
-  clock_.time(Pass::nodes, [&] {
-    const double* mass = state_.nodes.column(Nodal::mass);
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
-                       state_.nodes.column(Nodal::velocity, d));
-    });
-  });
-}
-
 /// v = p/m after the first contact correction: for XPIC as it is, for a strain that comes first with
 /// conditions imposed on the copy. Without either, nobody reads it.
 template <int Dim>
 void Step<Dim>::start_velocities() {
   const bool filtered = plan_.order > 1 && !plan_.full_mass && !plan_.own_filter;
   if (plan_.strain_first == 0 && !filtered) return;
-  find_velocities();
-  if (filtered)
-    clock_.time(Pass::nodes, [&] {
-      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-        for (int d = 0; d < Dim; ++d) {
-          const double* v = state_.nodes.column(Nodal::velocity, d);
-          std::copy(v + begin, v + end, state_.nodes.column(Nodal::star, d) + begin);
-        }
-      });
-    });
+  find_velocities(Nodal::velocity);
+  if (filtered) find_velocities(Nodal::star);
   clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
   prolong({Nodal::velocity});
   if (filtered) prolong({Nodal::star});

@@ -95,7 +95,7 @@ class Step {
   void project();
   void press_surfaces(double dt);
   void settle_surfaces(double dt);
-  void find_velocities();
+  void find_velocities(Nodal to);
   void extend();
   void restrict_columns(std::initializer_list<Nodal> quantities);
   void prolong(std::initializer_list<Nodal> quantities);
