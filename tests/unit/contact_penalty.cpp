@@ -405,9 +405,7 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   CHECK(squares / mass < 1.2 * of_all);  // measured 0.93; 1.53 where they keep their own velocity
 }
 
-TEST_CASE(
-    "what boundary points have beyond the grid's velocity moves the bodies once, and is theirs after a "
-    "step") {
+TEST_CASE("what boundary points have beyond the grid's velocity goes to the body, once") {
   for (const char* extension : {"none", "{occupation: 0.8}"}) {
     CAPTURE(std::string(extension));
     const Scene scene =
