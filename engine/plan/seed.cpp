@@ -119,8 +119,8 @@ void turn_domain(Particles<Dim>& particles, std::size_t p, double angle) {
 }
 
 /// On boundary points: of the layer of cells along a surface that is followed, in mass and volume, at most of
-/// the body. K24 §3.5 has it of the body: a disk of 80 cells across then has 5 % too much material in the
-/// cells at its surface, and the stress there is that much too low.
+/// the body. K24 §3.5 has it of the body: a disk of 80 cells across then has 2.4 % too much material in the
+/// cells at its surface, most of it where splines are steepest, and the stress there is 5 % too low.
 constexpr double kOnSurface = 1e-3;
 
 [[noreturn]] void refuse_outside(const Scene& scene, std::size_t b, const Vec3& x) {

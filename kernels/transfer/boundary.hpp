@@ -6,6 +6,13 @@
 
 namespace mpmfast {
 
+template <int Dim>
+bool has_boundary_points(const TileContext<Dim>& c) {
+  for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
+    if (c.runs[r].on_surface) return true;
+  return false;
+}
+
 /// Calls f(weights, run, begin, count) for the chunks of a tile's boundary points.
 template <int Dim, class Basis, class F>
 void for_each_boundary_chunk(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, F f) {
@@ -36,6 +43,7 @@ void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const F
 template <int Dim, class Basis, class Excess>
 void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<Dim>& velocity,
                  const Excess& excess_of) {
+  if (!has_boundary_points(c)) return;
   const ParticleView<Dim>& particles = *c.particles;
   auto& window = room.mass_position;
   load_window(velocity, c.tile->slot, window);
