@@ -101,12 +101,9 @@ class BasisPasses final : public Passes<Dim> {
     }
   }
 
-  void push(State<Dim>& state, const std::vector<Vec<Dim>>& of, Nodal to, double times) override {
-    const NodeColumns<Dim> out = state.nodes.columns(to);
-    const auto& id = state.particles.id();
-    const auto force_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> Vec<Dim> {
-      return times * of[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
-    };
+  void push(State<Dim>& state, const std::vector<Vec<Dim>>& forces) override {
+    const NodeColumns<Dim> out = state.nodes.columns(Nodal::force);
+    const auto force_of = by_number(state, forces);
     const auto acts_in = [&](const TileContext<Dim>& c) {
       for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
         if (c.runs[r].on_surface)
@@ -119,21 +116,17 @@ class BasisPasses final : public Passes<Dim> {
     });
   }
 
-  void settle(State<Dim>& state, std::vector<Vec<Dim>>& excess) override {
+  void settle(State<Dim>& state, const std::vector<Vec<Dim>>& forces, double dt) override {
     const NodeColumns<Dim> in = state.nodes.columns(Nodal::velocity);
-    const auto& id = state.particles.id();
-    const auto excess_of = [&](const ParticleRun<Dim>& run, std::uint32_t p) -> Vec<Dim>& {
-      return excess[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
-    };
-    const ParticleView<Dim> view = state.view();
-    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static)
-    for (std::int64_t t = 0; t < n; ++t) {
-      const auto& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
-      if (state.field_rigid[static_cast<std::size_t>(tile.field)]) continue;
-      settle_tile<Dim, Basis>(context(state, view, static_cast<int>(t)),
-                              rooms_[static_cast<std::size_t>(omp_get_thread_num())]->project, in, excess_of);
+    NodeColumns<2 * Dim> out;
+    for (int d = 0; d < Dim; ++d) {
+      out.column[d] = state.nodes.column(Nodal::momentum, d);
+      out.column[Dim + d] = state.nodes.column(Nodal::force, d);
     }
+    const auto force_of = by_number(state, forces);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+      if (!rigid) settle_tile<Dim, Basis>(c, room.project, in, dt, force_of, out);
+    });
   }
 
   bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
@@ -214,6 +207,14 @@ class BasisPasses final : public Passes<Dim> {
         }
       }
     }
+  }
+
+  /// Of a boundary point in a run, what it has by its number.
+  static auto by_number(const State<Dim>& state, const std::vector<Vec<Dim>>& of) {
+    return [&state, &of, &id = state.particles.id()](const ParticleRun<Dim>& run,
+                                                     std::uint32_t p) -> const Vec<Dim>& {
+      return of[static_cast<std::size_t>(state.surfaces.number(run.body, id[p]))];
+    };
   }
 
   static bool strain_force(const TileContext<Dim>& c, Room& room, const NodeColumns<Dim>& velocity,

@@ -92,21 +92,36 @@ struct BitCube {
   }
 };
 
-/// The value of each node becomes the sum of its shares in others, and of its own if it keeps that.
-template <class Shared, class Share>
+/// The values of each node become the sums of its shares in others, and of its own if it keeps that.
+template <std::size_t kColumns, class Shared, class Share>
 void sum_shares(const std::vector<Shared>& nodes, const std::vector<Share>& shares, bool keeps_own,
-                int threads, double* x) {
+                int threads, const std::array<double*, kColumns>& x) {
   const auto n = static_cast<std::int64_t>(nodes.size());
 #pragma omp parallel for num_threads(threads) schedule(static) if (n > 1000)
   for (std::int64_t i = 0; i < n; ++i) {
     const Shared& node = nodes[static_cast<std::size_t>(i)];
-    double sum = keeps_own ? x[node.slot] : 0;
+    std::array<double, kColumns> sum{};
+    if (keeps_own)
+      for (std::size_t c = 0; c < kColumns; ++c) sum[c] = x[c][node.slot];
     for (int k = node.begin; k < node.end; ++k) {
       const Share& share = shares[static_cast<std::size_t>(k)];
-      sum += share.weight * x[share.slot];
+      for (std::size_t c = 0; c < kColumns; ++c) sum[c] += share.weight * x[c][share.slot];
     }
-    x[node.slot] = sum;
+    for (std::size_t c = 0; c < kColumns; ++c) x[c][node.slot] = sum[c];
   }
+}
+
+/// Calls f with the columns of the quantities, as many at once as a vector has, the rest one by one.
+template <int Dim, class F>
+void for_columns(State<Dim>& state, std::initializer_list<Nodal> quantities, const F& f) {
+  for (Nodal q : quantities)
+    if (state.nodes.width(q) == Dim) {
+      std::array<double*, Dim> x;
+      for (int d = 0; d < Dim; ++d) x[static_cast<std::size_t>(d)] = state.nodes.column(q, d);
+      f(x);
+    } else {
+      for (int d = 0; d < state.nodes.width(q); ++d) f(std::array<double*, 1>{state.nodes.column(q, d)});
+    }
 }
 
 }  // namespace
@@ -119,16 +134,33 @@ Extension<Dim>::Extension(const Scene& scene, const Plan& plan)
     auto& of_order = candidates_.emplace_back();
     const int places = 2 * kReach + 1 - order;
     for (int k = 0; k < power(places, Dim); ++k) {
-      Candidate c{cube_node<Dim>(places, k), 0};
+      Candidate c{cube_node<Dim>(places, k), 0, {}};
+      NodeIndex<Dim> from_first;
       for (int d = 0; d < Dim; ++d) {
         c.first[d] -= kReach;
+        from_first[d] = -c.first[d];
         const double middle = c.first[d] + 0.5 * order;
         c.distance += middle * middle;
+      }
+      for (int n = 0; n < power(order + 1, Dim); ++n) {
+        NodeIndex<Dim> at = cube_node<Dim>(order + 1, n);
+        for (int d = 0; d < Dim; ++d) at[d] += c.first[d];
+        const double weight = extension_weight<Dim>(order, n, from_first);
+        if (weight != 0) c.parts.push_back({cube_index<Dim>(kAround, at), weight});
       }
       of_order.push_back(c);
     }
     std::stable_sort(of_order.begin(), of_order.end(),
                      [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+  }
+  for (int k = 0; k < power(kAround, Dim); ++k) {
+    NodeIndex<Dim> tile = cube_node<Dim>(kAround, k), local = tile;
+    for (int d = 0; d < Dim; ++d) {
+      tile[d] /= kTileSide;
+      local[d] %= kTileSide;
+    }
+    places_.push_back({static_cast<std::uint8_t>(cube_index<Dim>(3, tile)),
+                       static_cast<std::uint8_t>(cube_index<Dim>(kTileSide, local))});
   }
 }
 
@@ -221,22 +253,13 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
   auto end = nearest;
   for (; end != candidates.end() && end->distance < nearest->distance + 1e-9; ++end) ties += is_block(*end);
   Shared node{tile * kTileNodes<Dim> + local, static_cast<int>(found.shares.size()), 0, order};
+  const auto& around = neighbours_[static_cast<std::size_t>(tile)];
+  const int here = cube_index<Dim>(kAround, own);
   for (auto c = nearest; c != end; ++c) {
     if (!is_block(*c)) continue;
-    for (int n = 0; n < power(order + 1, Dim); ++n) {
-      const NodeIndex<Dim> in_block = cube_node<Dim>(order + 1, n);
-      NodeIndex<Dim> place, of_tile, from_first;
-      for (int d = 0; d < Dim; ++d) {
-        const int at = own[d] + c->first[d] + in_block[d];
-        place[d] = at / kTileSide;
-        of_tile[d] = at % kTileSide;
-        from_first[d] = -c->first[d];
-      }
-      const int other =
-          neighbours_[static_cast<std::size_t>(tile)][static_cast<std::size_t>(cube_index<Dim>(3, place))];
-      const double weight = extension_weight<Dim>(order, n, from_first) / ties;
-      if (weight != 0)
-        found.shares.push_back({other * kTileNodes<Dim> + cube_index<Dim>(kTileSide, of_tile), weight});
+    for (const Part& part : c->parts) {
+      const Place& place = places_[static_cast<std::size_t>(here + part.offset)];
+      found.shares.push_back({around[place.neighbour] * kTileNodes<Dim> + place.local, part.weight / ties});
     }
   }
   node.end = static_cast<int>(found.shares.size());
@@ -270,32 +293,41 @@ void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) 
 
 template <int Dim>
 void Extension<Dim>::list_all(const State<Dim>& state) {
-  const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
-  found_.resize(static_cast<std::size_t>(state.threads));
-  for (auto& found : found_) {
+  const auto& tiles = state.tiling.node_tiles;
+  const int portions = kPortions * state.threads;
+  found_.resize(static_cast<std::size_t>(portions));
+  const auto first_of = [&](int portion) {
+    return static_cast<int>(tiles.size() * static_cast<std::size_t>(portion) /
+                            static_cast<std::size_t>(portions));
+  };
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 1)
+  for (int portion = 0; portion < portions; ++portion) {
+    Found& found = found_[static_cast<std::size_t>(portion)];
     found.following.clear();
     found.shares.clear();
     found.lowered = found.alone = 0;
-  }
-#pragma omp parallel num_threads(state.threads)
-  {
-    Found& found = found_[static_cast<std::size_t>(omp_get_thread_num())];
-#pragma omp for schedule(static)  // in order: the lists of the threads follow each other
-    for (int t = 0; t < tiles; ++t)
-      if (!state.field_rigid[static_cast<std::size_t>(
-              state.tiling.node_tiles[static_cast<std::size_t>(t)].field)])
+    for (int t = first_of(portion); t < first_of(portion + 1); ++t)
+      if (!state.field_rigid[static_cast<std::size_t>(tiles[static_cast<std::size_t>(t)].field)])
         list_tile(state, t, found);
   }
-  following_.clear();
-  shares_.clear();
-  for (const auto& found : found_) {
-    const int before = static_cast<int>(shares_.size());
-    for (Shared node : found.following) {
-      node.begin += before;
-      node.end += before;
-      following_.push_back(node);
-    }
-    shares_.insert(shares_.end(), found.shares.begin(), found.shares.end());
+  std::size_t nodes = 0, shares = 0;
+  for (auto& found : found_) {
+    found.nodes_before = nodes;
+    found.shares_before = shares;
+    nodes += found.following.size();
+    shares += found.shares.size();
+  }
+  following_.resize(nodes);
+  shares_.resize(shares);
+#pragma omp parallel for num_threads(state.threads) schedule(static)
+  for (int portion = 0; portion < portions; ++portion) {
+    const Found& found = found_[static_cast<std::size_t>(portion)];
+    const auto before = static_cast<int>(found.shares_before);
+    auto at = following_.begin() + static_cast<std::ptrdiff_t>(found.nodes_before);
+    for (const Shared& node : found.following)
+      *at++ = {node.slot, before + node.begin, before + node.end, node.order};
+    std::copy(found.shares.begin(), found.shares.end(),
+              shares_.begin() + static_cast<std::ptrdiff_t>(found.shares_before));
   }
 }
 
@@ -385,18 +417,18 @@ void Extension<Dim>::find(const State<Dim>& state) {
 }
 
 template <int Dim>
-void Extension<Dim>::restrict_columns(State<Dim>& state, Nodal q) const {
-  for (int d = 0; d < state.nodes.width(q); ++d) {
-    double* x = state.nodes.column(q, d);
+void Extension<Dim>::restrict_columns(State<Dim>& state, std::initializer_list<Nodal> quantities) const {
+  for_columns(state, quantities, [&](const auto& x) {
     sum_shares(followed_, takers_, true, state.threads, x);
-    for (const Shared& node : following_) x[node.slot] = 0;
-  }
+    for (const Shared& node : following_)
+      for (double* column : x) column[node.slot] = 0;
+  });
 }
 
 template <int Dim>
-void Extension<Dim>::prolong(State<Dim>& state, Nodal q) const {
-  for (int d = 0; d < state.nodes.width(q); ++d)
-    sum_shares(following_, shares_, false, state.threads, state.nodes.column(q, d));
+void Extension<Dim>::prolong(State<Dim>& state, std::initializer_list<Nodal> quantities) const {
+  for_columns(state, quantities,
+              [&](const auto& x) { sum_shares(following_, shares_, false, state.threads, x); });
 }
 
 template class Extension<2>;

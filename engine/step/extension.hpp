@@ -7,6 +7,7 @@
 /// the exactness for linears angular momentum.
 
 #include <cstdint>
+#include <initializer_list>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -36,9 +37,9 @@ class Extension {
   void find(const State<Dim>& state);
 
   /// Gives what particles gave to the nodes that follow (masses, momenta, forces) to those they follow.
-  void restrict_columns(State<Dim>& state, Nodal q) const;
+  void restrict_columns(State<Dim>& state, std::initializer_list<Nodal> quantities) const;
   /// Lets the nodes that follow have their values, velocities or what is added to them.
-  void prolong(State<Dim>& state, Nodal q) const;
+  void prolong(State<Dim>& state, std::initializer_list<Nodal> quantities) const;
 
   /// A node and its share in another.
   struct Share {
@@ -68,9 +69,21 @@ class Extension {
   static constexpr int kAround = 3 * kTileSide;  ///< a tile and its neighbours, along a side
   using Around = std::array<std::uint16_t, power(kAround, Dim - 1)>;  ///< rows along x, a bit a node
   static constexpr std::uint64_t kAll = ~std::uint64_t{0} >> (64 - kTileNodes<Dim>);
+  /// A node of a block: its place less that of the node that follows, in the cube around a tile, and its
+  /// share.
+  struct Part {
+    int offset;
+    double weight;
+  };
+  /// A block that a node may follow.
   struct Candidate {
-    NodeIndex<Dim> first;  ///< of a block, from the node that follows
-    double distance;       ///< squared, from the node to the block's middle, in cells
+    NodeIndex<Dim> first;     ///< of its nodes, from the node that follows
+    double distance;          ///< squared, from the node to the block's middle, in cells
+    std::vector<Part> parts;  ///< whose shares are not 0
+  };
+  /// Where a place of the cube around a tile is: which neighbour's, and which of its nodes.
+  struct Place {
+    std::uint8_t neighbour, local;
   };
   struct Lowered {
     int slot, order;
@@ -79,7 +92,9 @@ class Extension {
     std::vector<Shared> following;
     std::vector<Share> shares;
     std::uint64_t lowered = 0, alone = 0;
+    std::size_t nodes_before = 0, shares_before = 0;  ///< of the portions before
   };
+  static constexpr int kPortions = 16;  ///< of tiles, a thread: where outlines lie, there is most to do
 
   /// A share that is met to round-off is not passed, m³.
   double least() const { return occupation_ * (1 + 1e-9); }
@@ -97,9 +112,10 @@ class Extension {
   double occupation_;  ///< m³: of a cell that has enough material; 0: splines are not extended
   int degree_;
   std::vector<std::vector<Candidate>> candidates_;          ///< by order, the nearest first
+  std::vector<Place> places_;                               ///< of the cube around a tile
   std::vector<std::array<int, power(3, Dim)>> neighbours_;  ///< by node tile, of its field; −1: none
   std::vector<std::uint64_t> enough_, stable_;              ///< by node tile: cells, nodes, a bit each
-  std::vector<Found> found_;                                ///< by thread
+  std::vector<Found> found_;                                ///< by portion of the tiles
   std::vector<Shared> following_, followed_;
   std::vector<Share> shares_, takers_;  ///< of following_, of followed_
   std::vector<int> followed_at_;        ///< by slot; −1: none follows it

@@ -26,12 +26,12 @@ class Passes : public ContactFitter<Dim> {
   virtual bool project(State<Dim>& state, bool with_force) = 0;
   /// The volume of particles in each cell of the basis (Nodal::occupied, which must be zero).
   virtual void occupy(State<Dim>& state) = 0;
-  /// to += times Σ_p S_pi F_p of the boundary points p.
-  /// @param of  F, by number of the point (Surfaces::number)
-  virtual void push(State<Dim>& state, const std::vector<Vec<Dim>>& of, Nodal to, double times) = 0;
-  /// V ← S v of the boundary points, v the nodal `velocity`.
-  /// @param excess  M_p (V − S v), kg m/s, by number of the point; of rigid bodies unchanged
-  virtual void settle(State<Dim>& state, std::vector<Vec<Dim>>& excess) = 0;
+  /// f_i += Σ_p S_pi F_p of the boundary points p.
+  /// @param forces  F, by number of the point (Surfaces::number)
+  virtual void push(State<Dim>& state, const std::vector<Vec<Dim>>& forces) = 0;
+  /// The same, and V ← S v of the boundary points, v the nodal `velocity`: what they lose, P = M (V − S v),
+  /// leaves the nodal momentum, Σ_p S_pi P_p, and acts as a force, Σ_p S_pi P_p/Δt.
+  virtual void settle(State<Dim>& state, const std::vector<Vec<Dim>>& forces, double dt) = 0;
   /// Strain over dt_strain from the nodal velocities (none if 0), then the internal force.
   /// @return whether each J is a positive number
   virtual bool strain_and_force(State<Dim>& state, double dt_strain, int terms) = 0;

@@ -95,10 +95,10 @@ template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   sort_if_due();
-  project();            // N20 Eq. 5
-  press_surfaces(dt);   // K24 §3.5, 3.6
-  extend();             // K24 §3.3
-  settle_surfaces(dt);  // tools/manual/theory.md, "Penalty contact"
+  project();           // N20 Eq. 5
+  press_surfaces(dt);  // K24 §3.5, 3.6
+  extend();            // K24 §3.3
+  push_surfaces(dt);   // tools/manual/theory.md, "Penalty contact"
   if (plan_.force_with_mass) restrict_columns({Nodal::force});
   rigid_.set_nodes(state_);
   clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
@@ -197,7 +197,6 @@ void Step<Dim>::press_surfaces(double dt) {
   clock_.time(Pass::surfaces, [&] {
     if (const auto fold = penalty_.look(state_)) fail_folded(*fold);
     penalty_.press(state_, rigid_.pivots(), dt);
-    if (penalty_.pressed() > 0) passes_->push(state_, penalty_.forces(), Nodal::force, 1);
   });
 }
 
@@ -209,21 +208,22 @@ void Step<Dim>::extend() {
   restrict_columns({Nodal::mass, Nodal::momentum});
 }
 
-/// Boundary points begin with the grid's velocity, and what they had beyond it acts on the grid as a force.
+/// The forces of the springs to the grid. With FLIP boundary points begin with the grid's velocity, and what
+/// they had beyond it acts on the grid as a force beside.
 /// FLIP adds up in each particle's velocity what the grid cannot see of it; where the body does not surround
 /// it and it weighs a thousandth, that grows until it moves the body: grains pressed to a third gave the
 /// points 20 km/s and the body 5 % of the work.
 template <int Dim>
-void Step<Dim>::settle_surfaces(double dt) {
-  if (!penalty_.active() || update_rule() != ParticleUpdate::flip) return;
+void Step<Dim>::push_surfaces(double dt) {
+  if (!penalty_.active()) return;
+  if (update_rule() != ParticleUpdate::flip) {
+    if (penalty_.pressed() > 0)
+      clock_.time(Pass::surfaces, [&] { passes_->push(state_, penalty_.forces()); });
+    return;
+  }
   find_velocities(Nodal::velocity);
   prolong({Nodal::velocity});
-  clock_.time(Pass::surfaces, [&] {
-    excess_.resize(state_.surfaces.points(), Vec<Dim>::Zero());
-    passes_->settle(state_, excess_);
-    passes_->push(state_, excess_, Nodal::momentum, -1);
-    passes_->push(state_, excess_, Nodal::force, 1 / dt);
-  });
+  clock_.time(Pass::surfaces, [&] { passes_->settle(state_, penalty_.forces(), dt); });
   restrict_columns({Nodal::momentum});
 }
 
@@ -231,18 +231,14 @@ void Step<Dim>::settle_surfaces(double dt) {
 template <int Dim>
 void Step<Dim>::restrict_columns(std::initializer_list<Nodal> quantities) {
   if (!extension_.active()) return;
-  clock_.time(Pass::extension, [&] {
-    for (Nodal q : quantities) extension_.restrict_columns(state_, q);
-  });
+  clock_.time(Pass::extension, [&] { extension_.restrict_columns(state_, quantities); });
 }
 
 /// What particles will read of nodes that follow others.
 template <int Dim>
 void Step<Dim>::prolong(std::initializer_list<Nodal> quantities) {
   if (!extension_.active()) return;
-  clock_.time(Pass::extension, [&] {
-    for (Nodal q : quantities) extension_.prolong(state_, q);
-  });
+  clock_.time(Pass::extension, [&] { extension_.prolong(state_, quantities); });
 }
 
 template <int Dim>

@@ -94,7 +94,7 @@ class Step {
   void sort_if_due();
   void project();
   void press_surfaces(double dt);
-  void settle_surfaces(double dt);
+  void push_surfaces(double dt);
   void find_velocities(Nodal to);
   void extend();
   void restrict_columns(std::initializer_list<Nodal> quantities);
@@ -136,7 +136,6 @@ class Step {
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;
   Penalty<Dim> penalty_;
-  std::vector<Vec<Dim>> excess_;  ///< of momentum, by number of the boundary point, kg m/s
   Sums<Dim> sums_;
   PassClock clock_;
   Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m

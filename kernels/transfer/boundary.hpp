@@ -39,26 +39,39 @@ void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const F
   flush_window(window, c.tile->slot, out);
 }
 
-/// V ← S v of boundary points. @param excess_of  of a particle, set to M (V − S v), kg m/s
-template <int Dim, class Basis, class Excess>
+/// V ← S v of boundary points, P = M (V − S v) beside: momentum −= Σ_p S_pi P_p, and
+/// f_i += Σ_p S_pi (P_p/Δt + F_p).
+/// @param out  momentum, force
+template <int Dim, class Basis, class Force>
 void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<Dim>& velocity,
-                 const Excess& excess_of) {
+                 double dt, const Force& force_of, const NodeColumns<2 * Dim>& out) {
+  using Given = Window<Dim, 2 * Dim>;
   if (!has_boundary_points(c)) return;
   const ParticleView<Dim>& particles = *c.particles;
-  auto& window = room.mass_position;
-  load_window(velocity, c.tile->slot, window);
+  auto& grid = room.mass_position;
+  Given& given = room.given;
+  load_window(velocity, c.tile->slot, grid);
+  clear(given);
   for_each_boundary_chunk<Dim, Basis>(
       c, room, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const std::uint32_t p = begin + static_cast<std::uint32_t>(k);
-          const Record settled = gather_values(w, k, window.at[0]);
-          Vec<Dim>& excess = excess_of(run, p);
+          const Record settled = gather_values(w, k, grid.at[0]);
+          const Vec<Dim>& force = force_of(run, p);
+          typename Given::Node gives[Given::kRecords]{};
+          const auto entry = [&](int e) -> decltype(auto) {
+            return gives[e / Given::kPerNode][e % Given::kPerNode];
+          };
           for (int d = 0; d < Dim; ++d) {
-            excess[d] = particles.mass[p] * (particles.velocity[d][p] - settled[d]);
+            const double excess = particles.mass[p] * (particles.velocity[d][p] - settled[d]);
+            entry(d) = static_cast<Real>(-excess);
+            entry(Dim + d) = static_cast<Real>(excess / dt + force[d]);
             particles.velocity[d][p] = settled[d];
           }
+          for (int r = 0; r < Given::kRecords; ++r) scatter_values(w, k, gives[r], given.at[r]);
         }
       });
+  flush_window(given, c.tile->slot, out);
 }
 
 }  // namespace mpmfast

@@ -24,6 +24,7 @@ struct ProjectRoom {
   LoadWindow load;
   Window<Dim, Dim> gradient_volume, mass_position, mass_displacement;
   Window<Dim, 1> volume;
+  Window<Dim, 2 * Dim> given;  ///< what boundary points give to the grid
   Record record[kChunk<Dim>];
   // Entries that are never set stay zero: those of the other half of a wide record.
   typename LoadWindow::Node inertia[kChunk<Dim>], stress[kGradientRecords<Dim>][kChunk<Dim>];

@@ -156,8 +156,7 @@ void check_restriction(const char* basis, double shift) {
     return out;
   };
   const auto before = sums();
-  p.extension.restrict_columns(p.state(), Nodal::mass);
-  p.extension.restrict_columns(p.state(), Nodal::momentum);
+  p.extension.restrict_columns(p.state(), {Nodal::mass, Nodal::momentum});
   const auto after = sums();
   for (std::size_t k = 0; k < after.size(); ++k)
     CHECK(after[k] == doctest::Approx(before[k]).epsilon(1e-13).scale(std::abs(before[0]) * 100));
@@ -213,7 +212,7 @@ TEST_CASE("no node that others follow is thrown about by them, at the cost of ex
     auto& state = p.state();
     const std::vector<double> given(state.nodes.column(Nodal::mass),
                                     state.nodes.column(Nodal::mass) + state.tiling.slots());
-    p.extension.restrict_columns(state, Nodal::mass);
+    p.extension.restrict_columns(state, {Nodal::mass});
     std::vector<double> thrown(given.size(), 0.0);
     for (const auto& follows : p.extension.following())
       for (int s = follows.begin; s < follows.end; ++s) {

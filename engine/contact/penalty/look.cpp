@@ -23,12 +23,19 @@ template <int Dim>
 struct Penalty<Dim>::Candidate {
   int body, piece, facet;
   Foot<Dim> foot;
+
+  /// Of two as near, as on a corner of both, the first of the surface: whatever is asked first.
+  bool before(const Candidate& other) const {
+    return foot.distance < other.foot.distance ||
+           (foot.distance == other.foot.distance && facet < other.facet);
+  }
 };
 
 template <int Dim>
 std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   gather(state);
   if (stale_) find_near(state);
+  find_balls(state.threads);
   if (stale_ || !lists_hold()) list_all(state.threads);
   stale_ = false;
   const int fold = find_normals(state.threads);
@@ -41,12 +48,10 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   const auto n = static_cast<std::int64_t>(listing_.size());
   // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const Listing& listing = listing_[static_cast<std::size_t>(k)];
-    const std::span<const int> around(listed_.data() + listing.begin, listed_.data() + listing.end);
+  for (std::int64_t k = 0; k < n; ++k)
     for (int at = 0; at < Dim; ++at)
-      look_around(listing.facet, at, around, rooms_[static_cast<std::size_t>(omp_get_thread_num())].touches);
-  }
+      look_around(listing_[static_cast<std::size_t>(k)], at,
+                  rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
   return std::nullopt;
 }
 
@@ -160,34 +165,44 @@ std::size_t Penalty<Dim>::bucket_of(const NodeIndex<Dim>& cell) const {
   return hash & (static_cast<std::uint32_t>(bucket_begin_.size()) - 2);
 }
 
+template <int Dim>
+void Penalty<Dim>::find_balls(int threads) {
+  const auto n = static_cast<std::int64_t>(near_facets_.size());
+#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const int f = near_facets_[static_cast<std::size_t>(k)];
+    Ball ball{Vec<Dim>::Zero(), facet_normal(f), 0};
+    for (int p : facet(f).point) ball.middle += at(p);
+    ball.middle /= Dim;
+    for (int p : facet(f).point) ball.radius = std::max(ball.radius, (at(p) - ball.middle).squaredNorm());
+    ball.radius = std::sqrt(ball.radius);
+    ball_[static_cast<std::size_t>(f)] = ball;
+  }
+}
+
 /// Facets by the cell of their middle, of such a side that what comes within a cell of the grid of any point
 /// of a facet, as long as the lists hold, lies in the cells around the facet's own.
 template <int Dim>
 void Penalty<Dim>::fill_bins() {
   const auto n = near_facets_.size();
-  middle_.resize(n);
-  radius_ = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto& corner = facet(near_facets_[k]).point;
-    middle_[k] = Vec<Dim>::Zero();
-    for (int p : corner) middle_[k] += at(p);
-    middle_[k] /= Dim;
-    for (int p : corner) radius_ = std::max(radius_, (at(p) - middle_[k]).squaredNorm());
-  }
-  radius_ = std::sqrt(radius_);
-  side_ = (1 + kSkin) * cell_ + 2 * radius_;
+  double widest = 0;
+  for (int f : near_facets_) widest = std::max(widest, ball_[static_cast<std::size_t>(f)].radius);
+  side_ = (1 + kSkin) * cell_ + 2 * widest;
   std::size_t buckets = 16;
   while (buckets < 2 * n) buckets *= 2;
   bucket_begin_.assign(buckets + 1, 0);
   binned_.resize(n);
-  for (const Vec<Dim>& middle : middle_) ++bucket_begin_[bucket_of(cell_of(middle))];
+  const auto cell_of_facet = [&](std::size_t k) {
+    return cell_of(ball_[static_cast<std::size_t>(near_facets_[k])].middle);
+  };
+  for (std::size_t k = 0; k < n; ++k) ++bucket_begin_[bucket_of(cell_of_facet(k))];
   for (std::size_t b = 0; b < buckets; ++b) bucket_begin_[b + 1] += bucket_begin_[b];
   // From behind, so that each bucket has its facets in rising order.
   for (std::size_t k = n; k-- > 0;) {
-    const NodeIndex<Dim> cell = cell_of(middle_[k]);
+    const NodeIndex<Dim> cell = cell_of_facet(k);
     const int f = near_facets_[k];
-    binned_[static_cast<std::size_t>(--bucket_begin_[bucket_of(cell)])] = {cell, f, facet(f).body,
-                                                                           middle_[k]};
+    binned_[static_cast<std::size_t>(--bucket_begin_[bucket_of(cell)])] = {
+        cell, f, facet(f).body, ball_[static_cast<std::size_t>(f)]};
   }
 }
 
@@ -213,11 +228,11 @@ std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
 
 /// The facets of other bodies that may touch a facet, by their numbers.
 template <int Dim>
-void Penalty<Dim>::list_around(std::size_t k_th, std::vector<int>& out) const {
-  const int body = facet(near_facets_[k_th]).body, field = field_of(body);
+void Penalty<Dim>::list_around(int own, std::vector<int>& out) const {
+  const int body = facet(own).body, field = field_of(body);
   const bool rigid = body_rigid_[static_cast<std::size_t>(body)];
-  const Vec<Dim>& middle = middle_[k_th];
-  const NodeIndex<Dim> cell = cell_of(middle);
+  const Ball& ball = ball_[static_cast<std::size_t>(own)];
+  const NodeIndex<Dim> cell = cell_of(ball.middle);
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (int k = 0; k < power(3, Dim); ++k) {
     NodeIndex<Dim> there = cell;
@@ -228,7 +243,8 @@ void Penalty<Dim>::list_around(std::size_t k_th, std::vector<int>& out) const {
       const Binned& binned = binned_[static_cast<std::size_t>(b)];
       if (field_of(binned.body) == field || binned.cell != there) continue;
       if (rigid && body_rigid_[static_cast<std::size_t>(binned.body)]) continue;
-      if ((middle - binned.middle).squaredNorm() <= side_ * side_) out.push_back(binned.facet);
+      const double most = (1 + kSkin) * cell_ + ball.radius + binned.ball.radius;
+      if ((ball.middle - binned.ball.middle).squaredNorm() <= most * most) out.push_back(binned.facet);
     }
   }
   std::sort(out.begin() + begin, out.end());
@@ -247,7 +263,7 @@ void Penalty<Dim>::list_all(int threads) {
   for (std::int64_t k = 0; k < n; ++k) {
     Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
     const int begin = static_cast<int>(room.listed.size());
-    list_around(static_cast<std::size_t>(k), room.listed);
+    list_around(near_facets_[static_cast<std::size_t>(k)], room.listed);
     const int end = static_cast<int>(room.listed.size());
     if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end});
   }
@@ -268,66 +284,59 @@ void Penalty<Dim>::list_all(int threads) {
   listed_at_ = now_;
 }
 
+/// What a point of a facet touches, of the facets listed with it.
 template <int Dim>
-void Penalty<Dim>::look_around(int own, int k_th, std::span<const int> around,
-                               std::vector<Touch>& out) const {
-  const Vec<Dim> x = mean(own, k_th, now_);
-  const auto squared_to = [&](int f) {
-    Vec<Dim> middle = Vec<Dim>::Zero();
-    for (int p : facet(f).point) middle += at(p);
-    return (x - middle / Dim).squaredNorm();
-  };
-  // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
-  struct Nearest {
-    int body, facet;
-    double squared;
-  };
-  Nearest nearest[kNear];
-  int bodies = 0;
-  for (const int f : around) {
-    const double squared = squared_to(f);
-    int b = 0;
-    while (b < bodies && nearest[b].body != facet(f).body) ++b;
-    if (b == kNear) continue;
-    if (b == bodies) nearest[bodies++] = {facet(f).body, f, squared};
-    if (squared < nearest[b].squared) nearest[b] = {facet(f).body, f, squared};
+void Penalty<Dim>::look_around(const Listing& listing, int k_th, Room& room) const {
+  const Vec<Dim> x = mean(listing.facet, k_th, now_);
+  for (int begin = listing.begin; begin < listing.end;) {
+    // Those of a body follow each other.
+    const int body = facet(listed(begin)).body;
+    int end = begin, nearest = begin;
+    room.squared.clear();
+    double widest = 0;
+    for (; end < listing.end && facet(listed(end)).body == body; ++end) {
+      const Ball& ball = ball_[static_cast<std::size_t>(listed(end))];
+      room.squared.push_back((x - ball.middle).squaredNorm());
+      widest = std::max(widest, ball.radius);
+      if (room.squared.back() < room.squared[static_cast<std::size_t>(nearest - begin)]) nearest = end;
+    }
+    // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
+    const Ball& under = ball_[static_cast<std::size_t>(listed(nearest))];
+    if (under.normal.dot(x - under.middle) <= 2 * widest)
+      look_at_body(listing.facet, k_th, x, {begin, end, nearest}, room);
+    begin = end;
   }
-  int kept = 0;
-  for (int b = 0; b < bodies; ++b) {
-    const double height = facet_normal(nearest[b].facet).dot(x - at(facet(nearest[b].facet).point[0]));
-    if (height <= 2 * radius_) nearest[kept++] = nearest[b];
-  }
-  if (kept == 0) return;
+}
+
+/// The nearest foot on each piece of a body.
+template <int Dim>
+void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Stretch& stretch,
+                                Room& room) const {
   Candidate found[kNear];
   int count = 0;
-  for (const int f : around) {
-    const auto& other = facet(f);
-    int b = 0;
-    while (b < kept && nearest[b].body != other.body) ++b;
-    if (b == kept) continue;
-    int place = 0;  // in order of the pieces, so that those of a body follow each other
-    while (place < count && found[place].piece < other.piece) ++place;
-    const bool known = place < count && found[place].piece == other.piece;
-    const double least = std::sqrt(squared_to(f)) - radius_;
-    if (known && least > found[place].foot.distance) continue;
-    if (other.piece == facet(nearest[b].facet).piece && least > 1.5 * std::sqrt(nearest[b].squared) + radius_)
-      continue;
-    const std::optional<Foot<Dim>> foot = foot_of(x, other);
-    if (!foot) continue;
-    const Candidate candidate{other.body, other.piece, f, *foot};
+  const auto try_foot = [&](int k) {
+    const int f = listed(k), piece = facet(f).piece;
+    int place = 0;
+    while (place < count && found[place].piece < piece) ++place;
+    const bool known = place < count && found[place].piece == piece;
+    const double most =
+        ball_[static_cast<std::size_t>(f)].radius + (known ? found[place].foot.distance : cell_);
+    if (room.squared[static_cast<std::size_t>(k - stretch.begin)] > most * most) return;
+    const std::optional<Foot<Dim>> foot = foot_of(x, facet(f));
+    if (!foot) return;
+    const Candidate candidate{facet(f).body, piece, f, *foot};
     if (known) {
-      if (foot->distance < found[place].foot.distance) found[place] = candidate;
+      if (candidate.before(found[place])) found[place] = candidate;
     } else if (count < kNear) {
       for (int m = count++; m > place; --m) found[m] = found[m - 1];
       found[place] = candidate;
     }
-  }
-  for (int begin = 0; begin < count;) {
-    int end = begin;
-    while (end < count && found[end].body == found[begin].body) ++end;
-    touch_body(own, k_th, found + begin, found + end, out);
-    begin = end;
-  }
+  };
+  // The nearest first: few of the others can be nearer.
+  try_foot(stretch.nearest);
+  for (int k = stretch.begin; k < stretch.end; ++k)
+    if (k != stretch.nearest) try_foot(k);
+  if (count > 0) touch_body(own, k_th, found, found + count, room.touches);
 }
 
 /// Of a body that holds the point: how deep, and which of its pieces push. About an edge that sticks out the
@@ -361,7 +370,7 @@ void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const C
   const int body = facet(own).body;
   if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return;
   // What lies round an edge does not press. The area is the undeformed one, so that springs keep energy.
-  const double facing = std::max(0.0, -facet_normal(own).dot(way) / length);
+  const double facing = std::max(0.0, -ball_[static_cast<std::size_t>(own)].normal.dot(way) / length);
   const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / Dim;
   if (!(stiffness > 0)) return;
   double energy = 0.5 * stiffness * depth * depth;
@@ -391,9 +400,11 @@ template NodeIndex<2> Penalty<2>::cell_of(const Vec<2>&) const;
 template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
 template void Penalty<2>::fill_bins();
 template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
-template void Penalty<2>::list_around(std::size_t, std::vector<int>&) const;
+template void Penalty<2>::list_around(int, std::vector<int>&) const;
 template void Penalty<2>::list_all(int);
-template void Penalty<2>::look_around(int, int, std::span<const int>, std::vector<Touch>&) const;
+template void Penalty<2>::look_around(const Listing&, int, Room&) const;
+template void Penalty<2>::look_at_body(int, int, const Vec<2>&, const Stretch&, Room&) const;
+template void Penalty<2>::find_balls(int);
 template void Penalty<2>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 template std::optional<Fold> Penalty<3>::look(const State<3>&);
 template bool Penalty<3>::lists_hold() const;
@@ -405,9 +416,11 @@ template NodeIndex<3> Penalty<3>::cell_of(const Vec<3>&) const;
 template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
 template void Penalty<3>::fill_bins();
 template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
-template void Penalty<3>::list_around(std::size_t, std::vector<int>&) const;
+template void Penalty<3>::list_around(int, std::vector<int>&) const;
 template void Penalty<3>::list_all(int);
-template void Penalty<3>::look_around(int, int, std::span<const int>, std::vector<Touch>&) const;
+template void Penalty<3>::look_around(const Listing&, int, Room&) const;
+template void Penalty<3>::look_at_body(int, int, const Vec<3>&, const Stretch&, Room&) const;
+template void Penalty<3>::find_balls(int);
 template void Penalty<3>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 
 }  // namespace mpmfast

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "engine/contact/books.hpp"
@@ -69,6 +68,13 @@ class Penalty {
     double share[Dim];   ///< of the facet's points
     Vec<Dim> to_foot;    ///< m
   };
+  /// What a touch does.
+  struct Pushed {
+    Vec<Dim> force;      ///< on its point, N
+    Vec<Dim> back[Dim];  ///< on the corners of the other's facet, N
+    double lost;         ///< J: what slip beyond the tangential spring takes
+    double stored;       ///< J, in that spring
+  };
   /// What holds a point that sticks to a piece.
   struct Hold {
     int piece = -1;
@@ -82,10 +88,15 @@ class Penalty {
     std::array<Hold, kHolds> of;
   };
   struct Candidate;
+  /// Where a facet is, m: no corner is further from its middle than the radius; and its unit normal.
+  struct Ball {
+    Vec<Dim> middle, normal;
+    double radius;
+  };
   struct Binned {
     NodeIndex<Dim> cell;
     int facet, body;
-    Vec<Dim> middle;  ///< m
+    Ball ball;
   };
   /// A facet and, from begin to end, the facets that may touch it.
   struct Listing {
@@ -93,8 +104,15 @@ class Penalty {
   };
   /// Cells that points of two bodies may come closer by until they are listed anew.
   static constexpr double kSkin = 0.2;
+  /// Facets of one body among those listed, and which of them has its middle nearest to a point.
+  struct Stretch {
+    int begin, end, nearest;
+  };
   struct Room {
     std::vector<Touch> touches;
+    std::vector<Pushed> pushed;   ///< as touches
+    std::size_t pressed = 0;      ///< points that touch
+    std::vector<double> squared;  ///< m², of a stretch: from the point to the middles
     std::vector<Listing> listing;
     std::vector<int> listed;
     int fold = -1;
@@ -103,20 +121,24 @@ class Penalty {
   void gather(const State<Dim>& state);
   void find_near(const State<Dim>& state);
   int find_normals(int threads);
+  void find_balls(int threads);
   void fill_bins();
   std::optional<Foot<Dim>> foot_of(const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet) const;
-  void list_around(std::size_t k_th, std::vector<int>& out) const;
+  void list_around(int own, std::vector<int>& out) const;
   void list_all(int threads);
   bool lists_hold() const;
-  void look_around(int own, int k_th, std::span<const int> around, std::vector<Touch>& out) const;
+  int listed(int k) const { return listed_[static_cast<std::size_t>(k)]; }
+  void look_around(const Listing& listing, int k_th, Room& room) const;
+  void look_at_body(int own, int k_th, const Vec<Dim>& x, const Stretch& stretch, Room& room) const;
   void touch_body(int own, int at, const Candidate* begin, const Candidate* end,
                   std::vector<Touch>& out) const;
   double stiffness_between(int body_a, int body_b) const;
   Vec<Dim> facet_normal(int facet) const;
   void add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim> (&back)[Dim]) const;
-  Vec<Dim> rub(const Touch& touch, Hold& hold, double normal, double elapsed, double& lost);
+  Vec<Dim> rub(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const;
+  void push_out(const State<Dim>& state, double elapsed, Room& room);
   const AnyLaw& law_between(int field_a, int field_b) const;
-  void book(const Touch& touch, const Vec<Dim>& force, double lost, double dt);
+  void book(const Touch& touch, const Pushed& pushed, double dt);
   void book_rigid(int point, const Vec<Dim>& force, const std::vector<Vec<Dim>>& pivots, double dt);
   NodeIndex<Dim> cell_of(const Vec<Dim>& x) const;
   std::size_t bucket_of(const NodeIndex<Dim>& cell) const;
@@ -141,10 +163,9 @@ class Penalty {
   bool active_ = false, stale_ = true, known_ = false;
   const Surfaces<Dim>* surfaces_ = nullptr;
   PenaltySpec spec_;
-  double cell_ = 1;               ///< m, of the grid
-  double side_ = 1;               ///< m, of a bin
-  double radius_ = 0;             ///< m: no corner of a near facet is further from its middle
-  std::vector<Vec<Dim>> middle_;  ///< as near_facets_, m
+  double cell_ = 1;         ///< m, of the grid
+  double side_ = 1;         ///< m, of a bin
+  std::vector<Ball> ball_;  ///< by facet, of the near ones
   std::vector<int> body_field_;
   std::vector<bool> body_rigid_;
   std::vector<double> modulus_;  ///< ρc² by body, Pa

@@ -49,6 +49,7 @@ Penalty<Dim>::Penalty(const Scene& scene, const Plan& plan, const State<Dim>& se
   now_.assign(n, Vec<Dim>::Zero());
   before_ = force_ = now_;
   holds_.resize(Dim * surfaces_->facets.size());
+  ball_.resize(surfaces_->facets.size());
   wedge_normal_.assign(surfaces_->wedges.size(), Vec<Dim>::Zero());
   rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
 }
@@ -91,9 +92,8 @@ struct Carried {
 
 /// The force along the surface on the point: of a spring that stretches with the slip, up to what the law
 /// carries (K24 Eq. 29, 32); of a film, of the slip's speed.
-/// @param lost  J: what the slip beyond the spring takes
 template <int Dim>
-Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double normal, double elapsed, double& lost) {
+Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const {
   const auto& other = facet(touch.facet);
   const int body = facet(touch.own).body;
   const AnyLaw& law = law_between(field_of(body), field_of(other.body));
@@ -107,7 +107,7 @@ Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double normal, double
     if (!(elapsed > 0)) return Vec<Dim>::Zero();
     const double area = touch.stiffness / (0.5 * stiffness_between(body, other.body));
     const Vec<Dim> force = -0.5 * film->viscosity / film->film * area / elapsed * slip;
-    lost = -force.dot(slip);
+    pushed.lost = -force.dot(slip);
     return force;
   }
   const double stiffness = spec_.tangential * touch.stiffness;
@@ -122,14 +122,14 @@ Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double normal, double
     hold.stretch = turned + slip;
   }
   const double needed = stiffness * hold.stretch.norm();
-  const double limit = std::visit(Carried{normal, speed, hold.slides}, law);
+  const double limit = std::visit(Carried{touch.stiffness * touch.depth, speed, hold.slides}, law);
   hold.slides = needed > limit;
   if (hold.slides) {
     const Vec<Dim> held = limit / needed * hold.stretch;
-    lost = (hold.stretch - held).norm() * limit;
+    pushed.lost = (hold.stretch - held).norm() * limit;
     hold.stretch = held;
   }
-  stretch_energy_ += 0.5 * stiffness * hold.stretch.squaredNorm();
+  pushed.stored = 0.5 * stiffness * hold.stretch.squaredNorm();
   return -stiffness * hold.stretch;
 }
 
@@ -155,7 +155,42 @@ void Penalty<Dim>::add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim
   }
 }
 
-/// K24 Eq. 31, 33 to 35, of all touches in their order.
+/// K24 Eq. 31, 33 to 35, of a room's touches. Those of a point follow each other.
+template <int Dim>
+void Penalty<Dim>::push_out(const State<Dim>& state, double elapsed, Room& room) {
+  room.pushed.clear();
+  room.pressed = 0;
+  int last = -1;
+  std::size_t holds = 0;
+  Holds known, held;
+  const auto keep = [&] {
+    if (last >= 0) holds_[static_cast<std::size_t>(last)] = held;
+  };
+  for (const Touch& touch : room.touches) {
+    const int place = Dim * touch.own + touch.at;
+    if (place != last) {
+      keep();
+      last = place;
+      known = holds_[static_cast<std::size_t>(place)];
+      held = {state.step, {}};
+      holds = 0;
+      ++room.pressed;
+    }
+    Hold hold;
+    if (known.step + 1 == state.step)  // else it touched nothing in the last step
+      for (const Hold& one : known.of)
+        if (one.piece == facet(touch.facet).piece) hold = one;
+    Pushed pushed{};
+    pushed.force = touch.stiffness * touch.depth * touch.exit + rub(touch, hold, elapsed, pushed);
+    if (holds < kHolds) held.of[holds++] = hold;
+    for (int k = 0; k < Dim; ++k) pushed.back[k] = -touch.share[k] * pushed.force;
+    // What rubs does so at the foot, not at the point: normal forces on the facet take the couple.
+    add_couple(touch, pushed.force, pushed.back);
+    room.pushed.push_back(pushed);
+  }
+  keep();
+}
+
 template <int Dim>
 void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& pivots, double dt) {
   books_.open(pivots.size(), laws_.size() - 1);
@@ -164,43 +199,25 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
   if (!known_) before_ = now_;
   stretch_energy_ = 0;
   pressed_ = 0;
-  int last = -1;
-  Holds held;
-  std::size_t holds = 0;
-  const auto keep = [&] {
-    if (last >= 0) holds_[static_cast<std::size_t>(last)] = held;
-  };
-  for (const Room& room : rooms_)
-    for (const Touch& touch : room.touches) {
-      const int place = Dim * touch.own + touch.at;
-      if (place != last) {
-        keep();
-        last = place;
-        held = {state.step, {}};
-        holds = 0;
-        ++pressed_;
+  const auto rooms = static_cast<std::int64_t>(rooms_.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static, 1)
+  for (std::int64_t r = 0; r < rooms; ++r) push_out(state, elapsed, rooms_[static_cast<std::size_t>(r)]);
+  // All in their order, whoever found them.
+  for (const Room& room : rooms_) {
+    pressed_ += room.pressed;
+    for (std::size_t t = 0; t < room.touches.size(); ++t) {
+      const Touch& touch = room.touches[t];
+      const Pushed& pushed = room.pushed[t];
+      for (int k = 0; k < Dim; ++k) {
+        const auto corner = static_cast<std::size_t>(k);
+        force_[static_cast<std::size_t>(facet(touch.own).point[corner])] +=
+            corner_share(touch.at, k) * pushed.force;
+        force_[static_cast<std::size_t>(facet(touch.facet).point[corner])] += pushed.back[k];
       }
-      const auto& other = facet(touch.facet);
-      Hold hold;
-      const Holds& known = holds_[static_cast<std::size_t>(place)];
-      if (known.step + 1 == state.step)  // else it touched nothing in the last step
-        for (const Hold& one : known.of)
-          if (one.piece == other.piece) hold = one;
-      const double normal = touch.stiffness * touch.depth;
-      double lost = 0;
-      const Vec<Dim> force = normal * touch.exit + rub(touch, hold, normal, elapsed, lost);
-      if (holds < kHolds) held.of[holds++] = hold;
-      for (int k = 0; k < Dim; ++k)
-        force_[static_cast<std::size_t>(facet(touch.own).point[static_cast<std::size_t>(k)])] +=
-            corner_share(touch.at, k) * force;
-      Vec<Dim> back[Dim];
-      for (std::size_t k = 0; k < Dim; ++k) back[k] = -touch.share[k] * force;
-      // What rubs does so at the foot, not at the point: normal forces on the facet take the couple.
-      add_couple(touch, force, back);
-      for (std::size_t k = 0; k < Dim; ++k) force_[static_cast<std::size_t>(other.point[k])] += back[k];
-      book(touch, force, lost, dt);
+      stretch_energy_ += pushed.stored;
+      book(touch, pushed, dt);
     }
-  keep();
+  }
   pressed_peak_ = std::max<std::uint64_t>(pressed_peak_, pressed_);
   for (std::size_t b = 0; b < body_rigid_.size(); ++b) {
     if (!body_rigid_[b]) continue;
@@ -214,16 +231,16 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
 }
 
 template <int Dim>
-void Penalty<Dim>::book(const Touch& touch, const Vec<Dim>& force, double lost, double dt) {
-  books_.friction_work += lost;
+void Penalty<Dim>::book(const Touch& touch, const Pushed& pushed, double dt) {
+  books_.friction_work += pushed.lost;
   if (pairs_.empty()) return;
   const int a = field_of(facet(touch.own).body), b = field_of(facet(touch.facet).body);
   const std::size_t place = pairs_.at(a, b);
   if (pairs_.pair[place] < 0) return;
   const auto k = static_cast<std::size_t>(pairs_.pair[place]);
   const bool same = pairs_.group[static_cast<std::size_t>(a)] == pairs_.group[static_cast<std::size_t>(b)];
-  books_.pair_impulse[k] += (pairs_.forward[place] && !(same && a > b) ? dt : -dt) * force;
-  books_.pair_friction_work[k] += lost;
+  books_.pair_impulse[k] += (pairs_.forward[place] && !(same && a > b) ? dt : -dt) * pushed.force;
+  books_.pair_friction_work[k] += pushed.lost;
   if (touch.energy > 0)  // once a point; each of two surfaces is seen
     books_.pair_area[k] += 0.5 / Dim * facet(touch.own).area;
 }
