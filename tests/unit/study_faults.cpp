@@ -173,3 +173,18 @@ TEST_CASE("an axis or a value that `only`, `per` or `panels` does not know is to
   CHECK(begins(found[1], "4: reference.per.0: "));
   CHECK(begins(found[2], "6: curves.0.panels: "));
 }
+
+TEST_CASE("an error of a case needs one that it differs from, on the same scale") {
+  const StudyFolder folder;
+  const std::string head = "scene: scene.yaml\nvariants: [{name: a}]\n";
+  CHECK(folder.faults(head + "vary: {case: {b: {error: {expected: 1}}}}\nquantities: {v: block.vy}\n") ==
+        Lines{"3: vary.case.b.error: the study's own error is missing, from which this one differs"});
+  const std::string error = "error: {quantity: block.vy, compare: final, expected: 1}\n";
+  CHECK(folder.faults(head + "vary: {case: {b: {error: {relative: \"no\"}}}}\n" + error) ==
+        Lines{"3: vary.case.b.error: errors in percent and absolute ones have no common scale"});
+  CHECK(folder.faults(head + "vary: {case: {b: {error: {quantity: blok.vy}}}}\n" + error) ==
+        Lines{"3: vary.case.b.error.quantity: no column of the history 'blok.vy'. Did you mean 'block.vy'?"});
+  const Lines panels = folder.faults(head + "panels: cases\nvary: {case: {b: {}}}\n" + error);
+  REQUIRE(panels.size() == 1);
+  CHECK(begins(panels[0], "3: panels: "));
+}

@@ -274,6 +274,44 @@ TEST_CASE("a chart of cost joins the cells of a method; points of the front are 
   CHECK(drawn("points3", "with points pt 2"));  // failed
 }
 
+TEST_CASE("with panels each case has its own error, its own front and panel, and a row of an overview") {
+  const StudyFolder folder;
+  const Study study = folder.study(
+      "scene: scene.yaml\n"
+      "panels: case\n"
+      "variants: [{name: a}, {name: b}]\n"
+      "vary: {case: {slow: {}, fast: {error: {expected: -100}}, bare: {only: {variants: a}}}}\n"
+      "error: {quantity: block.vy, compare: final, expected: -10}\n");
+  const StudyRuns runs = expand_study(study);
+  REQUIRE(names_of(runs.variants) ==
+          std::vector<std::string>{"a, slow", "a, fast", "a, bare", "b, slow", "b, fast"});
+  const double wall[] = {1, 20, 1, 2, 10}, vy[] = {-11, -110, -10, -12, -105};
+  for (std::size_t k = 0; k < 5; ++k)
+    leave_run(folder.path(), runs.variants[k], k == 3 ? "failed" : "finished", wall[k], vy[k]);
+  const StudyResults results = collect_results(study, runs, folder.path());
+  const double errors[] = {0.1, 0.1, 0, 0.2, 0.05};
+  const bool front[] = {true, false, true, false, true};
+  for (std::size_t k = 0; k < 5; ++k) {
+    CAPTURE(k);
+    CHECK(results.variants[k].errors.at(0) == doctest::Approx(errors[k]));
+    CHECK(results.variants[k].pareto == front[k]);
+  }
+  CHECK(study_table(study, runs, results)
+            .rfind("| case | a | b |\n|---|---|---|\n"
+                   "| slow | **10 %**, 1 s | failed |\n"
+                   "| fast | 10 %, 20 s | **5 %**, 10 s |\n"
+                   "| bare | **0 %**, 1 s | – |\n\n"
+                   "| variant | case | error (%) | reached",  // no column of values that are of other things
+                   0) == 0);
+  write_report(study, runs, results, folder.path());
+  const std::string script = output_test::read_text(folder.path() / "study.gp");
+  for (const char* title : {"set title 'slow'", "set title 'fast'", "set title 'bare'"})
+    CHECK(script.find(title) != std::string::npos);
+  CHECK(script.find("$front_1 << EOD\n10 5\nEOD\n") != std::string::npos);
+  CHECK(script.find("title 'a'") != std::string::npos);
+  CHECK(script.find("title 'slow'", script.find("unset logscale")) == std::string::npos);  // has its panel
+}
+
 TEST_CASE("a chart of curves shows its window and names a run by what differs") {
   const StudyFolder folder;
   const Study study = folder.study(

@@ -114,24 +114,33 @@ struct Points {
   }
 };
 
+/// The axes that points tell apart: all but that of the panels.
+std::vector<std::size_t> told_apart(const Study& study) {
+  std::vector<std::size_t> out;
+  for (std::size_t axis = 0; axis < study.axes.size(); ++axis)
+    if (axis != study.panels) out.push_back(axis);
+  return out;
+}
+
 std::string legend(const Study& study) {
   std::string out;
+  const std::vector<std::size_t> axes = told_apart(study);
   const auto heading = [&](const std::string& text) {
     out += fmt::format(", \\\n  NaN with points pt 0 lc rgb 'white' title {}", gnuplot_text(text));
   };
-  for (std::size_t axis = 0; axis < std::min<std::size_t>(study.axes.size(), 3); ++axis) {
-    if (study.axes[axis].choices.size() < 2 && study.axes.size() > 1) continue;
-    if (study.axes.size() > 1) heading(study.axes[axis].name + ":");
-    for (std::size_t k = 0; k < study.axes[axis].choices.size(); ++k) {
+  for (std::size_t axis = 0; axis < std::min<std::size_t>(axes.size(), 3); ++axis) {
+    const Axis& shown = study.axes[axes[axis]];
+    if (shown.choices.size() < 2 && axes.size() > 1) continue;
+    if (axes.size() > 1) heading(shown.name + ":");
+    for (std::size_t k = 0; k < shown.choices.size(); ++k) {
       Look look;
       if (axis == 0)
-        look = look_of(study.axes.size() == 1 ? std::vector{k} : std::vector<std::size_t>{k, 0},
-                       Standing::front);
+        look = look_of(axes.size() == 1 ? std::vector{k} : std::vector<std::size_t>{k, 0}, Standing::front);
       if (axis == 1) look.shape = k;
       if (axis == 2) look.size = k;
       std::string style = look.style();
       if (axis > 0) style.replace(style.find('#'), 7, kGrey);
-      out += fmt::format(", \\\n  NaN {} title {}", style, gnuplot_text(study.axes[axis].choices[k].name));
+      out += fmt::format(", \\\n  NaN {} title {}", style, gnuplot_text(shown.choices[k].name));
     }
   }
   return out;
@@ -146,15 +155,20 @@ struct ChartPoints {
   bool failed = false;
 };
 
-ChartPoints collect(const StudyRuns& runs, const StudyResults& results, Cost cost, double percent,
-                    std::optional<std::size_t> resolution) {
+/// @param panel  the value of the study's axis of panels
+ChartPoints collect(const Study& study, const StudyRuns& runs, const StudyResults& results, Cost cost,
+                    std::optional<std::size_t> resolution, std::size_t panel) {
+  const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
   ChartPoints out;
   for (std::size_t k = 0; k < runs.variants.size(); ++k) {
     const StudyResult& result = results.variants[k];
+    if (study.panels && runs.variants[k].choice[*study.panels] != panel) continue;
     if (result.errors.empty() || !std::isfinite(result.errors[0]) || !(cost_of(result, cost) > 0)) continue;
     const double x = cost_of(result, cost), y = percent * std::max(result.errors[0], kSmallest);
     const Standing standing = standing_of(result);
-    out.groups[look_of(runs.variants[k].choice, standing)].add(x, y);
+    std::vector<std::size_t> told;
+    for (const std::size_t axis : told_apart(study)) told.push_back(runs.variants[k].choice[axis]);
+    out.groups[look_of(told, standing)].add(x, y);
     if (resolution && standing != Standing::failed) {
       std::vector<std::size_t> method = runs.variants[k].choice;
       method[*resolution] = 0;
@@ -186,40 +200,76 @@ std::string error_label(const Study& study, const StudyRuns& runs) {
   return unit.empty() ? "error" : fmt::format("error ({})", unit);
 }
 
+/// The points of a panel as gnuplot commands, without what they mean.
+/// @param suffix  of the names of its blocks; @param data  the blocks are added
+std::string plot_of(const ChartPoints& points, bool colour_is_resolution, const std::string& front_title,
+                    const std::string& suffix, std::string& data) {
+  const auto block = [&](const std::string& name, const Points& shown) {
+    data += gnuplot_data(name + suffix, shown.x, shown.y);
+    return name + suffix;
+  };
+  Points line;
+  for (const auto& [x, y] : points.front) line.add(x, y);
+  std::string plot =
+      fmt::format("{}{}plot ${} with lines lw 5 lc rgb '#cccccc' {}", points.across.commands('x'),
+                  points.up.commands('y'), block("front", line), front_title);
+  std::size_t count = 0;
+  for (const auto& [choice, joined] : points.methods)
+    plot += fmt::format(", \\\n  ${} with lines lw 1 lc rgb '{}' notitle",
+                        block(fmt::format("method{}", count++), joined),
+                        colour_is_resolution ? kGrey : chart_colour(choice[0]));
+  count = 0;
+  for (const auto& [look, group] : points.groups)
+    plot +=
+        fmt::format(", \\\n  ${} {} notitle", block(fmt::format("points{}", count++), group), look.style());
+  return plot;
+}
+
 }  // namespace
 
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem) {
-  const double percent = !study.error || study.error->rule.relative == Relative::absolute ? 1 : 100;
   const auto resolution = resolution_axis(runs);
-  const ChartPoints points = collect(runs, results, cost, percent, resolution);
-  if (points.groups.empty())
+  const auto* axis = study.panels ? &study.axes[*study.panels] : nullptr;
+  std::vector<std::pair<std::string, ChartPoints>> panels;
+  bool failed = false;
+  for (std::size_t k = 0; k < (axis ? axis->choices.size() : 1); ++k) {
+    ChartPoints points = collect(study, runs, results, cost, resolution, k);
+    failed = failed || points.failed;
+    if (!points.groups.empty())
+      panels.emplace_back(axis ? axis->choices[k].label : study.title, std::move(points));
+  }
+  if (panels.empty())
     return fmt::format("no chart of the error against {}: no variant has an error", name_of(kCosts, cost));
-  Points line;
-  for (const auto& [x, y] : points.front) line.add(x, y);
-  std::string data = gnuplot_data("front", line.x, line.y);
-  std::string plot = fmt::format(
-      "set title {}\nset logscale xy\nset grid lt 1 lc rgb '#dddddd'\n"
-      "set key outside right top Left reverse samplen 1\nset xlabel {}\nset ylabel {}\n{}{}"
-      "plot $front with lines lw 5 lc rgb '#cccccc' title '{}'",
-      gnuplot_text(study.title), gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
-      gnuplot_text(error_label(study, runs)), points.across.commands('x'), points.up.commands('y'),
-      cost == study.costs.front() ? "Pareto front" : "Pareto front of the first cost");
-  std::size_t blocks = 0;
-  for (const auto& [choice, joined] : points.methods) {
-    const std::string name = fmt::format("method{}", blocks++);
-    data += gnuplot_data(name, joined.x, joined.y);
-    plot += fmt::format(", \\\n  ${} with lines lw 1 lc rgb '{}' notitle", name,
-                        resolution == 0 ? kGrey : chart_colour(choice[0]));
+  const std::string front = cost == study.costs.front() ? "Pareto front" : "Pareto front of the first cost";
+  const std::size_t cells = panels.size() + 1, across = axis ? (cells <= 4 ? 2 : 3) : 1;
+  const std::size_t down = axis ? (cells + across - 1) / across : 1;
+  std::string data, plot = "set logscale xy\nset grid lt 1 lc rgb '#dddddd'\n";
+  plot += fmt::format("set xlabel {}\nset ylabel {}\n",
+                      gnuplot_text(cost == Cost::wall ? "wall time (s)" : "particle-steps"),
+                      gnuplot_text(error_label(study, runs)));
+  plot += axis ? fmt::format("set multiplot layout {},{} title {}\nunset key\n", down, across,
+                             gnuplot_text(study.title))
+               : "set key outside right top Left reverse samplen 1\n";
+  const std::string meaning = legend(study) + explanation(failed);
+  std::size_t count = 0;
+  for (const auto& [title, points] : panels) {
+    const std::string suffix = axis ? fmt::format("_{}", count++) : "";
+    plot +=
+        fmt::format("set title {}\n", gnuplot_text(title)) +
+        plot_of(points, resolution == 0, axis ? "notitle" : fmt::format("title '{}'", front), suffix, data);
+    if (!axis) plot += meaning;
+    plot += "\n";
   }
-  blocks = 0;
-  for (const auto& [look, group] : points.groups) {
-    const std::string name = fmt::format("points{}", blocks++);
-    data += gnuplot_data(name, group.x, group.y);
-    plot += fmt::format(", \\\n  ${} {} notitle", name, look.style());
-  }
-  plot += legend(study) + explanation(points.failed);
-  return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n", 1000, 620);
+  if (axis)
+    plot +=
+        "unset logscale\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset title\nunset grid\n"
+        "set key at graph 0,1 left top Left reverse samplen 1\n"
+        "plot [0:1][0:1] NaN with lines lw 5 lc rgb '#cccccc' title '" +
+        front + "'" + meaning + "\nset border\nset tics\nunset multiplot\n";
+  return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n",
+                           axis ? static_cast<int>(480 * across) : 1000,
+                           axis ? static_cast<int>(360 * down + 30) : 620);
 }
 
 }  // namespace mpmfast

@@ -132,7 +132,7 @@ class Expansion {
           problems_.add(formula->place, formula->path,
                         fmt::format("the reference has no constant '{}': its axis is not in per", name));
     };
-    for (const ErrorSpec& spec : error_specs(study_))
+    for (const ErrorSpec& spec : error_specs(study_, run.choice))
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
     for (const CurveSpec& curve : study_.curves)
       for (const auto& formula : {curve.x, curve.y}) check(formula);
@@ -156,7 +156,7 @@ class Expansion {
       for (const auto& formula : {condition.at_least, condition.at_most, condition.from, condition.to})
         check_constant(formula);
     }
-    for (const ErrorSpec& spec : error_specs(study_)) {
+    for (const ErrorSpec& spec : error_specs(study_, run.choice)) {
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
       for (const auto& formula : {spec.from, spec.to, spec.threshold, spec.expected}) check_constant(formula);
     }
@@ -220,9 +220,11 @@ std::string file_name_of(const std::string& name) {
   return out.substr(0, kLongest);
 }
 
-std::vector<ErrorSpec> error_specs(const Study& study) {
+std::vector<ErrorSpec> error_specs(const Study& study, const std::vector<std::size_t>& choice) {
   std::vector<ErrorSpec> out;
   if (study.error) out.push_back(*study.error);
+  for (std::size_t k = 0; k < choice.size(); ++k)
+    if (const auto& own = study.axes[k].choices[choice[k]].error) out.assign(1, *own);
   out.insert(out.end(), study.more.begin(), study.more.end());
   return out;
 }

@@ -179,7 +179,7 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
     const Value value(vary.node().items[k], join(vary.path(), key.text), vary.problems());
     Axis axis{key.text, key.place, {}};
     if ((!value.is(Node::Kind::list) && !value.is(Node::Kind::map)) || value.size() == 0)
-      value.complain("not a list of values, or a map of names to {set, let, scene, only}");
+      value.complain("not a list of values, or a map of names to {set, let, scene, only, error}");
     for (std::size_t n = 0; n < value.size(); ++n) {
       const Node& node = value.node().items[n];
       Choice choice;
@@ -190,11 +190,12 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
       } else {
         choice.name = choice.label = value.node().keys[n].text;
         MapReader map(Value(node, join(value.path(), choice.name), value.problems()),
-                      "a map {set, let, scene, only}");
+                      "a map {set, let, scene, only, error}");
         choice.set = read_settings(map);
         choice.let = read_constants(map);
         choice.scene = read_scene_path(map, folder);
-        map.find("only");  // read below, when all axes are known
+        map.find("only");   // read when all axes are known
+        map.find("error");  // and when the study's own is
         map.finish();
       }
       if (find_choice(axis, choice.name))
@@ -206,13 +207,19 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
   for (Axis& axis : axes)
     for (Choice& choice : axis.choices)
       if (choice.label.empty()) choice.label = label_of(choice.name, short_key(axis, axes));
+}
+
+void read_only_of_axes(const Value& vary, std::vector<Axis>& axes) {
+  if (!vary.is(Node::Kind::map)) return;
+  const std::size_t before = axes.size() - vary.size();  // the variants
   for (std::size_t k = 0; k < vary.size(); ++k) {
-    const Value value(vary.node().items[k], join(vary.path(), axes[k].name), vary.problems());
+    Axis& axis = axes[before + k];
+    const Value value(vary.node().items[k], join(vary.path(), axis.name), vary.problems());
     for (std::size_t n = 0; value.is(Node::Kind::map) && n < value.size(); ++n) {
-      const std::string path = join(value.path(), axes[k].choices[n].name);
+      const std::string path = join(value.path(), axis.choices[n].name);
       if (value.node().items[n].kind != Node::Kind::map) continue;
       MapReader map(Value(value.node().items[n], path, value.problems()));
-      axes[k].choices[n].only = read_only(map, axes);
+      axis.choices[n].only = read_only(map, axes);
     }
   }
 }

@@ -76,6 +76,31 @@ ErrorSpec read_error(const Value& value, ErrorSpec spec, bool has_reference) {
   return spec;
 }
 
+/// `error` of the choices of `vary`: what differs from the study's.
+void read_own_errors(const Value& vary, bool has_reference, Study& study) {
+  const std::size_t axis_of_vary = study.axes.size() - vary.size();  // behind that of the variants
+  for (std::size_t k = 0; k < vary.size(); ++k) {
+    const Node& axis = vary.node().items[k];
+    if (axis.kind != Node::Kind::map) continue;
+    for (std::size_t n = 0; n < axis.items.size(); ++n) {
+      const int at = index_of(axis.items[n], "error");
+      if (at < 0) continue;
+      const std::string path = join(join(vary.path(), vary.node().keys[k].text), axis.keys[n].text);
+      const Value value(axis.items[n].items[static_cast<std::size_t>(at)], join(path, "error"),
+                        vary.problems());
+      if (!study.error) {
+        value.report("the study's own error is missing, from which this one differs");
+        continue;
+      }
+      ErrorSpec own = read_error(value, *study.error, has_reference);
+      const auto is_absolute = [](const ErrorSpec& e) { return e.rule.relative == Relative::absolute; };
+      if (is_absolute(own) != is_absolute(*study.error))
+        value.report("errors in percent and absolute ones have no common scale");
+      study.axes[axis_of_vary + k].choices[n].error = std::move(own);
+    }
+  }
+}
+
 std::vector<ErrorSpec> read_more(const Value& value, const ErrorSpec& base, bool has_reference) {
   std::vector<ErrorSpec> out;
   if (!value.is(Node::Kind::map)) {
@@ -188,6 +213,7 @@ void read_top(const Node& root, Study& study, Problems& problems) {
   if (std::none_of(study.axes.begin(), study.axes.end(), names_every_scene))
     top.need("scene", "the path of a scene, from this file");
   if (variants) study.axes.insert(study.axes.begin(), read_variants(*variants, study.axes));
+  if (vary) read_only_of_axes(*vary, study.axes);
   if (!variants && !vary) top.need("variants", "a list of variants, or vary with axes");
   if (const auto reference = top.find("reference")) study.reference = read_reference(*reference, study);
   const bool has_reference = index_of(root, "reference") >= 0;
@@ -204,6 +230,9 @@ void read_top(const Node& root, Study& study, Problems& problems) {
     spec.x = time_column(error->node().place, "error.x");
     study.error = read_error(*error, spec, has_reference);
   }
+  if (vary && vary->is(Node::Kind::map) && problems.count() == before)
+    read_own_errors(*vary, has_reference, study);
+  if (const auto panels = top.find("panels")) study.panels = read_axis(*panels, study.axes);
   const auto more = top.find("more");
   if (more && !study.error) more->report("error is missing, from which these differ");
   if (more && study.error && problems.count() == before)

@@ -32,6 +32,13 @@ struct Setting {
 /// Axis → the values that are meant.
 using Only = std::map<std::string, std::vector<std::string>>;
 
+/// An error rule whose constants may be expressions.
+struct ErrorSpec {
+  std::string name = "error";
+  std::optional<Formula> quantity, x, from, to, threshold, expected;
+  ErrorRule rule;  ///< without its numbers
+};
+
 /// One value of an axis.
 struct Choice {
   std::string name;
@@ -40,6 +47,7 @@ struct Choice {
   Constants let;                               ///< names for the study's expressions
   Only only;                                   ///< what this one goes with
   std::optional<std::filesystem::path> scene;  ///< instead of the study's
+  std::optional<ErrorSpec> error;              ///< instead of the study's
   std::optional<Setting> program;              ///< what runs it instead; the value is the path as written
 };
 
@@ -57,13 +65,6 @@ struct Reference {
   std::optional<Formula> expression;  ///< over the columns of the variant's own history
   Table table;
   std::optional<Formula> x, y;  ///< of the table; those of the error when not given
-};
-
-/// An error rule whose constants may be expressions.
-struct ErrorSpec {
-  std::string name = "error";
-  std::optional<Formula> quantity, x, from, to, threshold, expected;
-  ErrorRule rule;  ///< without its numbers
 };
 
 /// What must hold in a run, row by row of its history.
@@ -123,6 +124,7 @@ struct Study {
   std::vector<Condition> conditions;
   std::vector<QuantitySpec> quantities;
   std::optional<MapSpec> map;
+  std::optional<std::size_t> panels;  ///< the axis of which each value has a front and a chart of its own
   std::vector<Cost> costs{Cost::wall};
   std::vector<CurveSpec> curves;
 };
@@ -153,8 +155,9 @@ StudyRuns expand_study(const Study& study);
 /// "LR, xpic(5)" → "lr_xpic5": what every file system takes.
 std::string file_name_of(const std::string& name);
 
-/// Study::error where there is one, then Study::more.
-std::vector<ErrorSpec> error_specs(const Study& study);
+/// Of a combination of choices: the error, where there is one (that of the last axis that has its own, or the
+/// study's), then Study::more.
+std::vector<ErrorSpec> error_specs(const Study& study, const std::vector<std::size_t>& choice);
 
 /// Are the runs compared by an error, or only told?
 inline bool has_error(const Study& study) { return study.error || !study.conditions.empty(); }

@@ -27,6 +27,9 @@ std::optional<std::filesystem::path> read_scene_path(MapReader& map, const std::
 /// `vary`: a list holds values of the scene's key, a map holds named choices.
 void read_axes(const Value& vary, const std::filesystem::path& folder, std::vector<Axis>& axes);
 
+/// `only` of these choices, when all axes are known.
+void read_only_of_axes(const Value& vary, std::vector<Axis>& axes);
+
 /// `variants`. `vary` was read before, so that `only` can name its axes.
 Axis read_variants(const Value& list, const std::vector<Axis>& axes);
 

@@ -94,7 +94,7 @@ Curve reference_curve(const Study& study, const StudyRuns& runs, const StudyRun&
 
 void measure(const Study& study, const StudyRuns& runs, const StudyRun& run, const fs::path& folder,
              StudyResult& result) {
-  for (const ErrorSpec& spec : error_specs(study)) {
+  for (const ErrorSpec& spec : error_specs(study, run.choice)) {
     const Curve curve = history_curve(run, folder, spec.x->expression, spec.quantity->expression);
     const Measured measured =
         measure_error(rule_of(spec, run.let), curve, reference_curve(study, runs, run, folder, spec));
@@ -145,15 +145,22 @@ void tabulate(const Study& study, const StudyRun& run, const fs::path& folder, S
   result.reached = time && !time->empty() ? time->back() : 0;
 }
 
-void mark_front(Cost cost, std::vector<StudyResult>& results) {
-  std::vector<double> costs, errors;
-  for (const StudyResult& result : results) {
-    const bool whole = result.status == "finished" && !result.errors.empty();
-    costs.push_back(cost_of(result, cost));
-    errors.push_back(whole ? result.errors[0] : std::nan(""));
+void mark_front(const Study& study, const StudyRuns& runs, std::vector<StudyResult>& results) {
+  const std::size_t panels = study.panels ? study.axes[*study.panels].choices.size() : 1;
+  for (std::size_t panel = 0; panel < panels; ++panel) {
+    const auto is_here = [&](std::size_t k) {
+      return !study.panels || runs.variants[k].choice[*study.panels] == panel;
+    };
+    std::vector<double> costs, errors;
+    for (std::size_t k = 0; k < results.size(); ++k) {
+      const bool whole = is_here(k) && results[k].status == "finished" && !results[k].errors.empty();
+      costs.push_back(cost_of(results[k], study.costs.front()));
+      errors.push_back(whole ? results[k].errors[0] : std::nan(""));
+    }
+    const std::vector<bool> front = pareto_front(costs, errors);
+    for (std::size_t k = 0; k < results.size(); ++k)
+      if (is_here(k)) results[k].pareto = front[k];
   }
-  const std::vector<bool> front = pareto_front(costs, errors);
-  for (std::size_t k = 0; k < results.size(); ++k) results[k].pareto = front[k];
 }
 
 /// Why a run of this program does not count; empty if it does.
@@ -225,7 +232,7 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
     }
     out.variants.push_back(std::move(result));
   }
-  mark_front(study.costs.front(), out.variants);
+  mark_front(study, runs, out.variants);
   return out;
 }
 

@@ -37,11 +37,59 @@ class StudyTable {
       : study_(study), runs_(runs), results_(results) {}
 
   std::string text() {
+    return study_.panels && study_.error ? overview(*study_.panels) + "\n" + rows() : rows();
+  }
+
+ private:
+  /// A row for each value of an axis, a column for each combination of the others: error and wall time, bold
+  /// on the front.
+  std::string overview(std::size_t axis) const {
+    std::vector<std::string> methods;
+    std::vector<std::vector<std::string>> cells(study_.axes[axis].choices.size());
+    for (std::size_t k = 0; k < results_.variants.size(); ++k) {
+      if (results_.variants[k].status.empty()) continue;
+      std::vector<std::string> parts;
+      for (std::size_t other = 0; other < study_.axes.size(); ++other)
+        if (other != axis) parts.push_back(study_.axes[other].choices[runs_.variants[k].choice[other]].label);
+      const std::string method = fmt::format("{}", fmt::join(parts, ", "));
+      const auto column =
+          static_cast<std::size_t>(std::find(methods.begin(), methods.end(), method) - methods.begin());
+      if (column == methods.size()) methods.push_back(method);
+      auto& row = cells[runs_.variants[k].choice[axis]];
+      row.resize(std::max(row.size(), column + 1), kNone);
+      row[column] = error_and_cost(results_.variants[k]);
+    }
+    std::string out = "| " + markdown_text(study_.axes[axis].name), rule = "|---|";
+    for (const std::string& method : methods) {
+      out += " | " + markdown_text(method);
+      rule += "---|";
+    }
+    out += " |\n" + rule + "\n";
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (cells[k].empty()) continue;
+      cells[k].resize(methods.size(), kNone);
+      out += fmt::format("| {} | {} |\n", markdown_text(study_.axes[axis].choices[k].name),
+                         fmt::join(cells[k], " | "));
+    }
+    return out;
+  }
+
+  std::string error_and_cost(const StudyResult& result) const {
+    if (result.status == "failed") return "failed";
+    const double error = result.errors.empty() ? std::nan("") : result.errors[0];
+    const bool absolute = study_.error->rule.relative == Relative::absolute;
+    const std::string text = std::isnan(error) ? kNone
+                             : absolute        ? fmt::format("{:.3g}", error)
+                                               : fmt::format("{:.2g} %", 100 * error);
+    return fmt::format("{0}{1}{0}, {2:.3g} s", result.pareto ? "**" : "", text, result.wall);
+  }
+
+  std::string rows() {
     for (std::size_t axis = 0; axis < study_.axes.size(); ++axis) add_axis(axis);
     for (std::size_t k = 0; k < study_.more.size(); ++k)
       add_error(study_.more[k].name, &study_.more[k], k + 1);
     if (has_error(study_)) add_error("error", study_.error ? &*study_.error : nullptr, 0);
-    if (study_.error && looks_for_value(*study_.error))
+    if (study_.error && looks_for_value(*study_.error) && !has_own_errors())
       add_numbers("value", measured_unit(runs_, *study_.error), 6,
                   [](const StudyResult& r) { return r.value; });
     for (std::size_t k = 0; k < study_.quantities.size(); ++k)
@@ -54,7 +102,6 @@ class StudyTable {
     return written();
   }
 
- private:
   template <class F>
   void add(const std::string& name, F cell) {
     heads_.push_back(markdown_text(name));
@@ -116,6 +163,14 @@ class StudyTable {
         [](const StudyResult& r) { return fmt::format("{:.2f}", r.mean_iterations); });
     add("doubtful normals (%)", [](const StudyResult& r) { return percent_text(r.doubtful); });
     add("energy error (%)", [](const StudyResult& r) { return fmt::format("{:.2g}", 100 * r.energy_error); });
+  }
+
+  /// Errors of which each looks for another value.
+  bool has_own_errors() const {
+    return std::any_of(study_.axes.begin(), study_.axes.end(), [](const Axis& axis) {
+      return std::any_of(axis.choices.begin(), axis.choices.end(),
+                         [](const Choice& choice) { return choice.error.has_value(); });
+    });
   }
 
   std::string written() const {
