@@ -41,6 +41,70 @@ TEST_CASE(
         doctest::Approx(-out.history.at("left.vx").back()).epsilon(1e-5));
 }
 
+/// How far the middle of a facet of the first body, a sphere, lies within it at most, m.
+double deepest_sag(const State<3>& state, double radius) {
+  const auto& own = state.surfaces.bodies[0];
+  std::vector<Vec<3>> at(static_cast<std::size_t>(own.count));
+  Vec<3> centre = Vec<3>::Zero();
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    const int number = state.surfaces.number(state.particles.body()[p], state.particles.id()[p]);
+    if (number < 0 || number >= own.count) continue;
+    at[static_cast<std::size_t>(number)] = state.particles.vector(Quantity::position, p);
+    centre += at[static_cast<std::size_t>(number)] / own.count;
+  }
+  double sag = 0;
+  for (const auto& facet : state.surfaces.facets) {
+    if (facet.body != 0) continue;
+    Vec<3> middle = Vec<3>::Zero();
+    for (const int p : facet.point) middle += at[static_cast<std::size_t>(p)] / 3;
+    sag = std::max(sag, radius - (middle - centre).norm());
+  }
+  return sag;
+}
+
+TEST_CASE("spheres that meet along the space diagonal touch when their gap closes, and press as Hertz says") {
+  const Scene scene = scene_file("sphere_pair.yaml", {{"output.frames", "0"}});
+  {
+    Step<3> step(scene);
+    const double sag = deepest_sag(step.state(), 6e-3);
+    CHECK(sag < 0.02e-3);
+    double before = 0;
+    while (step.penalty().pressed() == 0) {
+      before = step.state().time;
+      step.advance(step.stable_dt());
+      REQUIRE(step.state().time < 40e-6);
+    }
+    const double dt = step.state().time - before;
+    const double closed = 0.25e-3 / 10, later = closed + 2 * sag / 10;
+    CHECK(before > closed - 0.01 * dt);
+    CHECK(before < later + dt);
+  }
+  const Outcome out = run(scene);
+  REQUIRE(out.failure == "");
+  const auto &time = out.history.at("time_s"), &x = out.history.at("first+second.force_x_N"),
+             &y = out.history.at("first+second.force_y_N"), &z = out.history.at("first+second.force_z_N");
+  double largest = 0, impulse = 0, first = 0, last = 0;
+  for (std::size_t k = 1; k < time.size(); ++k) {
+    const double force = std::hypot(x[k], y[k], z[k]);
+    CHECK(std::hypot(x[k] - y[k], x[k] - z[k]) < 0.02 * 80.4);  // along the diagonal
+    largest = std::max(largest, force);
+    impulse += force * (time[k] - time[k - 1]);
+    if (force > 0.8) {
+      if (first == 0) first = time[k - 1];
+      last = time[k];
+    }
+  }
+  // Hertz's are small strains; with half the cells 88 N, 226 us and -0.6 %.
+  CHECK(largest == doctest::Approx(80.4).epsilon(0.1));         // measured 86.4
+  CHECK(last - first == doctest::Approx(248e-6).epsilon(0.1));  // measured 226
+  CHECK(std::abs(out.summary.energy_error) < 0.025);            // measured +1.7 %
+  const auto& mass = out.history.at("first.mass_kg");
+  const auto& vx = out.history.at("first.vx");
+  CHECK(impulse == doctest::Approx(std::sqrt(3.0) * mass.front() * (vx.front() - vx.back())).epsilon(1e-3));
+  for (const char* axis : {"momentum_x", "momentum_y", "momentum_z"})
+    CHECK(std::abs(out.history.at(axis).back()) < 1e-12 * 5 * mass.front());
+}
+
 struct BarErrors {
   double mean;  ///< K24 Eq. 42
   double jump;  ///< of the stress from the one bar's boundary points to the other's, over its exact value
