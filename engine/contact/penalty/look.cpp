@@ -49,7 +49,7 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
   for (std::int64_t k = 0; k < n; ++k)
-    for (int at = 0; at < Dim; ++at)
+    for (int at = 0; at < kPoints; ++at)
       look_around(listing_[static_cast<std::size_t>(k)], at,
                   rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
   return std::nullopt;
@@ -248,6 +248,39 @@ void Penalty<Dim>::list_around(int own, std::vector<int>& out) const {
     }
   }
   std::sort(out.begin() + begin, out.end());
+  leave_far_ones(ball, begin, out);
+}
+
+/// Of each piece, what cannot have the nearest foot of a point of the facet, as long as the lists hold, goes.
+template <int Dim>
+void Penalty<Dim>::leave_far_ones(const Ball& ball, std::ptrdiff_t begin, std::vector<int>& out) const {
+  struct Piece {
+    int number;
+    double nearest;  ///< m, of the middles
+  };
+  std::array<Piece, 4 * kNear> pieces;
+  std::size_t count = 0;
+  const auto place_of = [&](int f) {
+    std::size_t k = 0;
+    while (k < count && pieces[k].number != facet(f).piece) ++k;
+    return k;
+  };
+  const auto distance = [&](int f) {
+    return (ball.middle - ball_[static_cast<std::size_t>(f)].middle).norm();
+  };
+  for (auto f = out.begin() + begin; f != out.end(); ++f) {
+    const std::size_t k = place_of(*f);
+    if (k == pieces.size()) return;  // more than are known: all stay
+    if (k == count) pieces[count++] = {facet(*f).piece, distance(*f)};
+    pieces[k].nearest = std::min(pieces[k].nearest, distance(*f));
+  }
+  const double slack = 2 * (ball.radius + kSkin * cell_);
+  out.erase(std::remove_if(out.begin() + begin, out.end(),
+                           [&](int f) {
+                             return distance(f) - ball_[static_cast<std::size_t>(f)].radius >
+                                    pieces[place_of(f)].nearest + slack;
+                           }),
+            out.end());
 }
 
 /// Which facets may touch which until a point has gone half of kSkin.
@@ -371,7 +404,7 @@ void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const C
   if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return;
   // What lies round an edge does not press. The area is the undeformed one, so that springs keep energy.
   const double facing = std::max(0.0, -ball_[static_cast<std::size_t>(own)].normal.dot(way) / length);
-  const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / Dim;
+  const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / kPoints;
   if (!(stiffness > 0)) return;
   double energy = 0.5 * stiffness * depth * depth;
   for (const Candidate* c = begin; c != end; ++c) {
@@ -401,6 +434,7 @@ template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
 template void Penalty<2>::fill_bins();
 template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
 template void Penalty<2>::list_around(int, std::vector<int>&) const;
+template void Penalty<2>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<2>::list_all(int);
 template void Penalty<2>::look_around(const Listing&, int, Room&) const;
 template void Penalty<2>::look_at_body(int, int, const Vec<2>&, const Stretch&, Room&) const;
@@ -417,6 +451,7 @@ template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
 template void Penalty<3>::fill_bins();
 template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
 template void Penalty<3>::list_around(int, std::vector<int>&) const;
+template void Penalty<3>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<3>::list_all(int);
 template void Penalty<3>::look_around(const Listing&, int, Room&) const;
 template void Penalty<3>::look_at_body(int, int, const Vec<3>&, const Stretch&, Room&) const;

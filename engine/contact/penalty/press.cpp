@@ -48,7 +48,7 @@ Penalty<Dim>::Penalty(const Scene& scene, const Plan& plan, const State<Dim>& se
   const std::size_t n = surfaces_->points();
   now_.assign(n, Vec<Dim>::Zero());
   before_ = force_ = now_;
-  holds_.resize(Dim * surfaces_->facets.size());
+  holds_.resize(kPoints * surfaces_->facets.size());
   ball_.resize(surfaces_->facets.size());
   wedge_normal_.assign(surfaces_->wedges.size(), Vec<Dim>::Zero());
   rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
@@ -167,7 +167,7 @@ void Penalty<Dim>::push_out(const State<Dim>& state, double elapsed, Room& room)
     if (last >= 0) holds_[static_cast<std::size_t>(last)] = held;
   };
   for (const Touch& touch : room.touches) {
-    const int place = Dim * touch.own + touch.at;
+    const int place = kPoints * touch.own + touch.at;
     if (place != last) {
       keep();
       last = place;
@@ -242,7 +242,7 @@ void Penalty<Dim>::book(const Touch& touch, const Pushed& pushed, double dt) {
   books_.pair_impulse[k] += (pairs_.forward[place] && !(same && a > b) ? dt : -dt) * pushed.force;
   books_.pair_friction_work[k] += pushed.lost;
   if (touch.energy > 0)  // once a point; each of two surfaces is seen
-    books_.pair_area[k] += 0.5 / Dim * facet(touch.own).area;
+    books_.pair_area[k] += 0.5 / kPoints * facet(touch.own).area;
 }
 
 template <int Dim>
