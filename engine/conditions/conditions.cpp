@@ -155,12 +155,17 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
       if (members.empty()) continue;
       held.clear();
       cut.clear();
+      const bool meets = stack.end - stack.begin > 1;
       for (int c : members) {
         const auto rows = around_plane(c, node);
-        const bool follows = rows && std::all_of(rows->begin(), rows->end(), [&](const auto& row) {
-                               components_at(row, others);
-                               return alone_along(c, others);
-                             });
+        // Bodies side by side press along the plane, where a line through rows would undo what their contact
+        // settles on each: that made energy without end.
+        const bool moves_or_alone = components_[static_cast<std::size_t>(c)].moving || !meets;
+        const bool follows =
+            rows && moves_or_alone && std::all_of(rows->begin(), rows->end(), [&](const auto& row) {
+              components_at(row, others);
+              return alone_along(c, others);
+            });
         if (!follows) held.push_back(c);
         // A support that reaches further out has the first row beyond the plane too: one entry a column.
         if (follows && (*rows)[1] == node) cut.emplace_back(c, *rows);

@@ -81,5 +81,16 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("bodies side by side keep their energy under a held piston at its plane") {
+  const Outcome out =
+      run(scene_file("three_materials.yaml",
+                     {{"output.frames", "0"},
+                      {"boundaries.top", "{piston: 0.9622 m/s, direction: down, held: true, at: plane}"}}));
+  REQUIRE(out.failure == "");
+  // Measured 0.08 %. Where a line through rows held them along the plane too, the contact between them made
+  // energy until they were thrown out.
+  CHECK(std::abs(out.summary.energy_error) < 0.003);
+}
+
 }  // namespace
 }  // namespace mpmfast
