@@ -92,7 +92,10 @@ template <int Dim>
 std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const State<Dim>& state = step.state();
   const auto& particles = state.particles;
-  const std::size_t lasting = particles.bytes() + state.nodes.bytes() + state.tiling.bytes();
+  const std::size_t surfaces = step.penalty().active() ? state.surfaces.bytes() + step.penalty().bytes() : 0;
+  const std::size_t extension = step.extension().active() ? step.extension().bytes() : 0;
+  const std::size_t lasting =
+      particles.bytes() + state.nodes.bytes() + state.tiling.bytes() + surfaces + extension;
   const ContactNeed contact = contact_need(step, scene);
   const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()));
   const double program = kProgramBytes + (scene.output.checkpoint.active ? kCheckpointBytes : 0);
@@ -105,6 +108,9 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   if (step.plan().contact)
     text += below + fmt::format("{} of contact, should every surface meet another ({:.0f} nodes; {} now),",
                                 in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+  if (surfaces > 0)
+    text += below + fmt::format("{} of surfaces and what is near them,", in_mebibytes(surfaces));
+  if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));
   return text + below +
          fmt::format("{} for a while for {}; {} at most", in_mebibytes(passing.bytes), passing.reason,
                      in_mebibytes(static_cast<double>(lasting) + contact.bytes + passing.bytes + program));

@@ -12,6 +12,12 @@
 
 namespace mpmfast {
 
+/// What vectors hold, and keep for more.
+template <class... Vectors>
+std::size_t bytes_of(const Vectors&... vectors) {
+  return (0 + ... + (vectors.capacity() * sizeof(typename Vectors::value_type)));
+}
+
 template <int Dim>
 struct Surfaces {
   struct Facet {
@@ -41,6 +47,7 @@ struct Surfaces {
     const Body& b = bodies[static_cast<std::size_t>(body)];
     return id >= b.first_id && b.count > 0 ? b.first + static_cast<int>(id - b.first_id) : -1;
   }
+  std::size_t bytes() const { return bytes_of(bodies, point_body, facets, wedges, wedge_facets); }
   bool holds(int body, std::uint32_t id) const { return !empty() && number(body, id) >= 0; }
 };
 

@@ -431,6 +431,14 @@ void Extension<Dim>::prolong(State<Dim>& state, std::initializer_list<Nodal> qua
               [&](const auto& x) { sum_shares(following_, shares_, false, state.threads, x); });
 }
 
+template <int Dim>
+std::size_t Extension<Dim>::bytes() const {
+  std::size_t sum = bytes_of(neighbours_, enough_, stable_, following_, followed_, shares_, takers_,
+                             followed_at_, lowered_);
+  for (const Found& found : found_) sum += bytes_of(found.following, found.shares);
+  return sum;
+}
+
 template class Extension<2>;
 template class Extension<3>;
 

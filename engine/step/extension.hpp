@@ -53,6 +53,8 @@ class Extension {
   };
   const std::vector<Shared>& following() const { return following_; }
   const std::vector<Share>& shares() const { return shares_; }
+  /// Of its lists, as they are now.
+  std::size_t bytes() const;
   const ExtensionCounters& counters() const { return counters_; }
 
   /// A block that a node follows begins at most so many nodes below it and ends at most so many above.

@@ -274,6 +274,8 @@ check_told_memory() {
   write_spheres
   tell_memory 40 spheres.yaml --set "output={frames: 0, history: 1, picture: none}"
   tell_memory 40 spheres.yaml --set "output={frames: 1, history: 1}" --set contact.normal=smoothed_logistic_regression
+  tell_memory 10 spheres.yaml --set "output={frames: 0, history: 1}" --set "contact={family: penalty}" \
+    --set "method={basis: bspline2, extension: {occupation: 0.8}}"
   tell_memory 40 "$source_dir/configs/ellipses.yaml" --set "output={frames: 1, history: 1}"
   tell_memory 40 "$source_dir/configs/hard/twenty_fields.yaml" --set grid.cell=0.1mm --set "output={frames: 0}"
   tell_memory 5 "$source_dir/configs/bench/block-3d.yaml" --set "grid.cell=1/23 m"

@@ -54,6 +54,9 @@ class Penalty {
   /// from 0.75, 0.5 and 0.3 on.
   double stable_share() const { return active_ ? 0.8 / std::sqrt(1 + spec_.stiffness) : kInfinity; }
 
+  /// Of its lists, as they are now.
+  std::size_t bytes() const;
+
   /// What lasts from one step to the next.
   void visit(Archive& archive);
 
