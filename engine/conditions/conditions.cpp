@@ -138,6 +138,16 @@ int Conditions<Dim>::combination_of(const std::vector<int>& members) {
   return static_cast<int>(k);
 }
 
+/// Have several fields slots on one of the rows of a column?
+template <int Dim>
+bool Conditions<Dim>::meet_on(const State<Dim>& state, const std::array<NodeIndex<Dim>, kRows>& rows) const {
+  return std::any_of(rows.begin(), rows.end(), [&](const NodeIndex<Dim>& row) {
+    int fields = 0;
+    for (int field = 0; field < state.fields(); ++field) fields += state.tiling.slot(row, field) >= 0;
+    return fields > 1;
+  });
+}
+
 template <int Dim>
 void Conditions<Dim>::list_nodes(const State<Dim>& state) {
   nodes_.clear();
@@ -155,17 +165,15 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
       if (members.empty()) continue;
       held.clear();
       cut.clear();
-      const bool meets = stack.end - stack.begin > 1;
       for (int c : members) {
         const auto rows = around_plane(c, node);
         // Bodies side by side press along the plane, where a line through rows would undo what their contact
         // settles on each: that made energy without end.
-        const bool moves_or_alone = components_[static_cast<std::size_t>(c)].moving || !meets;
-        const bool follows =
-            rows && moves_or_alone && std::all_of(rows->begin(), rows->end(), [&](const auto& row) {
-              components_at(row, others);
-              return alone_along(c, others);
-            });
+        const bool line = rows && (components_[static_cast<std::size_t>(c)].moving || !meet_on(state, *rows));
+        const bool follows = line && std::all_of(rows->begin(), rows->end(), [&](const auto& row) {
+                               components_at(row, others);
+                               return alone_along(c, others);
+                             });
         if (!follows) held.push_back(c);
         // A support that reaches further out has the first row beyond the plane too: one entry a column.
         if (follows && (*rows)[1] == node) cut.emplace_back(c, *rows);

@@ -123,6 +123,7 @@ class Conditions {
   void components_at(const NodeIndex<Dim>& node, std::vector<int>& members) const;
   std::optional<std::array<NodeIndex<Dim>, kRows>> around_plane(int component,
                                                                 const NodeIndex<Dim>& node) const;
+  bool meet_on(const State<Dim>& state, const std::array<NodeIndex<Dim>, kRows>& rows) const;
   bool alone_along(int component, const std::vector<int>& members) const;
   int combination_of(const std::vector<int>& members);
   void list_nodes(const State<Dim>& state);

@@ -109,7 +109,7 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
     text += below + fmt::format("{} of contact, should every surface meet another ({:.0f} nodes; {} now),",
                                 in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
   if (surfaces > 0)
-    text += below + fmt::format("{} of surfaces and what is near them,", in_mebibytes(surfaces));
+    text += below + fmt::format("{} of surfaces and what is near them now,", in_mebibytes(surfaces));
   if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));
   return text + below +
          fmt::format("{} for a while for {}; {} at most", in_mebibytes(passing.bytes), passing.reason,

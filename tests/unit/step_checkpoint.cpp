@@ -266,6 +266,22 @@ bodies:
   check_goes_on<3>(spheres + "method: {basis: bspline2, update: apic}\n", 7, 12);
 }
 
+/// With enough particles for several threads, and facets for each of them.
+TEST_CASE("surfaces that rub go on to the bit in three dimensions, on any number of threads") {
+  check_goes_on<3>(R"(
+space: 3d
+grid: {size: [8 mm, 8 mm, 8 mm], cell: 0.8 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, sphere: {centre: [2.6 mm, 2.6 mm, 2.6 mm], radius: 1.6 mm}, material: soft, particles_per_cell: 5, velocity: [30 m/s, 30 m/s, 50 m/s]}
+  - {name: b, sphere: {centre: [4.6 mm, 4.6 mm, 4.6 mm], radius: 1.6 mm}, material: soft, particles_per_cell: 5, velocity: [-30 m/s, -30 m/s, -30 m/s]}
+contact: {family: penalty, friction: 0.3, points_per_cell: 4}
+method: {basis: bspline2, extension: {occupation: 0.75}}
+)",
+                   8, 14);
+}
+
 TEST_CASE("right after particles left the grid a step can be written and goes on to the bit") {
   const std::string yaml = R"(
 space: plane_strain

@@ -184,6 +184,11 @@ TEST_CASE("an error of a case needs one that it differs from, on the same scale"
         Lines{"3: vary.case.b.error: errors in percent and absolute ones have no common scale"});
   CHECK(folder.faults(head + "vary: {case: {b: {error: {quantity: blok.vy}}}}\n" + error) ==
         Lines{"3: vary.case.b.error.quantity: no column of the history 'blok.vy'. Did you mean 'block.vy'?"});
+  // What a case's error asks, its reference must know too.
+  write_text(folder.path() / "theory.csv", "time_s,block.vy\n0,0\n20,-16\n");
+  CHECK(folder.faults(head + "vary: {case: {b: {error: {quantity: block.vx}}}}\n"
+                             "reference: {table: theory.csv}\nerror: {quantity: block.vy}\n") ==
+        Lines{"3: vary.case.b.error.quantity: no column of the table 'block.vx'. Did you mean 'block.vy'?"});
   const Lines panels = folder.faults(head + "panels: cases\nvary: {case: {b: {}}}\n" + error);
   REQUIRE(panels.size() == 1);
   CHECK(begins(panels[0], "3: panels: "));

@@ -66,12 +66,12 @@ std::optional<std::size_t> only_difference(const StudyRun& a, const StudyRun& b)
   return out;
 }
 
-/// The axis along which the cells change and nothing else does.
-std::optional<std::size_t> resolution_axis(const StudyRuns& runs) {
+/// The axis along which the cells change and nothing else does, within a panel.
+std::optional<std::size_t> resolution_axis(const Study& study, const StudyRuns& runs) {
   for (const StudyRun& a : runs.variants)
     for (const StudyRun& b : runs.variants)
       if (a.scene.grid.cell != b.scene.grid.cell)
-        if (const auto axis = only_difference(a, b)) return axis;
+        if (const auto axis = only_difference(a, b); axis && axis != study.panels) return axis;
   return std::nullopt;
 }
 
@@ -201,8 +201,9 @@ std::string error_label(const Study& study, const StudyRuns& runs) {
 }
 
 /// The points of a panel as gnuplot commands, without what they mean.
+/// @param colour  the axis that tells joined methods apart by colour; one that is none: they are grey
 /// @param suffix  of the names of its blocks; @param data  the blocks are added
-std::string plot_of(const ChartPoints& points, bool colour_is_resolution, const std::string& front_title,
+std::string plot_of(const ChartPoints& points, std::size_t colour, const std::string& front_title,
                     const std::string& suffix, std::string& data) {
   const auto block = [&](const std::string& name, const Points& shown) {
     data += gnuplot_data(name + suffix, shown.x, shown.y);
@@ -217,7 +218,7 @@ std::string plot_of(const ChartPoints& points, bool colour_is_resolution, const 
   for (const auto& [choice, joined] : points.methods)
     plot += fmt::format(", \\\n  ${} with lines lw 1 lc rgb '{}' notitle",
                         block(fmt::format("method{}", count++), joined),
-                        colour_is_resolution ? kGrey : chart_colour(choice[0]));
+                        colour < choice.size() ? chart_colour(choice[colour]) : kGrey);
   count = 0;
   for (const auto& [look, group] : points.groups)
     plot +=
@@ -229,7 +230,7 @@ std::string plot_of(const ChartPoints& points, bool colour_is_resolution, const 
 
 std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const StudyResults& results,
                             const std::filesystem::path& folder, Cost cost, const std::string& stem) {
-  const auto resolution = resolution_axis(runs);
+  const auto resolution = resolution_axis(study, runs);
   const auto* axis = study.panels ? &study.axes[*study.panels] : nullptr;
   std::vector<std::pair<std::string, ChartPoints>> panels;
   bool failed = false;
@@ -252,12 +253,13 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
                              gnuplot_text(study.title))
                : "set key outside right top Left reverse samplen 1\n";
   const std::string meaning = legend(study) + explanation(failed);
+  const std::vector<std::size_t> told = told_apart(study);
+  const std::size_t colour = told.empty() || resolution == told.front() ? study.axes.size() : told.front();
   std::size_t count = 0;
   for (const auto& [title, points] : panels) {
     const std::string suffix = axis ? fmt::format("_{}", count++) : "";
-    plot +=
-        fmt::format("set title {}\n", gnuplot_text(title)) +
-        plot_of(points, resolution == 0, axis ? "notitle" : fmt::format("title '{}'", front), suffix, data);
+    plot += fmt::format("set title {}\n", gnuplot_text(title)) +
+            plot_of(points, colour, axis ? "notitle" : fmt::format("title '{}'", front), suffix, data);
     if (!axis) plot += meaning;
     plot += "\n";
   }

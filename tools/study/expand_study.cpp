@@ -51,7 +51,10 @@ class Expansion {
     std::vector<std::size_t> axes(choice.size());
     for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
     StudyRun run = make("", choice, axes, {});
-    if (study_.reference.kind == Reference::Kind::runs) run.reference = reference(choice);
+    if (study_.reference.kind == Reference::Kind::runs) {
+      run.reference = reference(choice);
+      check_reference(runs_.references[run.reference], error_specs(study_, choice));
+    }
     check_formulas(run);
     return run;
   }
@@ -62,7 +65,6 @@ class Expansion {
     for (std::size_t k = 0; k < runs_.references.size(); ++k)
       if (runs_.references[k].choice == own) return k;
     runs_.references.push_back(make("reference", own, study_.reference.per, study_.reference.set));
-    check_reference(runs_.references.back());
     return runs_.references.size() - 1;
   }
 
@@ -118,7 +120,7 @@ class Expansion {
   }
 
   /// A reference is measured by the same expressions, but knows only the constants of its own axes.
-  void check_reference(const StudyRun& run) {
+  void check_reference(const StudyRun& run, const std::vector<ErrorSpec>& errors) {
     if (run.scene.bodies.empty()) return;  // it could not be read
     std::set<std::string> others;
     for (const Axis& axis : study_.axes)
@@ -132,7 +134,7 @@ class Expansion {
           problems_.add(formula->place, formula->path,
                         fmt::format("the reference has no constant '{}': its axis is not in per", name));
     };
-    for (const ErrorSpec& spec : error_specs(study_, run.choice))
+    for (const ErrorSpec& spec : errors)
       for (const auto& formula : {spec.quantity, spec.x}) check(formula);
     for (const CurveSpec& curve : study_.curves)
       for (const auto& formula : {curve.x, curve.y}) check(formula);
@@ -175,10 +177,10 @@ class Expansion {
     if (study_.reference.kind != Reference::Kind::table) return;
     std::vector<std::string> known = study_.reference.table.names;
     for (const auto& [constant, value] : run.let) known.push_back(constant);
-    const ErrorSpec& error = study_.error ? *study_.error : ErrorSpec{};
-    for (const auto& formula : {study_.reference.x ? study_.reference.x : error.x,
-                                study_.reference.y ? study_.reference.y : error.quantity})
-      if (formula) check_names(*formula, known, "column of the table");
+    for (const ErrorSpec& error : error_specs(study_, run.choice))
+      for (const auto& formula : {study_.reference.x ? study_.reference.x : error.x,
+                                  study_.reference.y ? study_.reference.y : error.quantity})
+        if (formula) check_names(*formula, known, "column of the table");
   }
 
   void check_names(const Formula& formula, const std::vector<std::string>& known, const std::string& what) {

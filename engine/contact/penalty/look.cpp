@@ -343,7 +343,7 @@ void Penalty<Dim>::look_around(const Listing& listing, int k_th, Room& room) con
 
 /// The nearest foot on each piece of a body.
 template <int Dim>
-void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Stretch& stretch,
+void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours,
                                 Room& room) const {
   Candidate found[kNear];
   int count = 0;
@@ -354,7 +354,7 @@ void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Stre
     const bool known = place < count && found[place].piece == piece;
     const double most =
         ball_[static_cast<std::size_t>(f)].radius + (known ? found[place].foot.distance : cell_);
-    if (room.squared[static_cast<std::size_t>(k - stretch.begin)] > most * most) return;
+    if (room.squared[static_cast<std::size_t>(k - neighbours.begin)] > most * most) return;
     const std::optional<Foot<Dim>> foot = foot_of(x, facet(f));
     if (!foot) return;
     const Candidate candidate{facet(f).body, piece, f, *foot};
@@ -366,9 +366,9 @@ void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Stre
     }
   };
   // The nearest first: few of the others can be nearer.
-  try_foot(stretch.nearest);
-  for (int k = stretch.begin; k < stretch.end; ++k)
-    if (k != stretch.nearest) try_foot(k);
+  try_foot(neighbours.nearest);
+  for (int k = neighbours.begin; k < neighbours.end; ++k)
+    if (k != neighbours.nearest) try_foot(k);
   if (count > 0) touch_body(own, k_th, found, found + count, room.touches);
 }
 
@@ -437,7 +437,7 @@ template void Penalty<2>::list_around(int, std::vector<int>&) const;
 template void Penalty<2>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<2>::list_all(int);
 template void Penalty<2>::look_around(const Listing&, int, Room&) const;
-template void Penalty<2>::look_at_body(int, int, const Vec<2>&, const Stretch&, Room&) const;
+template void Penalty<2>::look_at_body(int, int, const Vec<2>&, const Neighbours&, Room&) const;
 template void Penalty<2>::find_balls(int);
 template void Penalty<2>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 template std::optional<Fold> Penalty<3>::look(const State<3>&);
@@ -454,7 +454,7 @@ template void Penalty<3>::list_around(int, std::vector<int>&) const;
 template void Penalty<3>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<3>::list_all(int);
 template void Penalty<3>::look_around(const Listing&, int, Room&) const;
-template void Penalty<3>::look_at_body(int, int, const Vec<3>&, const Stretch&, Room&) const;
+template void Penalty<3>::look_at_body(int, int, const Vec<3>&, const Neighbours&, Room&) const;
 template void Penalty<3>::find_balls(int);
 template void Penalty<3>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
 

@@ -85,7 +85,7 @@ class Penalty {
     Vec<Dim> stretch = Vec<Dim>::Zero();  ///< m, of the tangential spring
   };
   static constexpr int kHolds = 4;  ///< pieces that a point touches at once
-  static constexpr int kNear = 8;   ///< pieces of other bodies within reach of a point
+  static constexpr int kNear = 8;   ///< pieces of a body within reach of a point
   struct Holds {
     std::uint64_t step = 0;  ///< when they were
     std::array<Hold, kHolds> of;
@@ -108,14 +108,14 @@ class Penalty {
   /// Cells that points of two bodies may come closer by until they are listed anew.
   static constexpr double kSkin = 0.2;
   /// Facets of one body among those listed, and which of them has its middle nearest to a point.
-  struct Stretch {
+  struct Neighbours {
     int begin, end, nearest;
   };
   struct Room {
     std::vector<Touch> touches;
     std::vector<Pushed> pushed;   ///< as touches
     std::size_t pressed = 0;      ///< points that touch
-    std::vector<double> squared;  ///< m², of a stretch: from the point to the middles
+    std::vector<double> squared;  ///< m², of neighbours: from the point to the middles
     std::vector<Listing> listing;
     std::vector<int> listed;
     int fold = -1;
@@ -133,7 +133,7 @@ class Penalty {
   bool lists_hold() const;
   int listed(int k) const { return listed_[static_cast<std::size_t>(k)]; }
   void look_around(const Listing& listing, int k_th, Room& room) const;
-  void look_at_body(int own, int k_th, const Vec<Dim>& x, const Stretch& stretch, Room& room) const;
+  void look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours, Room& room) const;
   void touch_body(int own, int at, const Candidate* begin, const Candidate* end,
                   std::vector<Touch>& out) const;
   double stiffness_between(int body_a, int body_b) const;
@@ -158,10 +158,10 @@ class Penalty {
       sum += corner_share(k, static_cast<int>(c)) * of[static_cast<std::size_t>(facet(f).point[c])];
     return sum;
   }
-  /// Points of integration on a facet: two of a segment, exact for cubics; the middle of a triangle, of which
-  /// a cell has eight and more (three points gave spheres, cubes and gaps the same errors for twice the
-  /// time).
+  /// Points of integration on a facet: two of a segment, exact for cubics; the middle of a triangle (at two
+  /// boundary points a cell and more, three gave spheres, cubes and gaps the same errors for twice the time).
   static constexpr int kPoints = Dim == 2 ? 2 : 1;
+  static_assert(kPoints == 1 || Dim == 2);
   static double corner_share(int k, int corner) {
     if (kPoints == 1) return 1.0 / Dim;
     return k == corner ? 0.7886751345948129 : 1 - 0.7886751345948129;
