@@ -605,5 +605,89 @@ TEST_CASE("penalty contact refuses what it cannot follow") {
         std::string::npos);
 }
 
+template <int Dim>
+void move_body(State<Dim>& state, int body, const Vec<Dim>& by) {
+  for (std::size_t p = 0; p < state.particles.size(); ++p)
+    for (int d = 0; d < Dim && state.particles.body()[p] == body; ++d)
+      state.particles.column(Quantity::position, d)[p] += by[d];
+}
+
+template <int Dim>
+const std::vector<Vec<Dim>>& forces_of(Penalty<Dim>& penalty, const State<Dim>& state) {
+  REQUIRE(!penalty.look(state));
+  penalty.press(state, std::vector<Vec<Dim>>(2, Vec<Dim>::Zero()), 1e-6);
+  return penalty.forces();
+}
+
+TEST_CASE("faces that overlap in three dimensions press with stiffness times depth") {
+  // 4 x 4 mm of faces 0.01 mm deep, as in two dimensions.
+  const Scene scene = scene_from(R"(
+space: 3d
+grid: {size: [16 mm, 16 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [4 mm, 4 mm, 4 mm], to: [12 mm, 12 mm, 7 mm]}, material: m}
+  - {name: b, box: {from: [6 mm, 6 mm, 7 mm], to: [10 mm, 10 mm, 10 mm]}, material: m}
+contact: {family: penalty, law: frictionless}
+method: {basis: bspline2}
+)");
+  Step<3> step(scene);
+  auto& state = step.state();
+  move_body<3>(state, 1, Vec<3>(0, 0, -1e-5));
+  make_passes<3>(scene.method.basis)->sort(state);
+  Penalty<3> penalty(scene, step.plan(), state);
+  const auto& forces = forces_of(penalty, state);
+  const auto& surface = state.surfaces.bodies[1];
+  Vec<3> sum = Vec<3>::Zero();
+  for (int p = surface.first; p < surface.first + surface.count; ++p)
+    sum += forces[static_cast<std::size_t>(p)];
+  CHECK(sum[2] == doctest::Approx(120e6 / 1e-3 * 1e-5 * 16e-6).scale(0).epsilon(0.005));
+  CHECK(std::hypot(sum[0], sum[1]) < 1e-3 * sum[2]);
+}
+
+/// Bodies a and b that overlap, moved against each other as far as lists may hold.
+template <int Dim>
+void check_lists(const std::string& yaml) {
+  const Scene scene = scene_from(yaml);
+  for (const double way : {-1.0, 1.0})
+    for (int along = 0; along < Dim; ++along) {
+      CAPTURE(way);
+      CAPTURE(along);
+      Step<Dim> step(scene);
+      auto& state = step.state();
+      make_passes<Dim>(scene.method.basis)->sort(state);
+      Penalty<Dim> before(scene, step.plan(), state);
+      forces_of(before, state);
+      const Vec<Dim> by = way * 0.099 * scene.grid.cell * Vec<Dim>::Unit(along);
+      move_body<Dim>(state, 0, -by);
+      move_body<Dim>(state, 1, by);
+      Penalty<Dim> anew(scene, step.plan(), state);
+      const auto &old = forces_of(before, state), &now = forces_of(anew, state);
+      CHECK(anew.pressed() > 4);
+      CHECK(before.pressed() == anew.pressed());
+      CHECK(old == now);
+    }
+}
+
+TEST_CASE(
+    "lists of near facets hold until a point has gone a tenth of a cell: forces are those of new lists") {
+  check_lists<2>(two_bodies("disk: {centre: [15 mm, 20 mm], radius: 5 mm}",
+                            "disk: {centre: [24.7 mm, 19 mm], radius: 5 mm}", "law: frictionless"));
+  check_lists<2>(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
+                            "box: {from: [11 mm, 19.7 mm], to: [17 mm, 26 mm]}", "law: frictionless"));
+  check_lists<3>(R"(
+space: 3d
+grid: {size: [16 mm, 16 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, sphere: {centre: [5 mm, 6 mm, 7 mm], radius: 3 mm}, material: m}
+  - {name: b, sphere: {centre: [10.6 mm, 6.5 mm, 6.6 mm], radius: 3 mm}, material: m}
+contact: {family: penalty, law: frictionless}
+method: {basis: bspline2}
+)");
+}
+
 }  // namespace
 }  // namespace mpmfast
