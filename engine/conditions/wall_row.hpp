@@ -2,8 +2,12 @@
 
 /// @file Where the plane of a wall lies among the rows of nodes.
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <variant>
 
+#include "engine/quantities/time_table.hpp"
 #include "engine/scene/scene.hpp"
 #include "kernels/basis/facts.hpp"
 
@@ -22,6 +26,26 @@ inline WallRow wall_row(double plane, bool upper) {
       static_cast<int>(upper ? std::ceil(plane - kRowTolerance) : std::floor(plane + kRowTolerance));
   const double beyond = std::abs(row - plane);
   return {row, beyond < 2 * kRowTolerance ? 1 : 1 - beyond};
+}
+
+struct Interval {
+  double lower, upper;
+};
+
+/// What the walls leave along an axis at a time, in cells from the grid's origin.
+inline Interval room_between_walls(const Scene& scene, int axis, double time) {
+  Interval room{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  for (const BoundarySpec& b : scene.boundaries) {
+    const auto* wall = std::get_if<WallSpec>(&b.condition);
+    if (!wall || wall->axis != axis) continue;
+    const double plane = wall->position + integral_to(wall->speed, time);
+    const double cells = (plane - scene.grid.origin[static_cast<std::size_t>(axis)]) / scene.grid.cell;
+    if (wall->upper)
+      room.upper = std::min(room.upper, cells);
+    else
+      room.lower = std::max(room.lower, cells);
+  }
+  return room;
 }
 
 /// The least distance, in cells, of a plane from the last row inside. A thinner sliver of material is

@@ -128,7 +128,9 @@ void for_columns(State<Dim>& state, std::initializer_list<Nodal> quantities, con
 
 template <int Dim>
 Extension<Dim>::Extension(const Scene& scene, const Plan& plan)
-    : occupation_(plan.occupation * cell_volume(scene)), degree_(facts(plan.basis).usual_support - 1) {
+    : scene_(&scene),
+      occupation_(plan.occupation * cell_volume(scene)),
+      degree_(facts(plan.basis).usual_support - 1) {
   if (!active()) return;
   for (int order = 0; order <= degree_; ++order) {
     auto& of_order = candidates_.emplace_back();
@@ -169,8 +171,10 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
   const auto& tiling = state.tiling;
   neighbours_.resize(tiling.node_tiles.size());
   enough_.assign(tiling.node_tiles.size(), 0);
+  first_nodes_.resize(tiling.node_tiles.size());
   for (const auto& stack : tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t)
+    for (int t = stack.begin; t < stack.end; ++t) {
+      first_nodes_[static_cast<std::size_t>(t)] = stack.first_node;
       for (int m = 0; m < power(3, Dim); ++m) {
         int& found = neighbours_[static_cast<std::size_t>(t)][static_cast<std::size_t>(m)] = -1;
         if (stack.neighbour[m] < 0) continue;
@@ -180,17 +184,50 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
               tiling.node_tiles[static_cast<std::size_t>(t)].field)
             found = u;
       }
+    }
   stable_.assign(tiling.node_tiles.size(), 0);
   followed_at_.assign(static_cast<std::size_t>(tiling.slots()), -1);
 }
 
-/// Which cells of a tile have enough, a bit each.
+template <int Dim>
+void Extension<Dim>::find_room(double time) {
+  for (int d = 0; d < Dim; ++d) room_[static_cast<std::size_t>(d)] = room_between_walls(*scene_, d, time);
+}
+
+/// Whether a node lies further out than the first row at or beyond a wall.
+template <int Dim>
+bool Extension<Dim>::is_beyond(int tile, int local) const {
+  const NodeIndex<Dim>& first = first_nodes_[static_cast<std::size_t>(tile)];
+  for (int d = 0; d < Dim; ++d, local /= kTileSide) {
+    const auto& room = room_[static_cast<std::size_t>(d)];
+    const int row = first[d] + local % kTileSide;
+    if (row < std::floor(room.lower + kRowTolerance) || row > std::ceil(room.upper - kRowTolerance))
+      return true;
+  }
+  return false;
+}
+
+/// Which cells of a tile have enough, a bit each: of what lies between the walls. The cell of first node I
+/// is I + (q − 1)/2 … I + (q + 1)/2.
 template <int Dim>
 std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) const {
+  const NodeIndex<Dim>& first = first_nodes_[static_cast<std::size_t>(tile)];
+  std::array<std::array<double, kTileSide>, Dim> inside;  // of each cell's length, by axis
+  for (int d = 0; d < Dim; ++d)
+    for (int k = 0; k < kTileSide; ++k) {
+      const auto& room = room_[static_cast<std::size_t>(d)];
+      const double begin = first[d] + k + 0.5 * (degree_ - 1);
+      const double length = std::min(begin + 1, room.upper) - std::max(begin, room.lower);
+      inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] = std::clamp(length, 0.0, 1.0);
+    }
   const double* occupied = state.nodes.column(Nodal::occupied) + tile * kTileNodes<Dim>;
   std::uint64_t enough = 0;
-  for (int local = 0; local < kTileNodes<Dim>; ++local)
-    enough |= std::uint64_t{occupied[local] > least()} << local;
+  for (int local = 0; local < kTileNodes<Dim>; ++local) {
+    double share = 1;
+    for (int d = 0, rest = local; d < Dim; ++d, rest /= kTileSide)
+      share *= inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(rest % kTileSide)];
+    enough |= std::uint64_t{occupied[local] > least() * share} << local;
+  }
   return enough;
 }
 
@@ -198,7 +235,10 @@ std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) con
 /// are known by the first node of the supports of what lies in them; the support of node I has I − q … I.
 template <int Dim>
 std::uint64_t Extension<Dim>::find_stable(int tile) const {
-  if (enough_[static_cast<std::size_t>(tile)] == kAll) return kAll;
+  std::uint64_t beyond = 0;
+  for (int local = 0; local < kTileNodes<Dim>; ++local)
+    beyond |= std::uint64_t{is_beyond(tile, local)} << local;
+  if (enough_[static_cast<std::size_t>(tile)] == kAll) return kAll & ~beyond;
   BitCube<Dim, 2 * kTileSide> enough;
   for (int corner = 0; corner < kCorners<Dim>; ++corner) {
     int neighbour = 0, stride = 1;
@@ -213,7 +253,7 @@ std::uint64_t Extension<Dim>::find_stable(int tile) const {
   enough.spread_up(degree_);
   NodeIndex<Dim> own;
   for (int d = 0; d < Dim; ++d) own[d] = 1;
-  return enough.take(own);
+  return enough.take(own) & ~beyond;
 }
 
 /// The first nodes of blocks of stable ones, in a tile and those around it.
@@ -279,6 +319,7 @@ void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) 
     if ((stable >> local & 1) != 0 || !(mass[slot] > 0)) continue;
     bool follows = false;
     int order = order_of(slot);
+    if (is_beyond(tile, local)) order = std::min(order, 1);
     for (; order >= 0 && !follows; --order) {
       if (of_order != order) {
         look_around(tile, order, blocks);
@@ -397,6 +438,7 @@ void Extension<Dim>::find(const State<Dim>& state) {
   if (stale_) find_neighbours(state);
   stale_ = false;
   lowered_.clear();
+  find_room(state.time);
   const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
 #pragma omp parallel num_threads(state.threads)
   {
@@ -433,8 +475,8 @@ void Extension<Dim>::prolong(State<Dim>& state, std::initializer_list<Nodal> qua
 
 template <int Dim>
 std::size_t Extension<Dim>::bytes() const {
-  std::size_t sum = bytes_of(neighbours_, enough_, stable_, following_, followed_, shares_, takers_,
-                             followed_at_, lowered_);
+  std::size_t sum = bytes_of(neighbours_, first_nodes_, enough_, stable_, following_, followed_, shares_,
+                             takers_, followed_at_, lowered_);
   for (const Found& found : found_) sum += bytes_of(found.following, found.shares);
   return sum;
 }

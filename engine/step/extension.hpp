@@ -5,11 +5,18 @@
 /// follows a block of nodes that have, v_J = Σ_I E_IJ v_I, and what particles give it goes to them, f_I +=
 /// Σ_J E_IJ f_J. That is N_I + Σ_J E_IJ N_J in place of N_I (K24 Eq. 25, 26): Σ_I E_IJ = 1 keeps momentum,
 /// the exactness for linears angular momentum.
+///
+/// A wall continues the material: of a cell that it cuts, what lies inside counts, so that the row that the
+/// wall holds keeps its freedom. Rows further out follow along a straight line, 2, −1: the mirror image of
+/// what lies inside, with the wall's velocity at that row. Along a parabola, 3, −3, 1, they would move the
+/// material at the wall by what its motion bends.
 
+#include <array>
 #include <cstdint>
 #include <initializer_list>
 #include <vector>
 
+#include "engine/conditions/wall_row.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
@@ -101,6 +108,8 @@ class Extension {
   /// A share that is met to round-off is not passed, m³.
   double least() const { return occupation_ * (1 + 1e-9); }
   void find_neighbours(const State<Dim>& state);
+  void find_room(double time);
+  bool is_beyond(int tile, int local) const;
   std::uint64_t find_enough(const State<Dim>& state, int tile) const;
   std::uint64_t find_stable(int tile) const;
   void look_around(int tile, int order, Around& blocks) const;
@@ -111,11 +120,14 @@ class Extension {
   bool lower_orders(const State<Dim>& state);
   int order_of(int slot) const;
 
+  const Scene* scene_;
   double occupation_;  ///< m³: of a cell that has enough material; 0: splines are not extended
   int degree_;
+  std::array<Interval, Dim> room_;  ///< between the walls now, in cells from the grid's origin
   std::vector<std::vector<Candidate>> candidates_;          ///< by order, the nearest first
   std::vector<Place> places_;                               ///< of the cube around a tile
   std::vector<std::array<int, power(3, Dim)>> neighbours_;  ///< by node tile, of its field; −1: none
+  std::vector<NodeIndex<Dim>> first_nodes_;                 ///< by node tile
   std::vector<std::uint64_t> enough_, stable_;              ///< by node tile: cells, nodes, a bit each
   std::vector<Found> found_;                                ///< by portion of the tiles
   std::vector<Shared> following_, followed_;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,60 @@ TEST_CASE("nodes that follow others take the values of polynomials exactly, with
     }
   check_exactness<3>("bspline2", "0.6", 0.137);
   check_exactness<3>("bspline3", "0.6", 0.137);
+}
+
+/// A block between two walls that moves anyhow, but not where a wall holds its row of nodes.
+/// @param wall  of the lower wall, mm: on a row or between two; the block begins there
+template <int Dim>
+void check_wall(const char* basis, double wall) {
+  CAPTURE(std::string(basis));
+  CAPTURE(wall);
+  const std::string at = std::to_string(wall), z = Dim == 3 ? ", 1.3 mm" : "",
+                    top = Dim == 3 ? ", 4.2 mm" : "";
+  Projected<Dim> p("space: " + std::string(Dim == 3 ? "3d" : "plane_strain") +
+                       "\ngrid: {origin: [0 mm, -2 mm" + (Dim == 3 ? ", 0 mm" : "") +
+                       "], size: [9 mm, 10 mm" + (Dim == 3 ? ", 6 mm" : "") + R"(], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+boundaries: {bottom: {wall: sliding, position: )" +
+                       at + R"( mm}}
+bodies: [{name: b, box: {from: [2.3 mm, )" +
+                       at + " mm" + z + "], to: [6.6 mm, 5.2 mm" + top +
+                       "]}, material: m, particles_per_cell: 4}]\n",
+                   basis, "0.8");
+  const auto node = nodes_of_slots(p.state());
+  const auto held = static_cast<int>(std::floor(wall + 1e-9)) + 2;  // the first row at or beyond the wall
+  std::map<std::array<int, 3>, int> slot_at;
+  const auto place = [&](const NodeIndex<Dim>& n) {
+    return std::array<int, 3>{n[0], n[1], Dim == 3 ? n[Dim - 1] : 0};
+  };
+  for (std::size_t s = 0; s < node.size(); ++s) slot_at[place(node[s])] = static_cast<int>(s);
+  double* v = p.state().nodes.column(Nodal::velocity, 1);
+  for (std::size_t s = 0; s < node.size(); ++s)
+    v[s] = node[s][1] == held ? 0 : std::sin(3.0 * node[s][0] + 1.7 * node[s][1] * node[s][1]);
+  p.extension.prolong(p.state(), {Nodal::velocity});
+  int beyond = 0;
+  for (const auto& follows : p.extension.following()) {
+    const auto& n = node[static_cast<std::size_t>(follows.slot)];
+    const bool over_the_block = n[0] > 3 && n[0] < 6 && (Dim == 2 || (n[Dim - 1] > 2 && n[Dim - 1] < 4));
+    if (!over_the_block || n[1] > 4) continue;
+    CHECK(n[1] < held);  // the row that the wall holds keeps its freedom
+    CHECK(follows.order == 1);
+    NodeIndex<Dim> mirror = n;
+    mirror[1] = 2 * held - n[1];
+    if (n[1] == held - 1)
+      CHECK(v[follows.slot] == doctest::Approx(-v[slot_at.at(place(mirror))]).epsilon(1e-13));
+    ++beyond;
+  }
+  CHECK(beyond > 0);
+}
+
+TEST_CASE("a wall continues the material: its row is free to be held, and rows beyond mirror those inside") {
+  for (double wall : {0.0, -0.7}) {
+    check_wall<2>("bspline2", wall);
+    check_wall<3>("bspline2", wall);
+    check_wall<2>("bspline3", wall);
+  }
 }
 
 template <int Dim>
