@@ -22,9 +22,10 @@ enum class Measure {
   viscosity,
   temperature,
   heat_capacity,
-  rate
+  rate,
+  interface_stiffness
 };
-inline constexpr int kMeasures = 14;
+inline constexpr int kMeasures = 15;
 
 /// The interval a number must lie in, and its name in messages.
 struct Limit {

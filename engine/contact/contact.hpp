@@ -96,6 +96,18 @@ class Contact {
   struct Touching;
   bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node, Touching& out);
   void rest(int begin, int end);
+  Vec<Dim> kept_of(const ContactEntry<Dim>& entry) const;
+  const Bridge<Dim>& bridge_of(const ContactEntry<Dim>& entry) const {
+    return list_.bridges[static_cast<std::size_t>(&entry - list_.entries.data())];
+  }
+  const Interface* springs_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) const;
+  void find_bridges(const State<Dim>& state);
+  BridgesAround<Dim> bridges_around(const State<Dim>& state, const ContactNode<Dim>& node,
+                                    const ContactEntry<Dim>& entry) const;
+  void end_bridges(const State<Dim>& state, double dt);
+  void bridge(State<Dim>& state, double dt, const ContactNode<Dim>& node);
+  Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
   struct Total {
     double mass = 0;
@@ -176,11 +188,13 @@ class Contact {
   bool first_correction_stays_;  ///< particles keep the impulse of the first correction: it is booked too
   double first_share_;           ///< of the first correction's impulse: a force of the second too
   bool geometry_;                ///< some law asks for normals and separations
+  bool bridges_;                 ///< some law joins surfaces by springs
   bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;  ///< of the entries
-  std::vector<Together> together_;   ///< of each thread
-  std::vector<Memory> memory_;       ///< of the last step, in order of the keys
+  std::vector<std::uint64_t> keys_;        ///< of the entries
+  std::vector<Together> together_;         ///< of each thread
+  std::vector<Memory> memory_;             ///< of the last step, in order of the keys
+  std::vector<Bridge<Dim>> last_bridges_;  ///< likewise
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

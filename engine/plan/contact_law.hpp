@@ -2,14 +2,42 @@
 
 /// @file The contact laws of a scene, and what they ask for.
 
+#include <algorithm>
+#include <variant>
+
 #include "engine/scene/scene.hpp"
 #include "kernels/contact/laws.hpp"
 
 namespace mpmfast {
 
+/// Springs of an interface that are stiffer than so many times the stiffest body's modulus over a cell: one
+/// is taken to be no stiffer than the first, and gives way by a hundredth of what a cell does; surfaces of
+/// which all are stiffer than the second are tied. (Springs that are 500 times as stiff where surfaces press,
+/// and none where they part, make energy.)
+inline constexpr double kStiffest = 100, kTied = 1000;
+
+/// The largest modulus of longitudinal waves in the bodies of a scene, at rest, Pa.
+inline double stiffest_modulus(const Scene& scene) {
+  double modulus = 0;
+  for (const BodySpec& body : scene.bodies)
+    if (!is_rigid(scene, body))
+      modulus = std::max(modulus, std::visit([](const auto& law) { return law.modulus(); },
+                                             scene.materials[static_cast<std::size_t>(body.material)].model));
+  return modulus;
+}
+
 /// The law on a grid.
-inline AnyLaw law_on(const SurfaceLaw& surface, double cell) {
+inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
+  const double cell = scene.grid.cell;
   AnyLaw law = surface.acts;
+  if (auto* springs = std::get_if<Interface>(&law)) {
+    const double unit = stiffest_modulus(scene) / cell;
+    springs->compression_stiffness = springs->pressed_stiffness();
+    const auto all = {&springs->normal_stiffness, &springs->shear_stiffness, &springs->compression_stiffness};
+    if (std::all_of(all.begin(), all.end(), [&](const double* one) { return *one >= kTied * unit; }))
+      return Perfect{};
+    for (double* one : all) *one = std::min(*one, kStiffest * unit);
+  }
   std::visit(
       [&](auto& one) {
         if constexpr (requires { one.set_cell(cell); }) one.set_cell(cell);
@@ -20,10 +48,10 @@ inline AnyLaw law_on(const SurfaceLaw& surface, double cell) {
 
 /// Does any pair of the scene obey a law for which this holds?
 template <class F>
-bool any_law(const ContactSpec& contact, F holds) {
-  const auto of = [&](const SurfaceLaw& law) { return std::visit(holds, law.acts); };
-  if (of(contact.law)) return true;
-  for (const ContactPair& pair : contact.pairs)
+bool any_law(const Scene& scene, F holds) {
+  const auto of = [&](const SurfaceLaw& law) { return std::visit(holds, law_on(law, scene)); };
+  if (of(scene.contact.law)) return true;
+  for (const ContactPair& pair : scene.contact.pairs)
     if (of(pair.law)) return true;
   return false;
 }

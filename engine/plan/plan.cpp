@@ -91,9 +91,18 @@ void plan_contact_columns(const ContactSpec& contact, Plan& plan) {
 void plan_areas(const Scene& scene, Plan& plan) {
   if (!plan.contact) return;
   const auto need = [&](Nodal q) { need_column(q, plan); };
-  if (any_law(scene.contact, [](const auto& law) { return law.uses_area; }))
+  if (any_law(scene, [](const auto& law) { return law.uses_area; }))
     need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
   if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
+  if (!plan.bridges) return;
+  need(Nodal::volume_gradient);
+  need(Nodal::mass_offset);
+  need(Nodal::mass_slope);
+  if (scene.contact.separation != SeparationKind::displacement)
+    plan.particle_columns.push_back(Quantity::reference_position);
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const BodySpec& body) { return body.seeding.turned(); }))
+    plan.particle_columns.push_back(Quantity::initial_deformation);
 }
 
 void plan_columns(const Scene& scene, Plan& plan) {
@@ -123,7 +132,8 @@ std::string geometry_pass(const Plan& plan) {
   for (const auto& [quantity, name] : {std::pair{Nodal::volume, "volumes"},
                                        {Nodal::volume_gradient, "volume gradients"},
                                        {Nodal::mass_position, "mean positions"},
-                                       {Nodal::mass_displacement, "mean displacements"}})
+                                       {Nodal::mass_displacement, "mean displacements"},
+                                       {Nodal::mass_slope, "displacements with their slopes"}})
     if (has(quantity)) what += (what.empty() ? "project " : ", ") + std::string(name);
   return what;
 }
@@ -185,11 +195,13 @@ Plan make_plan(const Scene& scene) {
   // Rigid bodies move the others even where these share one field.
   const auto acts = [](const auto& law) { return law.scope != LawScope::nowhere; };
   const auto ties = [](const auto& law) { return law.scope == LawScope::everywhere; };
-  const bool meets = plan.fields.size() > 1 && any_law(scene.contact, acts);
+  const bool meets = plan.fields.size() > 1 && any_law(scene, acts);
   plan.penalty = meets && scene.contact.family == ContactFamily::penalty;
   plan.contact = meets && !plan.penalty;
-  plan.contact_geometry = any_law(scene.contact, [&](const auto& law) { return acts(law) && !ties(law); });
-  plan.exact_fields = any_law(scene.contact, ties);
+  plan.contact_geometry = any_law(scene, [&](const auto& law) { return acts(law) && !ties(law); });
+  const auto bridges = [](const auto& law) { return law.scope == LawScope::bridged; };
+  plan.bridges = plan.contact && any_law(scene, bridges);
+  plan.exact_fields = plan.bridges || any_law(scene, ties);
   plan.first_correction = scene.contact.corrections == 2;
   plan.one_set = plan.re_extrapolate && scene.contact.decides_once();
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&

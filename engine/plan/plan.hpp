@@ -36,6 +36,7 @@ struct Plan {
   bool first_correction = true;   ///< contact is corrected before the strain too, not only after the momenta
   bool one_set = false;           ///< which pairs touch is decided once a step, for both corrections and v′
   bool contact_geometry = false;  ///< some law asks for normals and separations
+  bool bridges = false;           ///< some pair is joined by springs
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected
   bool gravity = false;           ///< or an acceleration of some body

@@ -241,6 +241,10 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     }
     if (!surfaces.empty()) p += static_cast<std::size_t>(state.surfaces.bodies[b].count);
   }
+  if (particles.has(Quantity::initial_deformation))
+    for (int e = 0; e < Dim * Dim; ++e)
+      std::copy_n(particles.column(Quantity::deformation_gradient, e), particles.size(),
+                  particles.column(Quantity::initial_deformation, e));
   start_history(state);
   refresh_stress(state);
 }

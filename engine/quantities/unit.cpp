@@ -58,6 +58,7 @@ const QuantityKind kKinds[] = {
     {"a temperature", "K", "K", kTemperature},
     {"a heat capacity", "J/kg/K", "J/kg/K", {2, 0, -2, 0, -1}},
     {"a rate", "s^-1, us^-1", "s^-1", {0, 0, -1}},
+    {"a stiffness of an interface", "Pa/m, MPa/mm, GPa/m", "Pa/m", {-2, 1, -2, 0}},
 };
 
 /// Words and symbols that people use for units, and what stands for them here.

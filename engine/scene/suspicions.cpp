@@ -39,6 +39,9 @@ class Suspicions {
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
     falls();
+    springs(scene_.contact.law, "contact");
+    for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
+      springs(scene_.contact.pairs[k].law, fmt::format("contact.pairs.{}", k));
     if (scene_.contact.family == ContactFamily::penalty && !scene_.method.extended)
       say("contact.family", "penalty forces throw nodes at surfaces that have hardly any mass",
           "method: {basis: bspline2, extension: {occupation: 0.75}}");
@@ -222,6 +225,29 @@ class Suspicions {
     if (coefficient > kMostFriction)
       say(path, fmt::format("{:g} is a lot of friction (steel on steel: 0.1 to 0.8)", coefficient),
           "Is it an angle, or percent?");
+  }
+
+  /// NN Eq. 5.36: Δt = C h/c < h √(ρ/(2 D h)), with the least ρ c² of the bodies.
+  void springs(const SurfaceLaw& law, const std::string& path) {
+    const auto* springs = std::get_if<Interface>(&law.acts);
+    if (!springs) return;
+    double modulus = 0;
+    for (const BodySpec& body : scene_.bodies) {
+      if (is_rigid(scene_, body)) continue;
+      const auto m = static_cast<std::size_t>(body.material);
+      const double own = density_of(scene_.materials[m]) * speed_[m] * speed_[m];
+      modulus = modulus > 0 ? std::min(modulus, own) : own;
+    }
+    const double most = modulus / (2 * scene_.time.cfl * scene_.time.cfl * scene_.grid.cell);
+    for (const auto& [key, stiffness] : {std::pair{"normal_stiffness", springs->normal_stiffness},
+                                         {"shear_stiffness", springs->shear_stiffness},
+                                         {"compression_stiffness", springs->compression_stiffness}})
+      if (stiffness > most)
+        say(path + "." + key,
+            fmt::format("{:.3g} Pa/m swings faster than steps follow: right at rest, but too slow for waves",
+                        stiffness),
+            fmt::format("Up to {:.3g} Pa/m; time.cfl {:.2g}, or smaller cells, would follow this one", most,
+                        scene_.time.cfl * std::sqrt(most / stiffness)));
   }
 
   const Node& root_;

@@ -28,14 +28,19 @@ enum class Nodal {
   volume,             ///< Σ S_pi V_p
   mass_displacement,  ///< Σ S_pi M_p (X_p − X_p0)
   occupied,           ///< volume of the particles whose supports begin here: in one cell of a spline
+  /// Displacements extrapolated along their slopes H_p = I − F_p⁻¹: Σ S_pi M_p (X_p − X_p0 − H_p X_p), X_p
+  /// from the grid's origin, and Σ S_pi M_p H_p (entries of H row by row)
+  mass_offset,
+  mass_slope,
 };
-inline constexpr int kNodalQuantities = 14;
+inline constexpr int kNodalQuantities = 16;
 
 struct NodalInfo {
   Nodal quantity;
   std::string_view name;
   bool vector, paired;  ///< paired: room for a second vector (v* and Δv*)
   std::string_view reason;
+  bool matrix = false;
 };
 
 inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
@@ -53,6 +58,8 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::volume, "volume", false, false, "normals, screening and contact areas by volume"},
     {Nodal::mass_displacement, "mass_displacement", true, false, "separation by displacement"},
     {Nodal::occupied, "occupied", false, false, "extended splines"},
+    {Nodal::mass_offset, "mass_offset", true, false, "displacements of interfaces"},
+    {Nodal::mass_slope, "mass_slope", true, false, "displacements of interfaces", true},
 }};
 
 /// Columns over all slots of all velocity fields.
@@ -61,7 +68,7 @@ class Nodes {
  public:
   static constexpr int components(Nodal q) {
     const auto& info = kNodalTable[static_cast<std::size_t>(q)];
-    return !info.vector ? 1 : info.paired ? 2 * Dim : Dim;
+    return !info.vector ? 1 : info.matrix ? Dim * Dim : info.paired ? 2 * Dim : Dim;
   }
 
   /// Chooses the columns. @param paired whether v* and Δv* are both carried

@@ -31,9 +31,10 @@ enum class Quantity {
   plastic_strain,
   temperature,
   elastic_strain,
-  out_of_plane_stretch
+  out_of_plane_stretch,
+  initial_deformation
 };
-inline constexpr int kQuantities = 16;
+inline constexpr int kQuantities = 17;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -64,6 +65,8 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
      "plastic flow (elastic B, of metals isochoric; xx yy zz xy yz xz)"},
     {Quantity::out_of_plane_stretch, "out_of_plane_stretch", "-", 1, 1,
      "plane stress, axisymmetry (F_zz; about the axis that of the hoop)"},
+    {Quantity::initial_deformation, "initial_deformation", "-", 4, 9,
+     "displacements where domains lie at an angle at the start (row-major F)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).

@@ -90,6 +90,13 @@ class BasisPasses final : public Passes<Dim> {
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
       project_geometry_tile<Dim, Basis>(c, room.project, out);
     });
+    if (!nodes.has(Nodal::mass_slope)) return;
+    NodeColumns<Dim + Dim * Dim> displaced;
+    for (int k = 0; k < Dim; ++k) displaced.column[k] = nodes.column(Nodal::mass_offset, k);
+    for (int k = 0; k < Dim * Dim; ++k) displaced.column[Dim + k] = nodes.column(Nodal::mass_slope, k);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+      project_displaced_tile<Dim, Basis>(c, room.project, displaced);
+    });
   }
 
   void occupy(State<Dim>& state) override {

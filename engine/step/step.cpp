@@ -174,8 +174,9 @@ void Step<Dim>::project() {
         };
         for (Nodal q : {Nodal::mass, Nodal::volume, Nodal::occupied}) clear(q, 1);
         for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::volume_gradient, Nodal::mass_position,
-                        Nodal::mass_displacement})
+                        Nodal::mass_displacement, Nodal::mass_offset})
           clear(q, Dim);
+        clear(Nodal::mass_slope, Dim * Dim);
         if (plan_.paired)
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
       });
@@ -424,7 +425,8 @@ void Step<Dim>::book(const ContactBooks<Dim>& books) {
 
 template <int Dim>
 double Step<Dim>::stored_energy() {
-  return mpmfast::stored_energy(state_) + (state_.step > 0 ? penalty_.stored_energy(state_) : 0);
+  return mpmfast::stored_energy(state_) + contact_.books().stored +
+         (state_.step > 0 ? penalty_.stored_energy(state_) : 0);
 }
 
 template <int Dim>

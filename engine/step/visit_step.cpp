@@ -51,6 +51,7 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
+  archive.number("contact/stored", books_.stored);
   archive.list("contact/keys", keys_);
   list_.entries.resize(keys_.size());
   std::vector<std::uint8_t> touching(keys_.size());
@@ -64,6 +65,19 @@ void Contact<Dim>::visit(Archive& archive) {
     touch = static_cast<std::uint8_t>(entry.touching | entry.stuck << 1);
     std::copy(entry.plane, entry.plane + Dim + 1, plane);
   });
+  std::vector<double> jumps(bridges_ ? Dim * keys_.size() : 0);
+  std::vector<std::uint8_t> known(bridges_ ? keys_.size() : 0);
+  if (bridges_) list_.bridges.resize(keys_.size());
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    known[k] = list_.bridges[k].known;
+    for (std::size_t d = 0; d < Dim; ++d) jumps[Dim * k + d] = list_.bridges[k].jump[static_cast<int>(d)];
+  }
+  archive.column("contact/jumps", jumps.data(), jumps.size());
+  archive.column("contact/known_jumps", known.data(), known.size());
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    list_.bridges[k].known = known[k] != 0;
+    for (std::size_t d = 0; d < Dim; ++d) list_.bridges[k].jump[static_cast<int>(d)] = jumps[Dim * k + d];
+  }
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());
   archive.column("contact/planes", planes.data(), planes.size());

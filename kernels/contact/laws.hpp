@@ -17,8 +17,8 @@
 namespace mpmfast {
 
 /// Where a law acts: on touching and approaching surfaces, also on such as are bonded, on every node that two
-/// fields share, or nowhere.
-enum class LawScope { contact, bonded, everywhere, nowhere };
+/// fields share, by springs there on what their displacements differ by, or nowhere.
+enum class LawScope { contact, bonded, everywhere, bridged, nowhere };
 
 /// What a law is asked of a node.
 struct Sliding {
@@ -184,8 +184,32 @@ struct Viscous {
   }
 };
 
+/// Surfaces joined by springs, on the jump of their displacements (NN §5.3, 5.5): traction D_n δ_n along the
+/// normal, of another stiffness where they overlap, D_t δ_t along the surface. See interface.hpp.
+struct Interface {
+  static constexpr const char *kWord = "interface",
+                              *kSays = "joined by springs: traction = stiffness × displacement jump";
+  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr bool uses_area = true;
+  double normal_stiffness = 0, shear_stiffness = 0, compression_stiffness = 0;  ///< Pa/m
+
+  template <class Keys>
+  void describe(Keys& map) {
+    constexpr Number kStiffness{Measure::interface_stiffness, kNotNegative};
+    map.need("normal_stiffness", "Traction by opening; 0: nothing holds surfaces that part.",
+             normal_stiffness, kStiffness);
+    map.need("shear_stiffness", "Traction by slip; 0: they slide freely.", shear_stiffness, kStiffness);
+    map.key("compression_stiffness", "The same where they overlap; 0: as `normal_stiffness`.",
+            compression_stiffness, kStiffness);
+  }
+  double pressed_stiffness() const {
+    return compression_stiffness > 0 ? compression_stiffness : normal_stiffness;
+  }
+  double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
+};
+
 /// In the order in which they are listed.
-using AnyLaw =
-    std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction, Viscous>;
+using AnyLaw = std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction,
+                            Viscous, Interface>;
 
 }  // namespace mpmfast

@@ -19,6 +19,24 @@ inline V determinant(const V (&f)[Dim * Dim]) {
   }
 }
 
+/// A matrix row by row and its inverse; it must have one.
+template <int Dim, class V>
+inline void invert(const V (&f)[Dim * Dim], V (&inverse)[Dim * Dim]) {
+  const V scale = 1.0 / determinant<Dim>(f);
+  if constexpr (Dim == 2) {
+    inverse[0] = scale * f[3];
+    inverse[1] = -scale * f[1];
+    inverse[2] = -scale * f[2];
+    inverse[3] = scale * f[0];
+  } else {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {  // the cofactor of (j, i); indices go round, which has its sign
+        const int r = (j + 1) % 3, s = (j + 2) % 3, c = (i + 1) % 3, d = (i + 2) % 3;
+        inverse[3 * i + j] = scale * (f[3 * r + c] * f[3 * s + d] - f[3 * r + d] * f[3 * s + c]);
+      }
+  }
+}
+
 /// B = F Fᵀ.
 template <int Dim, class V>
 inline void left_cauchy_green(const V (&f)[Dim * Dim], V (&b)[kSymmetric<Dim>]) {

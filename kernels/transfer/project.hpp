@@ -3,6 +3,8 @@
 /// @file Particles to nodes: mass, momentum and internal force, and what grid-based contact asks for beside
 /// them.
 
+#include <cstring>
+
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/transfer/stress.hpp"
 #include "kernels/transfer/sums.hpp"
@@ -24,6 +26,7 @@ struct ProjectRoom {
   LoadWindow load;
   Window<Dim, Dim> gradient_volume, mass_position, mass_displacement;
   Window<Dim, 1> volume;
+  Window<Dim, Dim + Dim * Dim> displaced;
   Window<Dim, 2 * Dim> given;  ///< what boundary points give to the grid
   Record record[kChunk<Dim>];
   // Entries that are never set stay zero: those of the other half of a wide record.
@@ -146,6 +149,55 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
   flush(room.mass_position, out.mass_position);
   flush(room.mass_displacement, out.mass_displacement);
   flush(room.volume, out.volume);
+}
+
+/// Displacements for interfaces, exact at a node where they are linear, on whichever side of it the particles
+/// lie: Σ S_pi M_p (u_p + H_p (x_i − X_p)), H = ∂u/∂x = I − F₀F⁻¹, as the part that is not of x_i and the sum
+/// of M_p H_p. (Means alone, Σ S_pi M_p u_p, are those of the places where the particles lie: the jump
+/// between two bodies that are strained by ε then errs by ε times what these places differ by.)
+/// @param out  Nodal::mass_offset, mass_slope; accumulated
+template <int Dim, class Basis>
+void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+                            const NodeColumns<Dim + Dim * Dim>& out) {
+  using Node = typename Window<Dim, Dim + Dim * Dim>::Node;
+  auto& window = room.displaced;
+  const ParticleView<Dim>& p = *c.particles;
+  const bool turned = p.initial_deformation[0];
+  clear(window);
+  for_each_chunk<Dim, Basis>(
+      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        for (int k = 0; k < count; ++k) {
+          const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
+          double f[Dim * Dim], inverse[Dim * Dim], back[Dim * Dim];  // ∂X/∂x = F₀ F⁻¹
+          for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
+          invert<Dim>(f, inverse);
+          for (int i = 0; i < Dim; ++i)
+            for (int j = 0; j < Dim; ++j) {
+              back[i * Dim + j] = turned ? 0 : inverse[i * Dim + j];
+              for (int l = 0; turned && l < Dim; ++l)
+                back[i * Dim + j] += p.initial_deformation[i * Dim + l][q] * inverse[l * Dim + j];
+            }
+          alignas(Node) Real entries[window.kRecords * window.kPerNode] = {};
+          const auto set = [&](int entry, double value) {
+            entries[entry] = static_cast<Real>(p.mass[q] * value);
+          };
+          for (int d = 0; d < Dim; ++d) {
+            double offset = p.position[d][q] - p.reference_position[d][q];
+            for (int j = 0; j < Dim; ++j) {
+              const double slope = (d == j) - back[d * Dim + j];
+              offset -= slope * (p.position[j][q] - c.grid->origin[j]);
+              set(Dim + d * Dim + j, slope);
+            }
+            set(d, offset);
+          }
+          for (int r = 0; r < window.kRecords; ++r) {
+            Node record;
+            std::memcpy(&record, entries + r * window.kPerNode, sizeof record);
+            scatter_values(w, k, record, window.at[r]);
+          }
+        }
+      });
+  flush_window(window, c.tile->slot, out);
 }
 
 /// The volume of the particles of each cell of the basis, at the first node of their supports: what share of

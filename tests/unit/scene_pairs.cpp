@@ -57,6 +57,14 @@ TEST_CASE("faults of laws and pairs are found where they stand") {
   CHECK(holds(contact("{law: viscous, film: 1 mm, viscosity: 1 Pa}"), "'Pa' is a pressure"));
   CHECK(holds(contact("{friction: 0.4, static_friction: 0.3}"), "static friction 0.3 is less than"));
   CHECK(holds(contact("{law: adhesion, normal_strength: 0 Pa, shear_strength: 1 Pa}"), "must be positive"));
+  CHECK(holds(contact("{law: interface, normal_stiffness: 1 MPa/mm}"),
+              "contact.shear_stiffness: missing (a stiffness of an interface: Pa/m, MPa/mm, GPa/m)"));
+  CHECK(
+      holds(contact("{law: interface, normal_stiffness: 1 MPa, shear_stiffness: 0}"), "'MPa' is a pressure"));
+  CHECK(holds(contact("{law: interface, normal_stiffness: 1, shear_stiffness: 1, fields: lump}"),
+              "interfaces join bodies in pairs"));
+  CHECK(holds(contact("{family: penalty, law: interface, normal_stiffness: 1, shear_stiffness: 1}"),
+              "penalty contact only pushes"));
   CHECK(holds(contact("{corrections: 3}"), "not a whole number from 1 to 2"));
   CHECK(holds(contact("{fields: pairs, normal: average_gradient}"), "explicit pairs are found from"));
   const auto pair = [&](const std::string& text) { return contact("{pairs: [" + text + "]}"); };
@@ -102,7 +110,7 @@ TEST_CASE("a condition on a node stands at the nearest node of the grid") {
 
 TEST_CASE("every law and choice of contact is listed with its keys") {
   const auto laws = catalogue("laws");
-  REQUIRE(laws.size() == 8);
+  REQUIRE(laws.size() == 9);
   CHECK(laws[0].keys == "friction = 0, static_friction = 0");
   CHECK(laws[7].keys == "viscosity, film");
   CHECK(catalogue("areas").size() == 2);

@@ -64,6 +64,7 @@ std::vector<std::string> small_scenes() {
   };
   const std::string plain = material("model: rigid"),
                     bond = "law: adhesion, normal_strength: 1, shear_strength: 1",
+                    joint = "law: interface, normal_stiffness: 1, shear_stiffness: 1",
                     two = replaced(plain, "material: b}\n",
                                    "material: b}\n  - {name: two, material: b, box: {from: [6 mm, 1 mm], "
                                    "to: [9 mm, 4 mm]}}\n");
@@ -79,6 +80,8 @@ std::vector<std::string> small_scenes() {
           replaced(plain, "method: {}", "method: {basis: bspline2, extension: {}}"),
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
+          plain + "contact: {" + joint + "}\n",
+          two + "contact: {pairs: [{between: [one, two], " + joint + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
           two + "contact: {family: penalty}\n",
           solid("ellipse: {centre: [5 mm, 5 mm], radii: [2 mm, 3 mm]}", "plane_strain"),

@@ -266,6 +266,23 @@ bodies:
   check_goes_on<3>(spheres + "method: {basis: bspline2, update: apic}\n", 7, 12);
 }
 
+TEST_CASE("interfaces go on to the bit on any number of threads, with the energy of their springs") {
+  const std::string springs =
+      "contact: {law: interface, normal_stiffness: 2 GPa/mm, compression_stiffness: 9 GPa/mm, "
+      "shear_stiffness: 1 GPa/mm}\n";
+  check_goes_on<2>(kPlane + springs, 12, 24);
+  check_goes_on<3>(R"(
+space: 3d
+grid: {size: [8 mm, 8 mm, 8 mm], cell: 0.8 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [1 mm, 1 mm, 1 mm], to: [6 mm, 6 mm, 3.5 mm]}, material: soft, velocity: [0 m/s, 0 m/s, -3 m/s]}
+  - {name: b, box: {from: [1 mm, 1 mm, 3.5 mm], to: [6 mm, 6 mm, 6 mm]}, material: soft, velocity: [4 m/s, 0 m/s, 0 m/s]}
+)" + springs,
+                   7, 12);
+}
+
 /// With enough particles for several threads, and facets for each of them.
 TEST_CASE("surfaces that rub go on to the bit in three dimensions, on any number of threads") {
   check_goes_on<3>(R"(

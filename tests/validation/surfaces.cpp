@@ -194,41 +194,67 @@ TEST_CASE("a shock passes a tie of surfaces between walls, and arrives when it s
   CHECK(std::abs(out.summary.energy_error) < 0.02);
 }
 
-/// K24 Eq. 45: of the stress across the plane at boundary points within Hertz's half-width, over its largest.
-double pressure_error(const char* cell) {
-  const Scene scene =
-      scene_file("hertz_plane.yaml", {{"grid.cell", cell}, {"output.frames", "0"}, {"output.history", "1"}});
+/// K24 Eq. 45: of the stress across the plane at boundary points within Hertz's half-width, over its largest;
+/// of the means over the last two fifths of the ramp, by place in the half-width. The load swings by one or
+/// two percent about that of the ramp: at one moment, the error is that of the moment (0.1 mm: 2.4 to 4.8 %).
+double pressure_error(const char* cell, const char* extension) {
+  const Scene scene = scene_file("hertz_plane.yaml", {{"grid.cell", cell},
+                                                      {"method.extension", extension},
+                                                      {"output.frames", "0"},
+                                                      {"output.history", "1"}});
   Step<2> step(scene);
   const double first = step.stable_dt();
-  while (step.state().time < scene.time.end * (1 - 1e-9))
-    step.advance(step.dt_towards(scene.time.end, first));
-  step.find_stresses();
-  const double force = 156.7e3, half_width = std::sqrt(4 * force * 8e-3 / (std::numbers::pi * 10e9)),
-               largest = 2 * force / (std::numbers::pi * half_width);
-  const auto& state = step.state();
-  double sum = 0;
-  int points = 0;
-  for (std::size_t p = 0; p < state.particles.size(); ++p) {
-    const Vec<2> x = state.particles.vector(Quantity::position, p);
-    const double s = (x[0] - 8.4e-3) / half_width;
-    const int body = state.particles.body()[p];
-    if (body != 1 || x[1] > 2e-3 || std::abs(s) > 1 || !state.surfaces.holds(body, state.particles.id()[p]))
-      continue;
-    const double stress =
-        state.particles.column(Quantity::kirchhoff_stress, 1)[p] / state.particles.volume_ratio(p);
-    const double error = stress + largest * std::sqrt(1 - s * s);
-    sum += error * error;
-    ++points;
+  constexpr std::size_t kPlaces = 24;
+  std::array<double, kPlaces> sum{};
+  std::array<int, kPlaces> count{};
+  while (step.state().time < scene.time.end * (1 - 1e-9)) {
+    const bool due = step.state().step % 20 == 0;
+    step.advance(step.dt_towards(scene.time.end, first), due);
+    const auto& state = step.state();
+    if (!due || state.time < 0.6 * scene.time.end) continue;
+    const double force = 156.7e3 * state.time / scene.time.end,
+                 half_width = std::sqrt(4 * force * 8e-3 / (std::numbers::pi * 10e9)),
+                 largest = 2 * force / (std::numbers::pi * half_width);
+    for (std::size_t p = 0; p < state.particles.size(); ++p) {
+      const Vec<2> x = state.particles.vector(Quantity::position, p);
+      const double s = (x[0] - 8.4e-3) / half_width;
+      const int body = state.particles.body()[p];
+      if (body != 1 || x[1] > 2e-3 || std::abs(s) >= 1 ||
+          !state.surfaces.holds(body, state.particles.id()[p]))
+        continue;
+      const double stress =
+          state.particles.column(Quantity::kirchhoff_stress, 1)[p] / state.particles.volume_ratio(p);
+      const auto place = static_cast<std::size_t>(0.5 * (s + 1) * kPlaces);
+      sum[place] += stress / largest + std::sqrt(1 - s * s);
+      ++count[place];
+    }
   }
-  REQUIRE(points > 8);
-  return std::sqrt(sum / points) / largest;
+  double squares = 0;
+  int places = 0;
+  for (std::size_t k = 0; k < kPlaces; ++k)
+    if (count[k] > 0) {
+      squares += sum[k] / count[k] * sum[k] / count[k];
+      ++places;
+    }
+  REQUIRE(places > 8);
+  return std::sqrt(squares / places);
 }
 
 TEST_CASE("slow: the pressure of half a disk on a plane comes to Hertz's with the cells") {
-  const double coarse = pressure_error("0.2 mm"), fine = pressure_error("0.1 mm");
-  CHECK(coarse < 0.055);  // measured 0.046 and 0.024
-  CHECK(fine < 0.03);
-  CHECK(fine < 0.6 * coarse);
+  const char* extended = "{occupation: 0.75}";
+  const double coarse = pressure_error("0.2 mm", extended), fine = pressure_error("0.1 mm", extended);
+  MESSAGE("extended: ", coarse, ", ", fine);
+  const double plain_coarse = pressure_error("0.2 mm", "none"), plain_fine = pressure_error("0.1 mm", "none");
+  MESSAGE("plain: ", plain_coarse, ", ", plain_fine);
+  CHECK(coarse < 0.06);
+  CHECK(fine < 0.04);
+  CHECK(fine < 0.75 * coarse);
+}
+
+TEST_CASE("slow: with eight cells to the half-width the pressure of half a disk is Hertz's within 2 %") {
+  const double finest = pressure_error("0.05 mm", "{occupation: 0.75}");
+  MESSAGE("extended: ", finest);
+  CHECK(finest < 0.02);
 }
 
 /// When the speed of a body comes to a tenth of the striker's, s.

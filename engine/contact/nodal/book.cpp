@@ -124,12 +124,19 @@ void Contact<Dim>::book_friction(const State<Dim>& state) {
     }
 }
 
+/// Δp_a that the particles keep: of contact and of springs.
+template <int Dim>
+Vec<Dim> Contact<Dim>::kept_of(const ContactEntry<Dim>& entry) const {
+  const Vec<Dim> kept = entry.impulse + entry.passed;
+  return bridges_ ? Vec<Dim>(kept + bridge_of(entry).impulse) : kept;
+}
+
 template <int Dim>
 void Contact<Dim>::book_rigid(const State<Dim>& state, const ContactNode<Dim>& node,
                               const ContactEntry<Dim>& entry) {
   const auto [field, slot] = list_.fields[static_cast<std::size_t>(node.field_begin + node.rigid)];
   const auto f = static_cast<std::size_t>(field);
-  const Vec<Dim> kept = entry.impulse + entry.passed;
+  const Vec<Dim> kept = kept_of(entry);
   books_.rigid_impulse[f] -= kept;
   books_.rigid_work +=
       kept.dot(state.nodes.vector(Nodal::momentum, slot)) / state.nodes.column(Nodal::mass)[slot];
@@ -165,7 +172,7 @@ void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& no
   if (pair < 0) return;
   const auto k = static_cast<std::size_t>(pair);
   const bool forward = pairs_.forward[place_of_pair(state, node, entry)];
-  books_.pair_impulse[k] += (forward ? share : -share) * (entry.impulse + entry.passed);
+  books_.pair_impulse[k] += (forward ? share : -share) * kept_of(entry);
 }
 
 // Here: the members that this file defines.

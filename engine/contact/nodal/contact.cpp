@@ -134,6 +134,10 @@ void Contact<Dim>::remember() {
 template <int Dim>
 void Contact<Dim>::recall(const State<Dim>& state) {
   keys_.clear();
+  if (bridges_) {
+    last_bridges_.swap(list_.bridges);
+    list_.bridges.assign(list_.entries.size(), {});
+  }
   const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
   auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (const auto& node : list_.nodes)
@@ -144,6 +148,12 @@ void Contact<Dim>::recall(const State<Dim>& state) {
       keys_.push_back(key);
       while (last != memory_.end() && last->key < key) ++last;
       if (last == memory_.end() || last->key != key) continue;
+      if (bridges_) {
+        const Bridge<Dim>& before = last_bridges_[static_cast<std::size_t>(last - memory_.begin())];
+        auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+        bridge.jump = before.jump;
+        bridge.known = before.known;
+      }
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;
       entry.spring_before = last->spring;

@@ -44,6 +44,25 @@ struct ContactEntry {
   Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a that the second counts as a force, beside its own
 };
 
+/// What springs do at an entry whose law joins surfaces by them.
+template <int Dim>
+struct Bridge {
+  Vec<Dim> jump = Vec<Dim>::Zero();  ///< u_b − u_a at the start of the step, at its end when that is done, m
+  bool known = false;                ///< the jump is that of the last step's end
+  Vec<Dim> told = Vec<Dim>::Zero();    ///< what the displacements say of it, in the middle of the step, m
+  Vec<Dim> rate = Vec<Dim>::Zero();    ///< v_b − v_a at the start, m/s
+  double own_area = 0, mean_area = 0;  ///< of the surface at the node: the lighter side's, the mean, m²
+  double tension = 0, compression = 0, shear = 0;  ///< of the springs there, N/m
+  Vec<Dim> impulse = Vec<Dim>::Zero();             ///< Δp_a, N s
+};
+
+/// Of an interface on the nodes around one: sums of the areas, m², and the mean of `told`, m.
+template <int Dim>
+struct BridgesAround {
+  Vec<Dim> told = Vec<Dim>::Zero();
+  double own_area = 0, mean_area = 0;
+};
+
 template <int Dim>
 struct ContactNode {
   int stack, local;
@@ -73,7 +92,8 @@ struct ContactList {
   std::vector<ContactNode<Dim>> nodes;
   std::vector<ContactField> fields;
   std::vector<ContactEntry<Dim>> entries;
-  std::vector<int> node_at;  ///< [stack · kTileNodes + local] → contact node or −1
+  std::vector<Bridge<Dim>> bridges;  ///< as `entries`; none where no law has springs
+  std::vector<int> node_at;          ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };
 

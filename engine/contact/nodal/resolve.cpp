@@ -50,10 +50,11 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
       geometry_(plan.contact_geometry),
+      bridges_(plan.bridges),
       exact_fields_(plan.exact_fields) {
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  laws_.push_back(law_on(spec_.law, cell_));
-  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, cell_));
+  laws_.push_back(law_on(spec_.law, scene));
+  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
 }
 
 template <int Dim>
@@ -77,6 +78,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    if (bridges_ && correction == Correction::final) bridge(state, dt, node);
     see_slips(state, correction, node);
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
@@ -95,6 +97,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     apply(state, correction, dt, node);
     settle(state, correction, node);
   }
+  if (bridges_ && correction == (one_set_ ? Correction::strain : Correction::final)) end_bridges(state, dt);
   if (correction == Correction::final) {
     list_.counters.pair_nodes += solved;
     list_.counters.pair_fallbacks += lumped;
@@ -254,7 +257,8 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       using Law = std::decay_t<decltype(law)>;
       const bool in_set = one_set_ && (lasts(entry) || entry.held || entry.touching);
       const bool apart = !(entry.advanced < 0) && !in_set;
-      if (Law::scope == LawScope::contact ? apart : Law::scope == LawScope::nowhere) return;
+      if (Law::scope == LawScope::nowhere || Law::scope == LawScope::bridged) return;
+      if (Law::scope == LawScope::contact && apart) return;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       together.acting.push_back({&entry, area_time});

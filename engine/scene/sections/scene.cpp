@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 
@@ -49,7 +51,10 @@ void check_penalty(const Value& top, const Scene& scene) {
   const Value stated = *top.find("contact")->find("family");
   const auto bonds = [](const SurfaceLaw& law) {
     return std::visit(
-        [](const auto& one) { return one.scope == LawScope::everywhere || one.scope == LawScope::bonded; },
+        [](const auto& one) {
+          return one.scope == LawScope::everywhere || one.scope == LawScope::bonded ||
+                 one.scope == LawScope::bridged;
+        },
         law.acts);
   };
   const auto& pairs = scene.contact.pairs;
@@ -62,10 +67,28 @@ void check_penalty(const Value& top, const Scene& scene) {
     stated.report("penalty contact does not know scenes about an axis yet");
 }
 
+/// Springs join two bodies each, whose displacements tell how far they are apart.
+void check_interfaces(const Value& top, const Scene& scene) {
+  const auto joins = [](const SurfaceLaw& law) { return std::holds_alternative<Interface>(law.acts); };
+  const auto& pairs = scene.contact.pairs;
+  if (!joins(scene.contact.law) &&
+      std::none_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return joins(pair.law); }))
+    return;
+  const Value stated = *top.find("contact");
+  if (scene.contact.fields != ManyFields::simultaneous)
+    stated.report("interfaces join bodies in pairs: fields: simultaneous was expected");
+  for (const BodySpec& body : scene.bodies)
+    if (body.rotation && is_rigid(scene, body))
+      stated.report(fmt::format("interfaces do not know rigid bodies that turn ('{}')", body.name));
+}
+
 /// What follows from several sections.
 void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
-  if (scene.contact.family == ContactFamily::penalty) check_penalty(top, scene);
+  if (scene.contact.family == ContactFamily::penalty)
+    check_penalty(top, scene);
+  else if (scene.contact.active)
+    check_interfaces(top, scene);
   if (scene.method.extended) check_extension(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);

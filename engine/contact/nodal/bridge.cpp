@@ -1,0 +1,195 @@
+/// Interfaces on nodes (NN chapter 5): springs on what the displacements of two fields differ by.
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+
+#include "engine/contact/contact.hpp"
+#include "engine/contact/nodal/smooth_normals.hpp"
+#include "kernels/contact/interface.hpp"
+
+namespace mpmfast {
+
+/// u_b − u_a of two fields at a node, by where their displacements lead to, and turned with the material: δ =
+/// F (X_a − X_b), X the places at the start of what is here now, 1 − F⁻¹ the mean slope of both. (Without F,
+/// an interface that turns with its bodies would be sheared as it opens.)
+template <int Dim>
+Vec<Dim> Contact<Dim>::told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a,
+                                 int slot_b) const {
+  const auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const Vec<Dim> here = node.node.template cast<double>() * state.grid.cell;
+  const auto slopes = [&](int slot) {
+    Mat<Dim> sum;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) sum(i, j) = nodes.column(Nodal::mass_slope, i * Dim + j)[slot];
+    return sum;
+  };
+  const Mat<Dim> slope_a = slopes(slot_a), slope_b = slopes(slot_b);
+  const Vec<Dim> u_a = (nodes.vector(Nodal::mass_offset, slot_a) + slope_a * here) / mass[slot_a],
+                 u_b = (nodes.vector(Nodal::mass_offset, slot_b) + slope_b * here) / mass[slot_b];
+  const Mat<Dim> back = Mat<Dim>::Identity() - (slope_a + slope_b) / (mass[slot_a] + mass[slot_b]);
+  return back.inverse() * (u_b - u_a);
+}
+
+template <int Dim>
+const Interface* Contact<Dim>::springs_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                          const ContactEntry<Dim>& entry) const {
+  return std::get_if<Interface>(&laws_[static_cast<std::size_t>(pair_of(state, node, entry) + 1)]);
+}
+
+/// Jumps, and what surface each node has of an interface.
+template <int Dim>
+void Contact<Dim>::find_bridges(const State<Dim>& state) {
+  if (!bridges_) return;
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (!springs_of(state, node, entry) || entry.normal.isZero(0)) continue;
+      const int slot_a = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot,
+                slot_b =
+                    list_.fields[static_cast<std::size_t>(node.field_begin + partner(state, node, entry))]
+                        .slot;
+      bridge.told = told_jump(state, node, slot_a, slot_b);
+      const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
+                   b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
+      const double* mass = state.nodes.column(Nodal::mass);
+      const double m_a = mass[slot_a], m_b = mass[slot_b];
+      bridge.own_area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+      bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
+    }
+  }
+}
+
+/// The impulses of the springs of a node in one step, as forces on its fields.
+///
+/// Velocities bring the jump from step to step: then springs and what strains the bodies are of one kind, and
+/// no stiffness is too much. (Displacements of particles follow nodes through S and come back through S⁺, and
+/// led along their slopes more than whole: springs on these alone make energy from D h = 0.15 ρ c² on.) What
+/// they tell takes the place of it as the bodies move through the cells: as a mean over the nodes around,
+/// which has nothing rough to grow. Positions are half a step ahead of strains: particles move with v′ Δt,
+/// which F follows by halves (theory, "The energy of a contact").
+template <int Dim>
+void Contact<Dim>::bridge(State<Dim>& state, double dt, const ContactNode<Dim>& node) {
+  auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto field = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+    const auto* springs = springs_of(state, node, entry);
+    if (!springs || entry.normal.isZero(0)) continue;
+    const int other = partner(state, node, entry);
+    const int a = field(entry.a).slot, b = field(other).slot;
+    const double inverse_b = other == node.rigid ? 0 : 1 / mass[b];
+    const double reduced = 1 / (1 / mass[a] + inverse_b);
+    const Vec<Dim> pulls =
+        nodes.vector(Nodal::force, b) * inverse_b - nodes.vector(Nodal::force, a) / mass[a];
+    const Vec<Dim> momentum = nodes.vector(Nodal::momentum, a) + nodes.vector(Nodal::momentum, b);
+    const Vec<Dim> unheld =
+        nodes.vector(Nodal::momentum, b) / mass[b] - nodes.vector(Nodal::momentum, a) / mass[a];
+    bridge.rate = unheld - dt * pulls;
+    const BridgesAround<Dim> around = bridges_around(state, node, entry);
+    const Vec<Dim> told = around.told - 0.5 * dt * bridge.rate;
+    const double moved = momentum.norm() / (mass[a] + mass[b]) * dt / cell_;
+    bridge.jump = bridge.known ? Vec<Dim>(bridge.jump + std::min(1.0, moved) * (told - bridge.jump)) : told;
+    const double gap = std::abs(bridge.jump.dot(entry.normal)) / cell_;
+    const double contact_area =
+        bridge.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
+    bridge.tension = springs->normal_stiffness * contact_area;
+    bridge.compression = springs->pressed_stiffness() * contact_area;
+    bridge.shear = springs->shear_stiffness * contact_area;
+
+    const auto along = [&](const Vec<Dim>& x) { return x.dot(entry.normal); };
+    const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * entry.normal; };
+    const Vec<Dim> opening = reduced * pulls;
+    Vec<Dim> end = rate_after_springs(bridge.tension, bridge.compression, reduced, dt,
+                                      {along(bridge.jump), along(bridge.rate), along(opening)}) *
+                   entry.normal;
+    const Vec<Dim> slip = across(bridge.jump), slip_rate = across(bridge.rate),
+                   slip_opening = across(opening);
+    for (int d = 0; d < Dim; ++d)
+      end[d] += rate_after_spring(bridge.shear, reduced, dt, {slip[d], slip_rate[d], slip_opening[d]});
+    bridge.impulse = reduced * (unheld - end);
+    if (node.constrained) bridge.impulse = free_part(node, bridge.impulse);
+  }
+  const auto pull = [&](int slot, const Vec<Dim>& impulse) {
+    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
+    nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
+  };
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    const Vec<Dim>& impulse = list_.bridges[static_cast<std::size_t>(e)].impulse;
+    if (impulse.isZero(0)) continue;
+    pull(field(entry.a).slot, impulse);
+    if (entry.b >= 0 && entry.b != node.rigid) pull(field(entry.b).slot, -impulse);
+  }
+}
+
+/// The jumps at the end of the step, with the velocities that its strains end with, and what the springs
+/// hold.
+template <int Dim>
+void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
+  books_.stored = 0;
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (!springs_of(state, node, entry) || entry.normal.isZero(0)) continue;
+      bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
+      bridge.known = true;
+      const double gap = bridge.jump.dot(entry.normal);
+      const double slip = (bridge.jump - gap * entry.normal).squaredNorm();
+      books_.stored +=
+          0.5 * ((gap > 0 ? bridge.tension : bridge.compression) * gap * gap + bridge.shear * slip);
+    }
+}
+
+/// What an interface has on the nodes around one, itself among them: areas, and the mean of the jumps.
+///
+/// The node's share of the surface between the two is what the lighter side has there, whose stress ends on
+/// it (N20's area, g·n), mixed as (m_b g_a − m_a g_b)·n/(m_a + m_b). A field of hardly any mass that gets
+/// more or less than its stress carries is thrown, or loses that stress. Where a gap δ lies between the
+/// sides, or they overlap, each has its surface at a place of its own, and the nodes around share up to |δ|/h
+/// more or less than their mean: that is evened out, no more, so that a body which ends before the other gets
+/// no surface for it.
+template <int Dim>
+BridgesAround<Dim> Contact<Dim>::bridges_around(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                const ContactEntry<Dim>& entry) const {
+  const auto field = [&](const ContactNode<Dim>& at, int k) {
+    return list_.fields[static_cast<std::size_t>(at.field_begin + k)].field;
+  };
+  BridgesAround<Dim> sum;
+  for (int m = 0; m < power(3, Dim); ++m) {
+    const int k = contact_neighbour(state.tiling, list_, node, m);
+    if (k < 0) continue;
+    const auto& other = list_.nodes[static_cast<std::size_t>(k)];
+    for (int e = other.entry_begin; e < other.entry_end; ++e) {
+      const auto& beside = list_.entries[static_cast<std::size_t>(e)];
+      if (field(other, beside.a) != field(node, entry.a) ||
+          field(other, partner(state, other, beside)) != field(node, partner(state, node, entry)))
+        continue;
+      const Bridge<Dim>& bridge = bridge_of(beside);
+      sum.own_area += bridge.own_area;
+      sum.mean_area += bridge.mean_area;
+      sum.told += bridge.own_area * bridge.told;
+    }
+  }
+  if (sum.own_area > 0)
+    sum.told /= sum.own_area;
+  else
+    sum = {bridge_of(entry).told, 1, 1};  // no surface here: no springs
+  return sum;
+}
+
+// Here: the members that this file defines.
+template class Contact<2>;
+template class Contact<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,71 @@
+#pragma once
+
+/// @file An interface between two surfaces on a node: springs on the jump of their displacements (NN chapter
+/// 5), over one step. δ is the jump along one direction at the step's start, g its rate, m the reduced mass
+/// of the two fields there, f what all other forces pull it open with.
+///
+/// NN Eq. 5.42 takes the force from the exact motion of an oscillator, m δ″ = f − kδ. It brings δ where that
+/// has it, but the velocities of the fields then are not those of the oscillator, and |λ|² = 2 sin φ/φ − cos
+/// φ > 1: vibrations grow by φ²/12 a step, φ = Δt √(k/m). Here instead
+///
+///   m_e (g₁ − g)/Δt = f − F̄,  F̄ = (W(δ₁) − W(δ))/(δ₁ − δ),  δ₁ = δ + ½Δt (g + g₁):
+///
+/// what the springs store is what they take, to round-off, whatever their law, and no step is too long (the
+/// mean force is that of an energy, Gonzalez 1996). With m_e = m (φ/2)²/tan²(φ/2) the frequency is the
+/// oscillator's too (tan(½ω Δt) = ½Δt √(k/m_e)); at rest F̄ = f, so stiffness and strain of what stands still
+/// are the law's at any φ. Beyond φ = π/2, four steps a period, m_e/m stays what it is there.
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/dimension.hpp"
+
+namespace mpmfast {
+
+/// m_e/m: for φ = Δt √(k/m).
+inline double oscillator_mass(double stiffness, double mass, double dt) {
+  constexpr double kMost = 1.5707963267948966, kSmall = 1e-4;
+  const double half = 0.5 * std::min(kMost, dt * std::sqrt(stiffness / mass));
+  if (half < kSmall) return 1;
+  const double share = half / std::tan(half);
+  return share * share;
+}
+
+/// The jump of one direction at the start of a step.
+struct JumpStart {
+  double jump;     ///< δ, m
+  double rate;     ///< g, m/s
+  double opening;  ///< f, N
+};
+
+/// Its rate at the end of the step with a spring of one stiffness (N/m), m/s.
+inline double rate_after_spring(double stiffness, double mass, double dt, const JumpStart& start) {
+  const double inertia = oscillator_mass(stiffness, mass, dt) * mass / dt, give = 0.25 * stiffness * dt;
+  return ((inertia - give) * start.rate + start.opening - stiffness * start.jump) / (inertia + give);
+}
+
+/// The same with one stiffness where the surfaces are apart and another where they overlap (NN §5.5). Where
+/// the jump changes its sign within the step, with s = δ₁ − δ and a = 2m_e/Δt²:
+/// (a + ½k₁)s² + (k₁δ − a gΔt − f)s + ½(k₁ − k)δ² = 0, k of the side it leaves and k₁ of the one it comes to.
+inline double rate_after_springs(double tension, double compression, double mass, double dt,
+                                 const JumpStart& start) {
+  const auto end_of = [&](double rate) { return start.jump + 0.5 * dt * (start.rate + rate); };
+  if (start.jump >= 0)
+    if (const double rate = rate_after_spring(tension, mass, dt, start); end_of(rate) >= 0) return rate;
+  if (start.jump <= 0)
+    if (const double rate = rate_after_spring(compression, mass, dt, start); end_of(rate) <= 0) return rate;
+  const bool opens = start.jump < 0;
+  const double left = opens ? compression : tension, entered = opens ? tension : compression;
+  // Of the stiffer side: the same whichever way it crosses.
+  const double inertia = 2 * oscillator_mass(std::max(left, entered), mass, dt) * mass / (dt * dt);
+  const double a = inertia + 0.5 * entered,
+               b = entered * start.jump - inertia * start.rate * dt - start.opening,
+               c = 0.5 * (entered - left) * start.jump * start.jump;
+  const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
+  const double twice = -(b + std::copysign(root, b));  // the root that does not cancel, then the other
+  const double first = 0.5 * twice / a, second = twice != 0 ? 2 * c / twice : 0;
+  const double way = opens ? std::max(first, second) : std::min(first, second);
+  return 2 * way / dt - start.rate;
+}
+
+}  // namespace mpmfast

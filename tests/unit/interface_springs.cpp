@@ -1,0 +1,92 @@
+// Springs of an interface over many steps of two fields that nothing else moves.
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "kernels/contact/interface.hpp"
+
+namespace mpmfast {
+namespace {
+
+/// A jump and its rate, and steps of springs that move them.
+struct Oscillator {
+  double tension, compression, mass, dt;
+  double jump = 0, rate = 1, opening = 0;
+
+  double stiffness() const { return jump > 0 ? tension : compression; }
+  double stored() const { return 0.5 * stiffness() * jump * jump; }
+  void step() {
+    const double end = rate_after_springs(tension, compression, mass, dt, {jump, rate, opening});
+    jump += 0.5 * dt * (rate + end);
+    rate = end;
+  }
+};
+
+TEST_CASE("a linear interface swings at its own frequency and keeps its energy at any step") {
+  for (double phi : {0.05, 0.3, 1.0, 1.5}) {
+    CAPTURE(phi);
+    Oscillator o{4.0, 4.0, 0.25, phi / 4};  // √(k/m) = 4
+    const double inertia = oscillator_mass(4, 0.25, o.dt) * o.mass, start = 0.5 * inertia;
+    const double period = 2 * std::numbers::pi / 4;
+    double time = 0, last = 0, before = 0;
+    int zeros = 0;
+    while (zeros < 100) {
+      before = o.jump;
+      o.step();
+      time += o.dt;
+      if (!(before < 0 && o.jump >= 0)) continue;
+      // Where the sine through both passes zero.
+      last = time - o.dt * std::atan2(o.jump * std::sin(phi), o.jump * std::cos(phi) - before) / phi;
+      ++zeros;
+    }
+    CHECK(last == doctest::Approx(100 * period).epsilon(1e-3));
+    CHECK(0.5 * inertia * o.rate * o.rate + o.stored() == doctest::Approx(start).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("an interface at rest carries what pulls on it, whatever the step") {
+  for (double dt : {1e-3, 1.0, 1e3}) {
+    Oscillator o{4.0, 9.0, 0.25, dt, 0.5, 0, 2.0};  // k δ = f
+    for (int k = 0; k < 10; ++k) o.step();
+    CHECK(o.jump == doctest::Approx(0.5).epsilon(1e-12));
+    Oscillator pressed{4.0, 8.0, 0.25, dt, -0.25, 0, -2.0};
+    for (int k = 0; k < 10; ++k) pressed.step();
+    CHECK(pressed.jump == doctest::Approx(-0.25).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("an interface of two stiffnesses keeps its energy over a hundred bounces") {
+  for (double phi : {0.01, 0.1, 0.4})
+    for (double ratio : {1e-2, 5.0, 100.0}) {
+      CAPTURE(phi);
+      CAPTURE(ratio);
+      Oscillator o{1.0, ratio, 1.0, phi / std::sqrt(std::max(1.0, ratio))};
+      double most = 0;  // speed at which it passes zero, of the last bounce
+      int bounces = 0;
+      for (double before = 0; bounces < 100;) {
+        before = o.jump;
+        o.step();
+        if (before > 0 && o.jump <= 0) {
+          ++bounces;
+          most = 0;
+        }
+        most = std::max(most, std::abs(o.rate));
+      }
+      while (o.jump < 0) {
+        o.step();
+        most = std::max(most, std::abs(o.rate));
+      }
+      CHECK(0.5 * most * most == doctest::Approx(0.5).epsilon(0.005).scale(0));
+    }
+}
+
+TEST_CASE("surfaces that springs leave free in tension part with the speed they came with") {
+  Oscillator o{0.0, 50.0, 1.0, 0.1, 0.3, -1.0};
+  while (!(o.jump > 0 && o.rate > 0)) o.step();
+  CHECK(o.rate == doctest::Approx(1).epsilon(0.005));
+}
+
+}  // namespace
+}  // namespace mpmfast
