@@ -107,6 +107,9 @@ class Contact {
                                     const ContactEntry<Dim>& entry) const;
   void end_bridges(const State<Dim>& state, double dt);
   void bridge(State<Dim>& state, double dt, const ContactNode<Dim>& node);
+  bool start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e);
+  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls,
+                   bool alone) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
   struct Total {
@@ -126,7 +129,8 @@ class Contact {
   /// What one thread solves the pairs of a node in.
   struct Together {
     ContactsTogether<Dim> solver;
-    std::vector<Acting> acting;  ///< as the solver's contacts
+    std::vector<Acting> acting;    ///< as the solver's contacts
+    std::vector<Vec<Dim>> pulled;  ///< impulses of springs on the node's fields, N s
   };
   void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
                    std::vector<MovingField<Dim>>& fields) const;
@@ -148,6 +152,7 @@ class Contact {
   Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                              Correction correction, const Law& law, double area_time) const;
   bool may_part(const ContactNode<Dim>& node) const;
+  bool is_bridged(const ContactNode<Dim>& node) const;
   bool lasts(const ContactEntry<Dim>& entry) const;
   double closing_of(const ContactEntry<Dim>& entry) const;
   bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;

@@ -231,18 +231,20 @@ class Suspicions {
   void springs(const SurfaceLaw& law, const std::string& path) {
     const auto* springs = std::get_if<Interface>(&law.acts);
     if (!springs) return;
-    double modulus = 0;
+    constexpr double kTieLike = 100;  // from here on a cell gives way a hundred times as much
+    double modulus = 0, stiffest = 0;
     for (const BodySpec& body : scene_.bodies) {
       if (is_rigid(scene_, body)) continue;
       const auto m = static_cast<std::size_t>(body.material);
       const double own = density_of(scene_.materials[m]) * speed_[m] * speed_[m];
       modulus = modulus > 0 ? std::min(modulus, own) : own;
+      stiffest = std::max(stiffest, own);
     }
     const double most = modulus / (2 * scene_.time.cfl * scene_.time.cfl * scene_.grid.cell);
     for (const auto& [key, stiffness] : {std::pair{"normal_stiffness", springs->normal_stiffness},
                                          {"shear_stiffness", springs->shear_stiffness},
                                          {"compression_stiffness", springs->compression_stiffness}})
-      if (stiffness > most)
+      if (stiffness > most && stiffness * scene_.grid.cell < kTieLike * stiffest)
         say(path + "." + key,
             fmt::format("{:.3g} Pa/m swings faster than steps follow: right at rest, but too slow for waves",
                         stiffness),

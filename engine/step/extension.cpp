@@ -220,13 +220,14 @@ std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) con
       const double length = std::min(begin + 1, room.upper) - std::max(begin, room.lower);
       inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] = std::clamp(length, 0.0, 1.0);
     }
+  constexpr double kLeastInside = 0.25;  // of a cell: a sliver that a wall leaves tells nothing
   const double* occupied = state.nodes.column(Nodal::occupied) + tile * kTileNodes<Dim>;
   std::uint64_t enough = 0;
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
     double share = 1;
     for (int d = 0, rest = local; d < Dim; ++d, rest /= kTileSide)
       share *= inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(rest % kTileSide)];
-    enough |= std::uint64_t{occupied[local] > least() * share} << local;
+    enough |= std::uint64_t{share > kLeastInside && occupied[local] > least() * share} << local;
   }
   return enough;
 }
@@ -328,7 +329,7 @@ void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) 
       follows = follow_block(tile, local, order, blocks, found);
     }
     found.alone += !follows;
-    found.lowered += follows && order + 1 < degree_;
+    found.lowered += follows && order + 1 < degree_ && !is_beyond(tile, local);
   }
 }
 

@@ -26,8 +26,8 @@ namespace mpmfast {
 /// Of all steps.
 struct ExtensionCounters {
   std::uint64_t nodes = 0;  ///< that followed others
-  /// Of these: with an exactness below the basis's, for want of a block near or of a mass; and those that
-  /// followed none and kept their own freedom, beside `nodes`.
+  /// Of these, but beyond walls: with an exactness below the basis's, for want of a block near or of a mass;
+  /// and those that followed none and kept their own freedom, beside `nodes`.
   std::uint64_t lowered = 0, alone = 0;
 };
 

@@ -39,8 +39,12 @@ struct JumpStart {
 };
 
 /// Its rate at the end of the step with a spring of one stiffness (N/m), m/s.
-inline double rate_after_spring(double stiffness, double mass, double dt, const JumpStart& start) {
-  const double inertia = oscillator_mass(stiffness, mass, dt) * mass / dt, give = 0.25 * stiffness * dt;
+/// @param alone  no other spring acts on the two fields; else m_e = m, with which springs that are solved
+///               together keep energy
+inline double rate_after_spring(double stiffness, double mass, double dt, const JumpStart& start,
+                                bool alone = true) {
+  const double inertia = (alone ? oscillator_mass(stiffness, mass, dt) : 1) * mass / dt,
+               give = 0.25 * stiffness * dt;
   return ((inertia - give) * start.rate + start.opening - stiffness * start.jump) / (inertia + give);
 }
 
@@ -48,16 +52,19 @@ inline double rate_after_spring(double stiffness, double mass, double dt, const 
 /// the jump changes its sign within the step, with s = δ₁ − δ and a = 2m_e/Δt²:
 /// (a + ½k₁)s² + (k₁δ − a gΔt − f)s + ½(k₁ − k)δ² = 0, k of the side it leaves and k₁ of the one it comes to.
 inline double rate_after_springs(double tension, double compression, double mass, double dt,
-                                 const JumpStart& start) {
+                                 const JumpStart& start, bool alone = true) {
   const auto end_of = [&](double rate) { return start.jump + 0.5 * dt * (start.rate + rate); };
   if (start.jump >= 0)
-    if (const double rate = rate_after_spring(tension, mass, dt, start); end_of(rate) >= 0) return rate;
+    if (const double rate = rate_after_spring(tension, mass, dt, start, alone); end_of(rate) >= 0)
+      return rate;
   if (start.jump <= 0)
-    if (const double rate = rate_after_spring(compression, mass, dt, start); end_of(rate) <= 0) return rate;
+    if (const double rate = rate_after_spring(compression, mass, dt, start, alone); end_of(rate) <= 0)
+      return rate;
   const bool opens = start.jump < 0;
   const double left = opens ? compression : tension, entered = opens ? tension : compression;
   // Of the stiffer side: the same whichever way it crosses.
-  const double inertia = 2 * oscillator_mass(std::max(left, entered), mass, dt) * mass / (dt * dt);
+  const double share = alone ? oscillator_mass(std::max(left, entered), mass, dt) : 1;
+  const double inertia = 2 * share * mass / (dt * dt);
   const double a = inertia + 0.5 * entered,
                b = entered * start.jump - inertia * start.rate * dt - start.opening,
                c = 0.5 * (entered - left) * start.jump * start.jump;

@@ -193,6 +193,18 @@ TEST_CASE("an interface without end of stiffness is a tie, and one without stiff
                             end("law: ignore")) < 1e-12);
 }
 
+TEST_CASE("three blocks that meet at a point keep their energy on springs of any stiffness") {
+  for (const char* stiffness : {"100e9", "1e12", "70e12"}) {  // 0.1, 1 and 95 times the modulus over a cell
+    CAPTURE(std::string(stiffness));
+    const std::string springs = std::string("{law: interface, normal_stiffness: ") + stiffness +
+                                ", shear_stiffness: " + stiffness + "}";
+    const Outcome out = run(scene_file("three_materials.yaml",
+                                       {{"contact", springs}, {"output.frames", "0"}, {"time.end", "1 ms"}}));
+    REQUIRE(out.failure == "");
+    CHECK(std::abs(out.summary.energy_error) < 0.01);
+  }
+}
+
 /// Of what a sine of this frequency is behind the interface over what it is before: 1/(1 + iωZ/2D), Z = ρc.
 std::complex<double> transmitted(double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;

@@ -1,5 +1,7 @@
 /// Interfaces on nodes (NN chapter 5): springs on what the displacements of two fields differ by.
 
+#include <omp.h>
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -56,6 +58,7 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
                 slot_b =
                     list_.fields[static_cast<std::size_t>(node.field_begin + partner(state, node, entry))]
                         .slot;
+      bridge.normal = entry.normal;
       bridge.told = told_jump(state, node, slot_a, slot_b);
       const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
                    b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
@@ -75,61 +78,100 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
 /// they tell takes the place of it as the bodies move through the cells: as a mean over the nodes around,
 /// which has nothing rough to grow. Positions are half a step ahead of strains: particles move with v′ Δt,
 /// which F follows by halves (theory, "The energy of a contact").
+///
+/// Where several pairs are joined on a node, they are solved together (Gauss-Seidel): each by itself and then
+/// added, they make energy where springs are stiff.
 template <int Dim>
 void Contact<Dim>::bridge(State<Dim>& state, double dt, const ContactNode<Dim>& node) {
-  auto& nodes = state.nodes;
-  const double* mass = nodes.column(Nodal::mass);
-  const auto field = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-    const auto* springs = springs_of(state, node, entry);
-    if (!springs || entry.normal.isZero(0)) continue;
-    const int other = partner(state, node, entry);
-    const int a = field(entry.a).slot, b = field(other).slot;
-    const double inverse_b = other == node.rigid ? 0 : 1 / mass[b];
-    const double reduced = 1 / (1 / mass[a] + inverse_b);
-    const Vec<Dim> pulls =
-        nodes.vector(Nodal::force, b) * inverse_b - nodes.vector(Nodal::force, a) / mass[a];
-    const Vec<Dim> momentum = nodes.vector(Nodal::momentum, a) + nodes.vector(Nodal::momentum, b);
-    const Vec<Dim> unheld =
-        nodes.vector(Nodal::momentum, b) / mass[b] - nodes.vector(Nodal::momentum, a) / mass[a];
-    bridge.rate = unheld - dt * pulls;
-    const BridgesAround<Dim> around = bridges_around(state, node, entry);
-    const Vec<Dim> told = around.told - 0.5 * dt * bridge.rate;
-    const double moved = momentum.norm() / (mass[a] + mass[b]) * dt / cell_;
-    bridge.jump = bridge.known ? Vec<Dim>(bridge.jump + std::min(1.0, moved) * (told - bridge.jump)) : told;
-    const double gap = std::abs(bridge.jump.dot(entry.normal)) / cell_;
-    const double contact_area =
-        bridge.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
-    bridge.tension = springs->normal_stiffness * contact_area;
-    bridge.compression = springs->pressed_stiffness() * contact_area;
-    bridge.shear = springs->shear_stiffness * contact_area;
-
-    const auto along = [&](const Vec<Dim>& x) { return x.dot(entry.normal); };
-    const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * entry.normal; };
-    const Vec<Dim> opening = reduced * pulls;
-    Vec<Dim> end = rate_after_springs(bridge.tension, bridge.compression, reduced, dt,
-                                      {along(bridge.jump), along(bridge.rate), along(opening)}) *
-                   entry.normal;
-    const Vec<Dim> slip = across(bridge.jump), slip_rate = across(bridge.rate),
-                   slip_opening = across(opening);
-    for (int d = 0; d < Dim; ++d)
-      end[d] += rate_after_spring(bridge.shear, reduced, dt, {slip[d], slip_rate[d], slip_opening[d]});
-    bridge.impulse = reduced * (unheld - end);
-    if (node.constrained) bridge.impulse = free_part(node, bridge.impulse);
+  constexpr int kSweeps = 200;
+  int acting = 0;
+  for (int e = node.entry_begin; e < node.entry_end; ++e) acting += start_bridge(state, dt, node, e);
+  if (acting == 0) return;
+  auto& pulled = together_[static_cast<std::size_t>(omp_get_thread_num())].pulled;
+  pulled.assign(static_cast<std::size_t>(node.field_end - node.field_begin), Vec<Dim>::Zero());
+  for (int sweep = 0; sweep < (acting > 1 ? kSweeps : 1); ++sweep) {
+    double change = 0, largest = 0;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (!bridge.acts) continue;
+      auto &on_a = pulled[static_cast<std::size_t>(bridge.a)],
+           &on_b = pulled[static_cast<std::size_t>(bridge.b)];
+      on_a -= bridge.impulse;
+      on_b += bridge.impulse;
+      const Vec<Dim> others = (bridge.inverse_b * on_b - bridge.inverse_a * on_a) / dt;
+      const Vec<Dim> impulse = pull_of(bridge, node, dt, bridge.pulls + others, acting == 1);
+      change = std::max(change, (impulse - bridge.impulse).squaredNorm());
+      largest = std::max(largest, impulse.squaredNorm());
+      bridge.impulse = impulse;
+      on_a += impulse;
+      on_b -= impulse;
+    }
+    if (change <= 1e-24 * largest) break;
   }
-  const auto pull = [&](int slot, const Vec<Dim>& impulse) {
+  auto& nodes = state.nodes;
+  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
+    const Vec<Dim>& impulse = pulled[static_cast<std::size_t>(k)];
+    if (k == node.rigid || impulse.isZero(0)) continue;
+    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
     nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
     nodes.set(Nodal::force, slot, nodes.vector(Nodal::force, slot) + impulse / dt);
-  };
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const Vec<Dim>& impulse = list_.bridges[static_cast<std::size_t>(e)].impulse;
-    if (impulse.isZero(0)) continue;
-    pull(field(entry.a).slot, impulse);
-    if (entry.b >= 0 && entry.b != node.rigid) pull(field(entry.b).slot, -impulse);
   }
+}
+
+/// What the springs of an entry begin the step with. Surfaces that are a cell apart, or have come to each
+/// other from farther, are joined no more. @return whether they are
+template <int Dim>
+bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e) {
+  const auto& nodes = state.nodes;
+  const double* mass = nodes.column(Nodal::mass);
+  const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+  auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+  const auto* springs = springs_of(state, node, entry);
+  if (!springs || bridge.normal.isZero(0)) return false;
+  const auto slot_of = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+  };
+  const auto free = [&](const Vec<Dim>& x) { return node.constrained ? free_part(node, x) : x; };
+  bridge.a = entry.a;
+  bridge.b = partner(state, node, entry);
+  const int a = slot_of(bridge.a), b = slot_of(bridge.b);
+  bridge.inverse_a = 1 / mass[a];
+  bridge.inverse_b = bridge.b == node.rigid ? 0 : 1 / mass[b];
+  bridge.pulls = free(nodes.vector(Nodal::force, b) * bridge.inverse_b -
+                      nodes.vector(Nodal::force, a) * bridge.inverse_a);
+  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, a), p_b = nodes.vector(Nodal::momentum, b);
+  bridge.rate = free(p_b / mass[b] - p_a / mass[a]) - dt * bridge.pulls;
+  const BridgesAround<Dim> around = bridges_around(state, node, entry);
+  const Vec<Dim> told = free(around.told) - 0.5 * dt * bridge.rate;
+  const double moved = (p_a + p_b).norm() / (mass[a] + mass[b]) * dt / cell_;
+  bridge.jump = bridge.known ? Vec<Dim>(bridge.jump + std::min(1.0, moved) * (told - bridge.jump)) : told;
+  bridge.acts = bridge.jump.norm() < cell_;
+  const double gap = std::abs(bridge.jump.dot(bridge.normal)) / cell_;
+  const double area =
+      bridge.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
+  bridge.tension = springs->normal_stiffness * area;
+  bridge.compression = springs->compression_stiffness * area;
+  bridge.shear = springs->shear_stiffness * area;
+  return bridge.acts;
+}
+
+/// The impulse of an entry's springs on its field a, N s.
+/// @param pulls  what all others change of v_b − v_a, m/s²
+template <int Dim>
+Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt,
+                               const Vec<Dim>& pulls, bool alone) const {
+  const double reduced = 1 / (bridge.inverse_a + bridge.inverse_b);
+  const auto along = [&](const Vec<Dim>& x) { return x.dot(bridge.normal); };
+  const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * bridge.normal; };
+  const Vec<Dim> opening = reduced * pulls;
+  Vec<Dim> end = rate_after_springs(bridge.tension, bridge.compression, reduced, dt,
+                                    {along(bridge.jump), along(bridge.rate), along(opening)}, alone) *
+                 bridge.normal;
+  const Vec<Dim> slip = across(bridge.jump), rate = across(bridge.rate), drawn = across(opening);
+  for (int d = 0; d < Dim; ++d)
+    end[d] += rate_after_spring(bridge.shear, reduced, dt, {slip[d], rate[d], drawn[d]}, alone);
+  const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
+  return node.constrained ? free_part(node, impulse) : impulse;
 }
 
 /// The jumps at the end of the step, with the velocities that its strains end with, and what the springs
@@ -141,11 +183,11 @@ void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-      if (!springs_of(state, node, entry) || entry.normal.isZero(0)) continue;
+      bridge.known = bridge.acts;
+      if (!bridge.acts) continue;
       bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
-      bridge.known = true;
-      const double gap = bridge.jump.dot(entry.normal);
-      const double slip = (bridge.jump - gap * entry.normal).squaredNorm();
+      const double gap = bridge.jump.dot(bridge.normal);
+      const double slip = (bridge.jump - gap * bridge.normal).squaredNorm();
       books_.stored +=
           0.5 * ((gap > 0 ? bridge.tension : bridge.compression) * gap * gap + bridge.shear * slip);
     }

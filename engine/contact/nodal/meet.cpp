@@ -230,6 +230,15 @@ bool Contact<Dim>::may_part(const ContactNode<Dim>& node) const {
   return std::any_of(entry + node.entry_begin, entry + node.entry_end, [](const auto& e) { return e.parts; });
 }
 
+/// Has it springs in place of ties?
+template <int Dim>
+bool Contact<Dim>::is_bridged(const ContactNode<Dim>& node) const {
+  if (!bridges_) return false;
+  const auto bridge = list_.bridges.begin();
+  return std::any_of(bridge + node.entry_begin, bridge + node.entry_end,
+                     [](const auto& b) { return b.acts; });
+}
+
 template <int Dim>
 void Contact<Dim>::list_meeting_slots(std::vector<int>& slots) const {
   for (const auto& node : list_.nodes) {
@@ -244,7 +253,7 @@ void Contact<Dim>::share_pressed(State<Dim>& state) const {
   const double* mass = state.nodes.column(Nodal::mass);
   double* pressed = state.nodes.column(Nodal::pressed);
   for (const auto& node : list_.nodes) {
-    if (may_part(node)) continue;
+    if (may_part(node) || is_bridged(node)) continue;
     double all = 0, part = 0;
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const int slot = list_.fields[static_cast<std::size_t>(f)].slot;

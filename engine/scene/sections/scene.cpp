@@ -77,6 +77,8 @@ void check_interfaces(const Value& top, const Scene& scene) {
   const Value stated = *top.find("contact");
   if (scene.contact.fields != ManyFields::simultaneous)
     stated.report("interfaces join bodies in pairs: fields: simultaneous was expected");
+  if (scene.contact.normal == NormalKind::own_gradient)
+    stated.report("interfaces want one normal for both sides (not normal: own_gradient)");
   for (const BodySpec& body : scene.bodies)
     if (body.rotation && is_rigid(scene, body))
       stated.report(fmt::format("interfaces do not know rigid bodies that turn ('{}')", body.name));
