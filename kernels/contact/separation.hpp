@@ -13,24 +13,6 @@
 
 namespace mpmfast {
 
-/// Row-major inverse of a matrix.
-template <int Dim, class V>
-inline void inverse_deformation(const V (&f)[Dim * Dim], V (&inverse)[Dim * Dim]) {
-  const V scale = 1.0 / determinant<Dim>(f);
-  if constexpr (Dim == 2) {
-    inverse[0] = scale * f[3];
-    inverse[1] = -scale * f[1];
-    inverse[2] = -scale * f[2];
-    inverse[3] = scale * f[0];
-  } else {
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        const int r = (j + 1) % 3, s = (j + 2) % 3, t = (i + 1) % 3, u = (i + 2) % 3;
-        inverse[3 * i + j] = scale * (f[3 * r + t] * f[3 * s + u] - f[3 * r + u] * f[3 * s + t]);
-      }
-  }
-}
-
 /// How far a particle reaches along n. Its deformed domain has half-edge vectors E = F diag(R0).
 enum class Extent {
   radial,         ///< of the ellipsoid E S (S the unit sphere): the point straight ahead (N20 Eq. 25)
@@ -61,7 +43,7 @@ inline void domain_shape(const V (&edges)[Dim * Dim], V (&shape)[shape_size<Dim>
     V rows[Dim * Dim];  // whose products among each other are the matrix
     if constexpr (E == Extent::radial) {
       V inverse[Dim * Dim];
-      inverse_deformation<Dim>(edges, inverse);
+      invert<Dim>(edges, inverse);
       for (int i = 0; i < Dim; ++i)
         for (int k = 0; k < Dim; ++k) rows[Dim * i + k] = inverse[Dim * k + i];
     } else {
