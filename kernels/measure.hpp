@@ -23,9 +23,13 @@ enum class Measure {
   temperature,
   heat_capacity,
   rate,
-  interface_stiffness
+  interface_stiffness,
+  conductivity,
+  heat_flux,
+  conductance,
+  expansion
 };
-inline constexpr int kMeasures = 15;
+inline constexpr int kMeasures = 19;
 
 /// The interval a number must lie in, and its name in messages.
 struct Limit {

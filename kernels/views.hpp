@@ -13,6 +13,7 @@ template <int Dim>
 struct StateView {
   double *dissipated, *internal_energy, *plastic_strain, *temperature;
   double* elastic_strain[kSymmetric<Dim>];
+  double* thermal_stretch;  ///< θ, of a length by heat since the start: laws see F/θ
 };
 
 /// Pointers to the particle columns (SI); those that a plan does not allocate are null.
@@ -29,7 +30,8 @@ struct ParticleView {
   double* mass;
   double* volume;  ///< undeformed
   double* wave_speed;
-  double* stretch;  ///< along the plane's normal
+  double* stretch;                 ///< along the plane's normal
+  double* temperature_slope[Dim];  ///< ∇T, K/m
   StateView<Dim> state;
   Depth depth;
 };
@@ -58,12 +60,23 @@ struct GridView {
   double cell, inverse_cell;
 };
 
+/// What conduction knows of a body (transfer/heat.hpp).
+struct BodyHeat {
+  double capacity = 0;          ///< c, J/(kg K)
+  double conductivity = 0;      ///< k, W/(m K)
+  double expansion = 0;         ///< α, of a length, 1/K
+  double start = 0;             ///< temperature at the start, at which heat has not stretched it, K
+  double stored = 0;            ///< ρ0 c where an equation of state holds the heat, J/(m³ K); else 0
+  bool elastic_volume = false;  ///< the elastic strain of its law has the volume in it
+};
+
 /// What a transfer knows of a body.
 template <int Dim>
 struct BodyView {
   double half_size[Dim];  ///< m, of its particles' undeformed domains
   int material;
   bool rigid;
+  BodyHeat heat;
 };
 
 /// Everything that the transfers of one tile read beside the nodal columns.

@@ -60,6 +60,15 @@ class Contact {
   void visit(Archive& archive);
 
   const ContactList<Dim>& list() const { return list_; }
+  /// Which of the node's fields an entry meets: the other one, of a lump the rigid or the largest one.
+  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  /// Where the law of an entry acts, and how its surfaces conduct heat.
+  LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                    const ContactEntry<Dim>& entry) const;
+  const ConductanceSpec& conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                        const ContactEntry<Dim>& entry) const;
+  /// Do springs join the surfaces of this entry?
+  bool joined(int entry) const { return bridges_ && list_.bridges[static_cast<std::size_t>(entry)].acts; }
   /// Of the last step.
   const ContactBooks<Dim>& books() const { return books_; }
 
@@ -77,7 +86,6 @@ class Contact {
   void grid_normals(const State<Dim>& state);
   void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   void grid_separations(const State<Dim>& state);
-  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
   template <class Laws>
   void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
   template <class Laws>

@@ -104,6 +104,11 @@ std::vector<std::string> column_names(const Scene& scene) {
     if (piston_of(boundary)) names.push_back(boundary.name + ".strain");
   if (scene.contact.family == ContactFamily::penalty)
     for (const auto& pair : scene.contact.pairs) names.push_back(pair_name(scene, pair) + ".area_m2");
+  if (scene.heat.active) {
+    names.insert(names.end(), {"heat_J", "heat_in_J", "heat_friction_J", "expansion_work_J"});
+    for (const auto& condition : scene.heat.conditions) names.push_back(condition.name + ".heat_J");
+    for (const auto& body : scene.bodies) names.push_back(body.name + ".temperature_K");
+  }
   return names;
 }
 
@@ -197,6 +202,14 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
   if (scene.contact.family == ContactFamily::penalty)
     for (std::size_t k = 0; k < scene.contact.pairs.size(); ++k)
       numbers.add(k < row.pair_area.size() ? row.pair_area[k] : 0.0);
+  if (scene.heat.active) {
+    const HistoryRow::Heat heat = row.heat.value_or(HistoryRow::Heat{});
+    for (double x : {heat.content, heat.in, heat.friction, heat.worked}) numbers.add(x);
+    for (std::size_t k = 0; k < scene.heat.conditions.size(); ++k)
+      numbers.add(k < heat.conditions.size() ? heat.conditions[k] : 0.0);
+    for (std::size_t b = 0; b < scene.bodies.size(); ++b)
+      numbers.add(b < row.bodies.size() ? row.bodies[b].temperature : 0.0);
+  }
   return numbers.all;
 }
 

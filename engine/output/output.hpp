@@ -46,6 +46,7 @@ struct HistoryRow {
     std::array<double, 6> mean_stress{};  ///< Pa, Cauchy, xx yy zz xy yz xz, weighted by current volume
     double mass = 0;
     Vec3 position{}, velocity{};  ///< of the centre of mass
+    double temperature = 0;       ///< K, weighted by mass, in scenes with heat
   };
   std::vector<Body> bodies;           ///< as Scene::bodies
   std::vector<Vec3> boundary_force;   ///< N, on the material, mean over the interval; as Scene::boundaries
@@ -56,6 +57,14 @@ struct HistoryRow {
   std::vector<double> pair_area;      ///< m², of surfaces that press, at the time of the row; likewise
   std::optional<Overlap> overlap;     ///< with output.overlap
   std::optional<Outflow> outflow;     ///< with grid.leaving: outflow; up to now
+  struct Heat {
+    double content = 0;              ///< J, of the bodies that deform above the temperature of the scene
+    double in = 0;                   ///< J, that came in from faces, given nodes and rigid bodies
+    double friction = 0;             ///< J, that friction made in them
+    double worked = 0;               ///< J, that became elastic energy by thermal expansion
+    std::vector<double> conditions;  ///< J, that came in, as HeatSpec::conditions
+  };
+  std::optional<Heat> heat;  ///< in scenes with heat; up to now
 };
 
 /// Sums over particles of one row: kinetic energy, momentum, means (stored energy is the caller's). Bitwise

@@ -6,7 +6,7 @@ namespace {
 
 /// Σ over the particles of one body.
 struct BodySums {
-  double mass = 0, volume = 0, twice_kinetic = 0;
+  double mass = 0, volume = 0, twice_kinetic = 0, warmth = 0;  ///< warmth: Σ M T, kg K
   Vec3 moment{}, momentum{};
   std::array<double, 6> stress{};  ///< Σ V₀ τ = Σ V σ, J
 
@@ -29,6 +29,8 @@ template <int Dim>
 void add_particle(const Particles<Dim>& particles, std::size_t p, bool rigid, BodySums& sums) {
   const double mass = particles.column(Quantity::mass)[p];
   sums.mass += mass;
+  if (particles.has(Quantity::temperature_slope))
+    sums.warmth += mass * particles.column(Quantity::temperature)[p];
   for (int d = 0; d < Dim; ++d) {
     const auto k = static_cast<std::size_t>(d);
     const double velocity = particles.column(Quantity::velocity, d)[p];
@@ -63,6 +65,7 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
     HistoryRow::Body& body = row.bodies[b];
     body.mean_stress = sums[b].mean_stress();
     body.mass = sums[b].mass;
+    if (body.mass != 0) body.temperature = sums[b].warmth / body.mass;
     for (std::size_t k = 0; k < 3 && body.mass != 0; ++k) {
       body.position[k] = sums[b].moment[k] / body.mass;
       body.velocity[k] = sums[b].momentum[k] / body.mass;

@@ -13,6 +13,12 @@ namespace mpmfast {
 /// @param cell  edge of a grid cell, m: the length of artificial viscosity
 Material make_material(const MaterialSpec& spec, double cell);
 
+/// c, J/(kg K): of a law that has a temperature its own, else what the scene says beside; 0: nothing.
+double heat_capacity_of(const MaterialSpec& spec);
+
+/// What conduction knows of a body, in a scene with heat.
+BodyHeat body_heat(const Scene& scene, const BodySpec& body);
+
 /// Columns of evolving state that the materials of a scene need.
 std::vector<Quantity> state_columns(const std::vector<MaterialSpec>& materials);
 

@@ -105,6 +105,34 @@ void plan_areas(const Scene& scene, Plan& plan) {
     plan.particle_columns.push_back(Quantity::initial_deformation);
 }
 
+/// Temperatures, and the areas of what heat crosses.
+void plan_heat(const Scene& scene, Plan& plan) {
+  auto& columns = plan.particle_columns;
+  if (std::find(columns.begin(), columns.end(), Quantity::temperature) == columns.end())
+    columns.push_back(Quantity::temperature);
+  columns.push_back(Quantity::temperature_slope);
+  if (std::any_of(scene.materials.begin(), scene.materials.end(),
+                  [](const MaterialSpec& material) { return material.expansion != 0; }))
+    columns.push_back(Quantity::thermal_stretch);
+  for (Nodal q :
+       {Nodal::heat_capacity, Nodal::heat_content, Nodal::heat_slope, Nodal::temperature, Nodal::heat_flow})
+    plan.nodal_columns.push_back(q);
+  if (scene.heat.filter_order > 0)
+    for (Nodal q : {Nodal::temperature_filter, Nodal::temperature_series}) plan.nodal_columns.push_back(q);
+  const auto& conditions = scene.heat.conditions;
+  const bool fed = std::any_of(conditions.begin(), conditions.end(), [](const HeatConditionSpec& condition) {
+    return condition.kind != HeatConditionSpec::Kind::temperature;
+  });
+  const auto conducts = [](const SurfaceLaw& law) {
+    return law.conductance.touching > 0 || law.conductance.gap > 0;
+  };
+  const bool crossed = plan.contact && plan.contact_geometry &&
+                       (conducts(scene.contact.law) ||
+                        std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(),
+                                    [&](const ContactPair& pair) { return conducts(pair.law); }));
+  if (fed || crossed) need_column(Nodal::volume_gradient, plan);
+}
+
 void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
@@ -121,6 +149,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.moves_as_strained()) plan.nodal_columns.push_back(Nodal::pressed);
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
   plan_areas(scene, plan);
+  if (plan.heat) plan_heat(scene, plan);
 }
 
 /// What nodal columns beside masses and momenta are for.
@@ -177,6 +206,9 @@ void list_passes(const Scene& scene, Plan& plan) {
     if (plan.moves_as_strained())
       p.push_back("velocities that move the particles: re-extrapolated where nothing presses");
   }
+  if (plan.heat)
+    p.push_back(std::string("heat: temperatures to the nodes, conduction") +
+                (plan.contact ? ", surfaces that touch" : "") + ", back to the particles");
   p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
   if (rigid) p.push_back("rigid bodies move");
 }
@@ -190,6 +222,7 @@ Plan make_plan(const Scene& scene) {
                : scene.space == Space::axisymmetric ? Depth::hoop
                                                     : Depth::held;
   plan.basis = scene.method.basis;
+  plan.heat = scene.heat.active;
   plan_method(scene.method, plan);
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.

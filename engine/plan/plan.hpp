@@ -39,6 +39,7 @@ struct Plan {
   bool bridges = false;           ///< some pair is joined by springs
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected
+  bool heat = false;              ///< temperatures are conducted
   bool gravity = false;           ///< or an acceleration of some body
   bool force_with_mass =
       false;  ///< no strain comes first: forces follow from stresses known as a step begins

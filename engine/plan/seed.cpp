@@ -49,6 +49,13 @@ MaterialState<Dim, double> state_of(const StateView<Dim>& columns, std::size_t p
   return state;
 }
 
+/// F without what heat has stretched.
+template <int Dim, int N>
+void cool_at(const StateView<Dim>& columns, std::size_t p, double (&deformation)[N]) {
+  if (!columns.thermal_stretch) return;
+  for (double& entry : deformation) entry /= columns.thermal_stretch[p];
+}
+
 /// Calls f(F, evolving state) in the dimensions that a law is asked in: three where the plane stretches along
 /// its normal.
 template <class Law, int Dim, class F>
@@ -56,13 +63,19 @@ auto as_law_sees(const State<Dim>& state, const StateView<Dim>& columns, std::si
                  const double (&deformation)[Dim * Dim], const F& f) {
   const MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
   if constexpr (Dim == 2) {
-    if (state.depth != Depth::held) {
+    if (state.depth != Depth::held || columns.thermal_stretch) {
       double full[9];
-      embed(deformation, state.particles.column(Quantity::out_of_plane_stretch)[p], full);
+      embed(deformation,
+            state.depth == Depth::held ? 1.0 : state.particles.column(Quantity::out_of_plane_stretch)[p],
+            full);
+      cool_at(columns, p, full);
       return f.template operator()<3>(full, widened(evolving));
     }
   }
-  return f.template operator()<Dim>(deformation, evolving);
+  double seen[Dim * Dim];
+  std::copy(deformation, deformation + Dim * Dim, seen);
+  cool_at(columns, p, seen);
+  return f.template operator()<Dim>(seen, evolving);
 }
 
 /// Every particle of an evolving law starts at rest.
@@ -76,6 +89,16 @@ void start_history(State<Dim>& state) {
                                               [&](double* column, double value) { column[p] = value; });
     }
   });
+}
+
+/// Temperatures at the start.
+template <int Dim>
+void start_heat(State<Dim>& state) {
+  auto& particles = state.particles;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    particles.column(Quantity::temperature)[p] = state.bodies[particles.body()[p]].heat.start;
+    if (particles.has(Quantity::thermal_stretch)) particles.column(Quantity::thermal_stretch)[p] = 1;
+  }
 }
 
 /// Σ V0 density over all particles in order of their ids; density as for_each_deformable calls it.
@@ -203,6 +226,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     for (std::size_t d = 0; d < Dim; ++d) view.half_size[d] = seeds.back().half_size[d];
     view.material = scene.bodies[b].material;
     view.rigid = is_rigid(scene, scene.bodies[b]);
+    if (plan.heat) view.heat = body_heat(scene, scene.bodies[b]);
     state.bodies.push_back(view);
   }
   if (!surfaces.empty()) join(state.surfaces);
@@ -246,6 +270,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
       std::copy_n(particles.column(Quantity::deformation_gradient, e), particles.size(),
                   particles.column(Quantity::initial_deformation, e));
   start_history(state);
+  if (plan.heat) start_heat(state);
   refresh_stress(state);
 }
 

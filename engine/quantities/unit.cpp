@@ -23,7 +23,7 @@ struct NamedUnit {
 
 constexpr Dimensions kLength{1, 0, 0, 0}, kMass{0, 1, 0, 0}, kTime{0, 0, 1, 0}, kAngle{0, 0, 0, 1},
     kTemperature{0, 0, 0, 0, 1};
-constexpr Dimensions kForce{1, 1, -2, 0}, kPressure{-1, 1, -2, 0}, kEnergy{2, 1, -2, 0};
+constexpr Dimensions kForce{1, 1, -2, 0}, kPressure{-1, 1, -2, 0}, kEnergy{2, 1, -2, 0}, kPower{2, 1, -3, 0};
 
 const NamedUnit kUnits[] = {
     {"m", {1, 1, kLength}},       {"km", {1e3, 1, kLength}},
@@ -40,7 +40,8 @@ const NamedUnit kUnits[] = {
     {"kPa", {1e3, 1, kPressure}}, {"MPa", {1e6, 1, kPressure}},
     {"GPa", {1e9, 1, kPressure}}, {"bar", {1e5, 1, kPressure}},
     {"rad", {1, 1, kAngle}},      {"deg", {3.14159265358979323846, 180, kAngle}},
-    {"K", {1, 1, kTemperature}},
+    {"K", {1, 1, kTemperature}},  {"W", {1, 1, kPower}},
+    {"kW", {1e3, 1, kPower}},     {"MW", {1e6, 1, kPower}},
 };
 
 const QuantityKind kKinds[] = {
@@ -59,6 +60,10 @@ const QuantityKind kKinds[] = {
     {"a heat capacity", "J/kg/K", "J/kg/K", {2, 0, -2, 0, -1}},
     {"a rate", "s^-1, us^-1", "s^-1", {0, 0, -1}},
     {"a stiffness of an interface", "Pa/m, MPa/mm, GPa/m", "Pa/m", {-2, 1, -2, 0}},
+    {"a heat conductivity", "W/m/K", "W/m/K", {1, 1, -3, 0, -1}},
+    {"a heat flux", "W/m^2, kW/m^2, MW/m^2", "W/m^2", {0, 1, -3, 0}},
+    {"a heat conductance", "W/m^2/K, kW/m^2/K", "W/m^2/K", {0, 1, -3, 0, -1}},
+    {"a thermal expansion", "K^-1", "K^-1", {0, 0, 0, 0, -1}},
 };
 
 /// Words and symbols that people use for units, and what stands for them here.

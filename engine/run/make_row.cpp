@@ -32,6 +32,23 @@ void fill_forces(const Step<Dim>& step, const Scene& scene, const RunCounters<Di
 }
 
 template <int Dim>
+std::optional<HistoryRow::Heat> heat_of(const Step<Dim>& step, const HistoryRow& row, const Scene& scene) {
+  if (!step.heat().active()) return std::nullopt;
+  const HeatSums& sums = step.heat().sums();
+  HistoryRow::Heat heat;
+  for (std::size_t b = 0; b < row.bodies.size(); ++b)
+    if (!step.state().bodies[b].rigid)
+      heat.content += row.bodies[b].mass * step.state().bodies[b].heat.capacity *
+                      (row.bodies[b].temperature - scene.heat.temperature);
+  heat.conditions = sums.conditions;
+  heat.in = sums.rigid;
+  for (double in : sums.conditions) heat.in += in;
+  heat.friction = sums.friction;
+  heat.worked = sums.worked;
+  return heat;
+}
+
+template <int Dim>
 std::optional<Overlap> overlap_of(const State<Dim>& state, const Scene& scene) {
   if constexpr (Dim == 2)
     if (scene.output.overlap)
@@ -62,6 +79,7 @@ HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<
   const Spacing spacing = widest_spacing(state.particles, scene);
   if (spacing.cells > counters.spacing.cells) counters.spacing = spacing;
   row.outflow = outflow_of(step, scene);
+  row.heat = heat_of(step, row, scene);
   counters.last_sums = sums;
   counters.last_row_time = state.time;
   counters.last_row_step = state.step;

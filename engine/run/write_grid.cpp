@@ -60,7 +60,7 @@ struct GridColumns {
   std::vector<double> points;
   std::vector<std::uint16_t> field;
   std::vector<double> mass;
-  std::vector<float> velocity, normal, separation, impulse;
+  std::vector<float> velocity, normal, separation, impulse, temperature;
   std::vector<std::uint8_t> touching;
 };
 
@@ -81,6 +81,8 @@ void add(const Step<Dim>& step, int slot, int field, const NodeIndex<Dim>& node,
   out.mass.push_back(state.nodes.column(Nodal::mass)[slot]);
   out.separation.push_back(meeting.separation);
   out.touching.push_back(meeting.touching);
+  if (step.heat().active())
+    out.temperature.push_back(static_cast<float>(step.heat().temperature(state, slot)));
 }
 
 }  // namespace
@@ -107,6 +109,7 @@ void write_grid(const std::filesystem::path& vtu, const Step<Dim>& step) {
   file.add_point_data("contact_normal", columns.normal, kAxes);
   file.add_point_data("separation", columns.separation);
   file.add_point_data("contact_impulse", columns.impulse, kAxes);
+  if (step.heat().active()) file.add_point_data("temperature", columns.temperature);
   file.write(vtu, state.time);
 }
 

@@ -102,6 +102,9 @@ struct MethodSpec {
 struct MaterialSpec {
   std::string name;
   MaterialModel model;
+  double heat_capacity = 0;  ///< J/(kg K), of laws that have none of their own; 0: not stated
+  double conductivity = 0;   ///< W/(m K)
+  double expansion = 0;      ///< of a length, 1/K
 };
 
 /// About an axis through a point that moves with the body's velocity; the speed of a deformable body is that
@@ -122,7 +125,8 @@ struct BodySpec {
   Vec3 velocity{0, 0, 0};  ///< m/s, initial; of a rigid body: constant unless tables are given
   std::array<std::optional<TimeTable>, 3> rigid_velocity;  ///< rigid bodies: velocity component in time
   std::optional<RotationSpec> rotation;
-  Vec3 acceleration{0, 0, 0};  ///< m/s², of a body that deforms, beside gravity and with its ramp
+  Vec3 acceleration{0, 0, 0};         ///< m/s², of a body that deforms, beside gravity and with its ramp
+  std::optional<double> temperature;  ///< K, at the start; of its material or of the scene if not given
 };
 
 /// Where a wall acts: on the nodes at and beyond its plane; at the plane where that cuts a cell; or on what
@@ -151,15 +155,45 @@ struct BoundarySpec {
   std::variant<WallSpec, VelocityBoxSpec> condition;
 };
 
+/// What nodes at and beyond a face of the grid, or in a box, are told of heat.
+struct HeatConditionSpec {
+  enum class Kind { temperature, flux, ambient };
+  std::string name;
+  bool face = true;
+  int axis = 0;
+  bool upper = false;
+  Vec3 lower{}, corner{};  ///< of a box, m
+  Kind kind = Kind::temperature;
+  TimeTable value;         ///< K; of a flux into the bodies W/m²; of what is around K
+  double coefficient = 0;  ///< of heat transfer to what is around, W/(m² K)
+};
+
+struct HeatSpec {
+  bool active = false;
+  double temperature = 293;  ///< K, at the start
+  /// Particles take what the temperatures of nodes change by; from time to time, if this is not 0, these
+  /// temperatures themselves, through so many terms of an inverse of the full capacity matrix.
+  int filter_order = 2;
+  double filter_every = 1;  ///< in units of the time in which heat crosses a cell, h²/κ of the best conductor
+  std::vector<HeatConditionSpec> conditions;
+};
+
 struct GravitySpec {
   Vec3 acceleration{0, 0, 0};  ///< m/s²
   double ramp = 0;             ///< s, linear from 0 to full
+};
+
+/// How heat crosses surfaces that touch.
+struct ConductanceSpec {
+  double touching = std::numeric_limits<double>::infinity();  ///< W/(m² K)
+  double gap = 0;                                             ///< conductivity of what fills a gap, W/(m K)
 };
 
 /// What surfaces do that touch.
 struct SurfaceLaw {
   AnyLaw acts;          ///< with its parameters
   double friction = 0;  ///< as stated, also beside a law that has none: another may take its place
+  ConductanceSpec conductance;
 };
 
 /// A pair of bodies (that is, of their velocity fields) or of materials with a law of its own.
@@ -247,6 +281,7 @@ struct Scene {
   std::vector<BoundarySpec> boundaries;
   GravitySpec gravity;
   ContactSpec contact;
+  HeatSpec heat;
   OutputSpec output;
   std::string resolved_yaml;  ///< the scene with every default written out; reading it gives this scene again
   int dimension() const { return space == Space::three_dimensional ? 3 : 2; }

@@ -32,8 +32,15 @@ enum class Nodal {
   /// from the grid's origin, and Σ S_pi M_p H_p (entries of H row by row)
   mass_offset,
   mass_slope,
+  heat_capacity,       ///< C_i = Σ S_pi M_p c
+  heat_content,        ///< Σ S_pi M_p c (T_p − g_p·X_p), T from the scene's, X from the grid's origin
+  heat_slope,          ///< Σ S_pi M_p c g_p, g = ∇T
+  temperature,         ///< T_i, held where conditions hold it
+  heat_flow,           ///< heat that comes to a node, W; then what that warms it in a step, K
+  temperature_filter,  ///< (I − B)ᵏT of the filter of temperatures
+  temperature_series,  ///< their sum
 };
-inline constexpr int kNodalQuantities = 16;
+inline constexpr int kNodalQuantities = 23;
 
 struct NodalInfo {
   Nodal quantity;
@@ -60,6 +67,13 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::occupied, "occupied", false, false, "extended splines"},
     {Nodal::mass_offset, "mass_offset", true, false, "displacements of interfaces"},
     {Nodal::mass_slope, "mass_slope", true, false, "displacements of interfaces", true},
+    {Nodal::heat_capacity, "heat_capacity", false, false, "heat"},
+    {Nodal::heat_content, "heat_content", false, false, "heat"},
+    {Nodal::heat_slope, "heat_slope", true, false, "heat"},
+    {Nodal::temperature, "temperature", false, false, "heat"},
+    {Nodal::heat_flow, "heat_flow", false, false, "heat"},
+    {Nodal::temperature_filter, "temperature_filter", false, false, "heat that is filtered"},
+    {Nodal::temperature_series, "temperature_series", false, false, "heat that is filtered"},
 }};
 
 /// Columns over all slots of all velocity fields.

@@ -32,9 +32,11 @@ enum class Quantity {
   temperature,
   elastic_strain,
   out_of_plane_stretch,
-  initial_deformation
+  initial_deformation,
+  temperature_slope,
+  thermal_stretch
 };
-inline constexpr int kQuantities = 17;
+inline constexpr int kQuantities = 19;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -60,13 +62,15 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::dissipated_energy, "dissipated_energy", "J/m^3", 1, 1, "plastic work, viscous heat"},
     {Quantity::internal_energy, "internal_energy", "J/m^3", 1, 1, "equation of state"},
     {Quantity::plastic_strain, "plastic_strain", "-", 1, 1, "plastic flow"},
-    {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening"},
+    {Quantity::temperature, "temperature", "K", 1, 1, "equation of state, thermal softening, heat"},
     {Quantity::elastic_strain, "elastic_strain", "-", 4, 6,
      "plastic flow (elastic B, of metals isochoric; xx yy zz xy yz xz)"},
     {Quantity::out_of_plane_stretch, "out_of_plane_stretch", "-", 1, 1,
      "plane stress, axisymmetry (F_zz; about the axis that of the hoop)"},
     {Quantity::initial_deformation, "initial_deformation", "-", 4, 9,
      "displacements where domains lie at an angle at the start (row-major F)"},
+    {Quantity::temperature_slope, "temperature_slope", "K/m", 2, 3, "heat (its gradient)"},
+    {Quantity::thermal_stretch, "thermal_stretch", "-", 1, 1, "thermal expansion (of a length)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).

@@ -47,6 +47,8 @@ struct State {
     columns(Quantity::initial_volume, &v.volume, 1);
     columns(Quantity::wave_speed, &v.wave_speed, 1);
     columns(Quantity::out_of_plane_stretch, &v.stretch, 1);
+    columns(Quantity::temperature_slope, v.temperature_slope, Dim);
+    columns(Quantity::thermal_stretch, &v.state.thermal_stretch, 1);
     v.depth = depth;
     columns(Quantity::dissipated_energy, &v.state.dissipated, 1);
     columns(Quantity::internal_energy, &v.state.internal_energy, 1);

@@ -14,6 +14,7 @@
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
+#include "kernels/transfer/heat.hpp"
 #include "kernels/transfer/project.hpp"
 #include "kernels/transfer/re_extrapolate.hpp"
 #include "kernels/transfer/update.hpp"
@@ -173,6 +174,51 @@ class BasisPasses final : public Passes<Dim> {
                                                  : update_columns<2>(state, rule, lower, upper);
   }
 
+  void project_heat(State<Dim>& state, HeatScale scale) override {
+    auto& nodes = state.nodes;
+    NodeColumns<Dim + 2> content;
+    content.column[0] = nodes.column(Nodal::heat_capacity);
+    set_led(nodes, content.column + 1);
+    const NodeColumns<1> flow = nodes.template columns<1>(Nodal::heat_flow);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+      project_heat_tile<Dim, Basis>(c, room.heat, scale, content, flow);
+    });
+  }
+
+  void filter_heat(State<Dim>& state) override {
+    const NodeColumns<1> in = state.nodes.template columns<1>(Nodal::temperature_filter);
+    NodeColumns<Dim + 1> out;
+    set_led(state.nodes, out.column);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+      filter_heat_tile<Dim, Basis>(c, room.heat, in, out);
+    });
+  }
+
+  HeatReport update_heat(State<Dim>& state, HeatScale scale, bool filtered) override {
+    auto& nodes = state.nodes;
+    const NodeColumns<3> in{
+        {nodes.column(Nodal::temperature), nodes.column(Nodal::heat_flow),
+         filtered ? nodes.column(Nodal::temperature_series) : nodes.column(Nodal::temperature)}};
+    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
+    heat_reports_.assign(static_cast<std::size_t>(n), {});
+    const ParticleView<Dim> view = state.view();
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 4)
+    for (std::int64_t t = 0; t < n; ++t) {
+      const auto at = static_cast<std::size_t>(t);
+      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) continue;
+      heat_reports_[at] = update_heat_tile<Dim, Basis>(
+          context(state, view, static_cast<int>(t)),
+          rooms_[static_cast<std::size_t>(omp_get_thread_num())]->heat, scale, filtered, in);
+    }
+    HeatReport all;
+    for (const HeatReport& one : heat_reports_) {
+      all.stored += one.stored;
+      all.worked += one.worked;
+      all.sound &= one.sound;
+    }
+    return all;
+  }
+
   void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) override {
     fit_.run(state, spec, contact);
   }
@@ -183,6 +229,7 @@ class BasisPasses final : public Passes<Dim> {
     XpicRoom<Dim, Basis, 2 * Dim> xpic;
     ReExtrapolateRoom<Dim, Basis> re_extrapolate;
     UpdateRoom<Dim, Basis> update;
+    HeatRoom<Dim, Basis> heat;
   };
 
   static auto visitor(const State<Dim>& state) {
@@ -242,6 +289,12 @@ class BasisPasses final : public Passes<Dim> {
     return project_tile<Dim, Basis>(c, room, out);
   }
 
+  /// Contents, and their slopes behind them.
+  static void set_led(Nodes<Dim>& nodes, double** columns) {
+    columns[0] = nodes.column(Nodal::heat_content);
+    for (int d = 0; d < Dim; ++d) columns[1 + d] = nodes.column(Nodal::heat_slope, d);
+  }
+
   template <int NC>
   void xpic_columns(State<Dim>& state) {
     const auto in = state.nodes.template columns<NC>(Nodal::star),
@@ -296,6 +349,7 @@ class BasisPasses final : public Passes<Dim> {
   };
   std::vector<std::unique_ptr<Room>> rooms_;
   std::vector<ThreadReport> reports_;
+  std::vector<HeatReport> heat_reports_;  ///< by tile: sums want one order
   std::vector<int> inverted_, outside_;
   ContactFit<Dim, Basis> fit_;
 };

@@ -21,9 +21,10 @@ enum class Pass {
   conditions,
   xpic,
   re_extrapolate,
-  update
+  update,
+  heat
 };
-inline constexpr std::array<std::string_view, 13> kPassNames{"sort",
+inline constexpr std::array<std::string_view, 14> kPassNames{"sort",
                                                              "project",
                                                              "extension",
                                                              "surfaces",
@@ -35,7 +36,8 @@ inline constexpr std::array<std::string_view, 13> kPassNames{"sort",
                                                              "conditions",
                                                              "xpic",
                                                              "re_extrapolate",
-                                                             "update"};
+                                                             "update",
+                                                             "heat"};
 
 class PassClock {
  public:

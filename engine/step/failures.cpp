@@ -139,6 +139,18 @@ void Step<Dim>::fail_folded(const Fold& fold) const {
   fail_at(p, "the surface folds onto itself there");
 }
 
+/// The coldest particle, where each temperature is a number.
+template <int Dim>
+void Step<Dim>::fail_warmed() const {
+  const auto& particles = state_.particles;
+  const double* temperature = particles.column(Quantity::temperature);
+  const std::size_t p = least(particles, 1e-300, [&](std::size_t q) {
+    return std::isfinite(temperature[q]) ? temperature[q] : std::numeric_limits<double>::infinity();
+  });
+  if (p == particles.size()) fail("a temperature is no number");
+  fail_at(p, fmt::format("its temperature fell to {:.3g} K", temperature[p]));
+}
+
 template <int Dim>
 void Step<Dim>::fail_at(std::size_t particle, const std::string& cause) const {
   const auto& particles = state_.particles;
@@ -164,6 +176,8 @@ template Vec<2> Step<2>::place_of(std::size_t) const;
 template Vec<3> Step<3>::place_of(std::size_t) const;
 template void Step<2>::fail(const char*) const;
 template void Step<3>::fail(const char*) const;
+template void Step<2>::fail_warmed() const;
+template void Step<3>::fail_warmed() const;
 template void Step<2>::fail_folded(const Fold&) const;
 template void Step<3>::fail_folded(const Fold&) const;
 template void Step<2>::fail_at(std::size_t, const std::string&) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/contact/fitter.hpp"
+#include "engine/heat/carrier.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/transfer/update_rule.hpp"
@@ -14,7 +15,7 @@
 namespace mpmfast {
 
 template <int Dim>
-class Passes : public ContactFitter<Dim> {
+class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
  public:
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;

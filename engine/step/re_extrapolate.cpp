@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "engine/step/slots.hpp"
+#include "engine/state/slots.hpp"
 #include "engine/step/step.hpp"
 
 namespace mpmfast {

@@ -11,7 +11,7 @@
 
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
-#include "engine/step/slots.hpp"
+#include "engine/state/slots.hpp"
 
 namespace mpmfast {
 
@@ -24,7 +24,8 @@ Step<Dim>::Step(const Scene& scene)
       conditions_(scene),
       contact_(scene, plan_),
       rigid_(scene, plan_, seeded(scene)),
-      penalty_(scene, plan_, state_) {
+      penalty_(scene, plan_, state_),
+      heat_(scene, plan_) {
   // Below a thousand particles a thread, waiting for each other costs more than the work.
   state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
   passes_->shape_domains(state_);
@@ -66,7 +67,8 @@ double Step<Dim>::fastest() const {
 template <int Dim>
 double Step<Dim>::stable_dt() const {
   const double share = std::min(scene_->time.cfl, penalty_.stable_share());
-  return std::min(scene_->time.max_step, share * scene_->grid.cell / fastest());
+  const double stable = std::min(scene_->time.max_step, share * scene_->grid.cell / fastest());
+  return heat_.active() ? std::min(stable, heat_.stable_dt()) : stable;
 }
 
 template <int Dim>
@@ -116,6 +118,7 @@ void Step<Dim>::advance(double dt, bool stresses) {
   weigh_body_force(dt);
   filter_velocities();  // Eq. 42 to 44
   re_extrapolate(dt);   // NN §2.8
+  conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
@@ -156,6 +159,7 @@ void Step<Dim>::sort_if_due() {
   conditions_.forget_nodes();
   extension_.forget_nodes();
   penalty_.forget_tiles();
+  heat_.forget_nodes();
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
   sort_due_ = false;
   travelled_ = 0;
@@ -378,6 +382,13 @@ void Step<Dim>::filter_velocities() {
 }
 
 template <int Dim>
+void Step<Dim>::conduct_heat(double dt) {
+  if (!heat_.active()) return;
+  const bool sound = clock_.time(Pass::heat, [&] { return heat_.advance(state_, *passes_, contact_, dt); });
+  if (!sound) fail_warmed();
+}
+
+template <int Dim>
 void Step<Dim>::update_particles(double dt) {
   const bool stresses = plan_.strain_first == 0;  // else the next step makes its own
   const UpdateRule rule{update_rule(),           plan_.position, dt, (1 - plan_.strain_first) * dt,
@@ -426,7 +437,7 @@ void Step<Dim>::book(const ContactBooks<Dim>& books) {
 template <int Dim>
 double Step<Dim>::stored_energy() {
   return mpmfast::stored_energy(state_) + contact_.books().stored +
-         (state_.step > 0 ? penalty_.stored_energy(state_) : 0);
+         (state_.step > 0 ? penalty_.stored_energy(state_) : 0) - heat_.sums().stored;
 }
 
 template <int Dim>

@@ -11,6 +11,7 @@
 #include "engine/conditions/rigid_bodies.hpp"
 #include "engine/contact/contact.hpp"
 #include "engine/contact/penalty/penalty.hpp"
+#include "engine/heat/heat.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
@@ -76,6 +77,7 @@ class Step {
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
   const Penalty<Dim>& penalty() const { return penalty_; }
   const Extension<Dim>& extension() const { return extension_; }
+  const Heat<Dim>& heat() const { return heat_; }
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
@@ -116,6 +118,7 @@ class Step {
   void weigh_body_force(double dt);
   void filter_velocities();
   void re_extrapolate(double dt);
+  void conduct_heat(double dt);
   void find_moving_velocities();
   void update_particles(double dt);
   void move_rigid_end(double dt);
@@ -124,6 +127,7 @@ class Step {
   void book(const ContactBooks<Dim>& books);
   /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
   [[noreturn]] void fail(const char* otherwise) const;
+  [[noreturn]] void fail_warmed() const;
   [[noreturn]] void fail_folded(const Fold& fold) const;
   [[noreturn]] void fail_at(std::size_t particle, const std::string& cause) const;
 
@@ -136,6 +140,7 @@ class Step {
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;
   Penalty<Dim> penalty_;
+  Heat<Dim> heat_;
   Sums<Dim> sums_;
   PassClock clock_;
   Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m

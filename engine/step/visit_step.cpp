@@ -101,6 +101,7 @@ void Step<Dim>::visit(Archive& archive) {
   visit_sums(archive, "sums", sums_);
   contact_.visit(archive);
   penalty_.visit(archive);
+  heat_.visit(archive);
   conditions_.visit(archive);
   visit_particles(archive, state_.particles);
   state_.tiling.visit(archive, state_.particles, state_.body_field);

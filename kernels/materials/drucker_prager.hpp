@@ -24,13 +24,16 @@ struct DruckerPrager {
   static constexpr const char *kModel = "drucker_prager",
                               *kSays = "soil and sand: cohesion, friction, dilation, no or little tension";
   static constexpr StateColumns kColumns{true, false, true, false, true};
-  static constexpr bool kParts = true;  ///< grains leave each other: F tells nothing of neighbours
+  static constexpr bool kParts = true;          ///< grains leave each other: F tells nothing of neighbours
+  static constexpr bool kElasticVolume = true;  ///< elastic_strain has the volume in it
   static constexpr double start_temperature = 293;  ///< K, of no account
+  static constexpr double heat_share = 1;           ///< of what it dissipates
   double density = 0;                               ///< kg/m³, undeformed
   double bulk = 0, shear = 0;                       ///< K, G, Pa
   double friction_angle = 0, dilation_angle = 0;    ///< φ, ψ, rad
   double cohesion = 0;                              ///< c, Pa
   double tension = 0;                               ///< T, Pa
+  double heating = 0;  ///< K m³/J, by dissipated work where a scene has temperatures
   Cone cone = Cone::compression;
 
   template <class Keys>

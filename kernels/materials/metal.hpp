@@ -27,6 +27,7 @@ struct Metal {
   double heat_capacity = 1;        ///< c_v, J/(kg K)
   double heat_share = 0.9;         ///< of plastic work that becomes heat (Taylor and Quinney)
   double start_temperature = 293;  ///< K
+  double heating = 0;  ///< K m³/J, by plastic work where the law has no temperature and the scene has
 
   template <class Keys>
   void describe(Keys& map) {

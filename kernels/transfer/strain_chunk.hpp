@@ -36,28 +36,40 @@ inline ChunkStress<Dim> staged_stress(StrainRoom<Dim>& room) {
   return out;
 }
 
+/// What of F a law answers to: all of it where heat stretches nothing. (Planes that heat stretches are asked
+/// in three dimensions: strain_chunk_with_depth.) @return whether heat does
+template <int Dim>
+inline bool see_cooled(const StateView<Dim>& view, std::uint32_t at, const Lanes (&f)[Dim * Dim],
+                       Lanes (&seen)[Dim * Dim]) {
+  for (int e = 0; e < Dim * Dim; ++e) seen[e] = f[e];
+  if (Dim == 2 || !view.thermal_stretch) return false;
+  detail::cool(detail::cooling(view, at), seen);
+  return true;
+}
+
 /// F ← (I + a) F, τ and c of up to kLanes particles from `at`, `count` of which are the caller's.
 template <int Dim, class Law>
 inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes (&l)[Dim * Dim], double dt,
                         int terms, std::uint32_t at, int count, Lanes (&f)[Dim * Dim],
                         Lanes (&tau)[kSymmetric<Dim>], Lanes& wave_speed_squared) {
   if constexpr (Evolving<Law>) {
-    Lanes a[Dim * Dim];
-    const Lanes before = determinant<Dim>(f);
+    Lanes a[Dim * Dim], seen[Dim * Dim];
+    Lanes before = determinant<Dim>(f);
     deformation_increment<Dim>(l, dt, terms, a);
     deform<Dim>(a, f);
     Lanes expansion = l[0];
     for (int d = 1; d < Dim; ++d) expansion += l[(Dim + 1) * d];
+    if (see_cooled<Dim>(view, at, f, seen)) before /= determinant<Dim>(f) / determinant<Dim>(seen);
     MaterialState<Dim, Lanes> state;
-    detail::for_each_state_column<Dim, Law>(
-        view, state, [&](const double* column, Lanes& value) { value = load_lanes(column + at); });
-    law.template advance<Dim>(StrainStep<Dim, Lanes>{a, f, before, determinant<Dim>(f), expansion, dt}, state,
-                              tau, wave_speed_squared);
-    detail::for_each_state_column<Dim, Law>(
-        view, state, [&](double* column, Lanes value) { store_first(column + at, value, count); });
+    detail::load_state<Law>(view, at, state);
+    law.template advance<Dim>(StrainStep<Dim, Lanes>{a, seen, before, determinant<Dim>(seen), expansion, dt},
+                              state, tau, wave_speed_squared);
+    detail::store_state(view, law, at, count, state);
   } else {
+    Lanes seen[Dim * Dim];
     advance_deformation<Dim>(l, dt, terms, f);
-    law.template stress<Dim>(f, tau, wave_speed_squared);
+    see_cooled<Dim>(view, at, f, seen);
+    law.template stress<Dim>(seen, tau, wave_speed_squared);
   }
 }
 
@@ -95,21 +107,21 @@ bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
-    Lanes l[4], f[4], tau[4], c2, s = load_lanes(p.stretch + at);
+    Lanes l[4], f[4], tau[4], c2, s = p.stretch ? load_lanes(p.stretch + at) : broadcast<Lanes>(1.0);
     const Lanes rate = hoop ? load_lanes(&room.hoop_rate[k]) : broadcast<Lanes>(0.0);
     load_strain(p, room, begin, k, l, f);
     advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
-    store_first(p.stretch + at, s, count - k);
+    if (p.stretch) store_first(p.stretch + at, s, count - k);
     sound &= store_strain(p, begin, k, count - k, f, tau, c2, s * determinant<2>(f), stress);
   }
   return sound;
 }
 
 /// Need nobody keep the stresses of this law, because they follow from F? Not where it has a history, nor in
-/// planes that stretch along their normal.
+/// planes that stretch along their normal, nor where heat stretches.
 template <class Law, int Dim>
 inline bool stress_can_wait(const ParticleView<Dim>& p) {
-  return !Evolving<Law> && p.depth == Depth::held;
+  return !Evolving<Law> && p.depth == Depth::held && !p.state.thermal_stretch;
 }
 
 /// F of a chunk whose velocity gradients are staged in room.gradient, and nothing else: what strain_chunk
@@ -150,7 +162,8 @@ template <int Dim, class Law>
 bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
                   int terms, const StrainRoom<Dim>& room, const ChunkStress<Dim>& stress) {
   if constexpr (Dim == 2) {
-    if (p.depth != Depth::held) return strain_chunk_with_depth(p, law, begin, count, dt, terms, room, stress);
+    if (p.depth != Depth::held || p.state.thermal_stretch)
+      return strain_chunk_with_depth(p, law, begin, count, dt, terms, room, stress);
   }
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {

@@ -21,43 +21,82 @@ inline void for_each_state_column(const StateView<Dim>& view, State& state, cons
     for (int c = 0; c < kSymmetric<Dim>; ++c) f(view.elastic_strain[c], state.elastic_strain[c]);
 }
 
+/// 1/θ of kLanes particles; 1 where heat stretches nothing.
+template <int Dim>
+inline Lanes cooling(const StateView<Dim>& view, std::uint32_t at) {
+  return view.thermal_stretch ? 1.0 / load_lanes(view.thermal_stretch + at) : broadcast<Lanes>(1.0);
+}
+
+/// What of F a law answers to where heat has stretched the material: F/θ, since F = θ F_e. What it stores is
+/// W(F/θ) of an undeformed volume, whose stress τ(F/θ) is the law's.
+template <int N>
+inline void cool(Lanes cooling, Lanes (&f)[N]) {
+  for (Lanes& entry : f) entry *= cooling;
+}
+
+/// The state before a step, and after it; work that a law without a temperature of its own dissipates heats
+/// the particles where a scene has temperatures.
+template <class Law, int Dim, int StateDim>
+inline void load_state(const StateView<Dim>& view, std::uint32_t at, MaterialState<StateDim, Lanes>& state) {
+  for_each_state_column<Dim, Law>(
+      view, state, [&](const double* column, Lanes& value) { value = load_lanes(column + at); });
+}
+template <class Law, int Dim>
+inline void store_state(const StateView<Dim>& view, const Law& law, std::uint32_t at, int count,
+                        MaterialState<Dim, Lanes>& state) {
+  if constexpr (Law::kColumns.dissipated && !Law::kColumns.temperature) {
+    if (view.temperature) {
+      const Lanes work = state.dissipated - load_lanes(view.dissipated + at);
+      store_first(view.temperature + at, load_lanes(view.temperature + at) + law.heating * work, count);
+    }
+  }
+  for_each_state_column<Dim, Law>(
+      view, state, [&](double* column, Lanes value) { store_first(column + at, value, count); });
+}
+
 }  // namespace detail
 
 /// Plane stress: F ← (I + a) F, then s where τ_zz vanishes.
 template <class Law>
-inline void advance_relaxed(const Law& law, const Lanes (&l)[4], double dt, int terms, Lanes (&f)[4],
-                            Lanes& s, Lanes (&tau)[6], Lanes& wave_speed_squared) {
+inline void advance_relaxed(const StateView<2>& view, const Law& law, const Lanes (&l)[4], double dt,
+                            int terms, std::uint32_t at, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
+                            Lanes& wave_speed_squared) {
   advance_deformation<2>(l, dt, terms, f);
-  s = law.relaxed_stretch(f, s);
-  Lanes full[9];
-  embed(f, s, full);
+  const Lanes cooling = detail::cooling(view, at);
+  Lanes seen[4] = {f[0], f[1], f[2], f[3]}, full[9];
+  detail::cool(cooling, seen);
+  const Lanes relaxed = law.relaxed_stretch(seen, cooling * s);
+  embed(seen, relaxed, full);
   law.template stress<3>(full, tau, wave_speed_squared);
-  wave_speed_squared = law.plate_wave_speed_squared(f, s);
+  wave_speed_squared = law.plate_wave_speed_squared(seen, relaxed);
+  s = relaxed / cooling;
 }
 
-/// Axisymmetry: F ← (I + a) F and s ← (1 + b) s, b the increment of the hoop rate v_r/r.
+/// Axisymmetry: F ← (I + a) F and s ← (1 + b) s, b the increment of the hoop rate v_r/r. Plane strain that
+/// heat stretches is the same with s = 1.
 template <class Law>
 inline void advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate, double dt,
                          int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
                          Lanes& wave_speed_squared) {
-  const Lanes before = s * determinant<2>(f), around = stretch_increment(rate, dt, terms);
+  const Lanes cooling = detail::cooling(view, at), of_volume = cooling * cooling * cooling;
+  const Lanes before = of_volume * (s * determinant<2>(f)), around = stretch_increment(rate, dt, terms);
   Lanes a[4], full[9];
   deformation_increment<2>(l, dt, terms, a);
   deform<2>(a, f);
   s += around * s;
   embed(f, s, full);
+  detail::cool(cooling, full);
   if constexpr (Evolving<Law>) {
     Lanes increment[9];
     embed(a, around, increment);
     MaterialState<2, Lanes> plane{};
-    detail::for_each_state_column<2, Law>(
-        view, plane, [&](const double* column, Lanes& value) { value = load_lanes(column + at); });
+    detail::load_state<Law>(view, at, plane);
     MaterialState<3, Lanes> state = widened(plane);
-    const StrainStep<3, Lanes> step{increment, full, before, s * determinant<2>(f), l[0] + l[3] + rate, dt};
-    law.template advance<3>(step, state, tau, wave_speed_squared);
+    const Lanes now = of_volume * (s * determinant<2>(f));
+    law.template advance<3>(StrainStep<3, Lanes>{increment, full, before, now, l[0] + l[3] + rate, dt}, state,
+                            tau, wave_speed_squared);
     plane = narrowed(state);
-    detail::for_each_state_column<2, Law>(
-        view, plane, [&](double* column, Lanes value) { store_first(column + at, value, count); });
+    detail::store_state(view, law, at, count, plane);
   } else {
     law.template stress<3>(full, tau, wave_speed_squared);
   }
@@ -71,7 +110,7 @@ inline void advance_law_with_depth(const ParticleView<2>& p, const Law& law, con
   Lanes all[6];
   if constexpr (Relaxes<Law>) {
     if (p.depth == Depth::relaxed)
-      advance_relaxed(law, l, dt, terms, f, s, all, wave_speed_squared);
+      advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
     else
       advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);
   } else {

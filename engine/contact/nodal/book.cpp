@@ -113,8 +113,7 @@ void Contact<Dim>::book_friction(const State<Dim>& state) {
       if (entry.first.isZero(0) && entry.second.isZero(0)) continue;
       const int law = pair_of(state, node, entry);
       entry.friction_work = 0;
-      const LawScope scope =
-          std::visit([](const auto& l) { return l.scope; }, laws_[static_cast<std::size_t>(law + 1)]);
+      const LawScope scope = scope_of(state, node, entry);
       if (scope != LawScope::contact && scope != LawScope::bonded) continue;
       // In a lump, each touching pair is seen from both sides.
       const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
@@ -163,6 +162,20 @@ template <int Dim>
 int Contact<Dim>::pair_of(const State<Dim>& state, const ContactNode<Dim>& node,
                           const ContactEntry<Dim>& entry) const {
   return pairs_.empty() ? -1 : pairs_.pair[place_of_pair(state, node, entry)];
+}
+
+template <int Dim>
+LawScope Contact<Dim>::scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                const ContactEntry<Dim>& entry) const {
+  return std::visit([](const auto& law) { return law.scope; },
+                    laws_[static_cast<std::size_t>(pair_of(state, node, entry) + 1)]);
+}
+
+template <int Dim>
+const ConductanceSpec& Contact<Dim>::conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                    const ContactEntry<Dim>& entry) const {
+  const int pair = pair_of(state, node, entry);
+  return (pair < 0 ? spec_.law : spec_.pairs[static_cast<std::size_t>(pair)].law).conductance;
 }
 
 template <int Dim>

@@ -134,9 +134,10 @@ inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
 }};
 
 /// Fields that output.picture can show.
-inline constexpr std::array<const char*, 12> kPictures{
-    "pressure",  "von_mises", "stress_difference", "stress_xx", "stress_yy", "stress_zz",
-    "stress_xy", "stress_yz", "stress_xz",         "speed",     "body",      "none"};
+inline constexpr std::array<const char*, 14> kPictures{
+    "pressure",  "von_mises", "stress_difference", "stress_xx", "stress_yy",   "stress_zz",
+    "stress_xy", "stress_yz", "stress_xz",         "speed",     "temperature", "plastic_strain",
+    "body",      "none"};
 
 /// What a face of the grid is in a word.
 enum class FaceKind { wall, symmetry, fixed, free };
@@ -178,6 +179,13 @@ inline constexpr std::array<FaceName, 6> kFaces{{{"left", 0, false},
                                                  {"top", 1, true},
                                                  {"back", 2, false},
                                                  {"front", 2, true}}};
+
+/// The face of this name; none.
+inline const FaceName* face_named(std::string_view name) {
+  for (const FaceName& face : kFaces)
+    if (name == face.name) return &face;
+  return nullptr;
+}
 
 /// The name of a choice, as a scene writes it.
 template <class E, std::size_t N>

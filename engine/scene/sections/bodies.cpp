@@ -170,6 +170,13 @@ void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string
              if (acceleration.writes() && body.acceleration == Vec3{}) return;
              acceleration.take(body.acceleration, Vector{Measure::acceleration, dimension});
            });
+    map.at("temperature",
+           "At the start, in scenes with `heat`; that of `heat` or of its material if not given.",
+           [&](Slot& temperature) {
+             if (temperature.writes() && !body.temperature) return;
+             double value = body.temperature.value_or(scene.heat.temperature);
+             if (temperature.take(value, kTemperature) && temperature.reads()) body.temperature = value;
+           });
     map.at("rotation", "Turns a rigid body; of one that deforms, its spin at the start.",
            [&](Slot& rotation) { describe_rotation(rotation, dimension, body); });
   });

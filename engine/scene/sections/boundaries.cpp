@@ -22,13 +22,6 @@ struct BoundaryEntry {
   }
 };
 
-const FaceName* face_named(const std::string& name) {
-  for (const FaceName& face : kFaces) {
-    if (name == face.name) return &face;
-  }
-  return nullptr;
-}
-
 /// The wall without friction on a face of the grid.
 WallSpec wall_on(const FaceName& face, const GridSpec& grid) {
   WallSpec wall;

@@ -122,7 +122,8 @@ void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   map.key("family", "Where contact acts.", contact.family, kFamilies);
   const bool nodes = contact.family == ContactFamily::nodes || map.tells();
   if (nodes) describe_geometry(map, scene.dimension(), contact);
-  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.", contact.law);
+  describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.",
+               scene.heat.active, contact.law);
   if (nodes) describe_corrections(map, strain_stated, contact, scene.method.strain);
   contact.springs.describe(map);  // with either family, so that --set can choose it
   map.key("points_per_cell", "Points that follow a surface, along the side of a cell.",

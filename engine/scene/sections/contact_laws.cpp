@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -113,7 +114,26 @@ std::vector<std::string> contact_parameters() {
   return names;
 }
 
-void describe_law(Keys& map, const char* says, SurfaceLaw& law) {
+/// How heat crosses what touches.
+void describe_conductance(Keys& map, bool heat, ConductanceSpec& conductance) {
+  constexpr const char* kSays =
+      "How heat crosses surfaces that touch: perfect, none, or so much a kelvin that they differ by.";
+  if (map.writes() && !heat) return;
+  map.at("conductance", kSays, [&](Slot& slot) {
+    if (slot.is_word("perfect", std::isinf(conductance.touching))) {
+      conductance.touching = kInfinity;
+    } else if (slot.is_word("none", conductance.touching == 0)) {
+      conductance.touching = 0;
+    } else {
+      slot.take(conductance.touching, Number{Measure::conductance, kPositive});
+    }
+  });
+  map.key("gap_conductivity", "Heat conductivity of what fills a gap of up to a cell between them.",
+          conductance.gap, Number{Measure::conductivity, kNotNegative});
+}
+
+void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
+  describe_conductance(map, heat, law.conductance);
   const std::size_t inherited = law.acts.index();
   std::size_t index = inherited;
   map.at("law", says, [&](Slot& slot) { slot.choose(index, contact_laws()); });

@@ -25,13 +25,16 @@ std::string write_scene(const Scene& scene);
 bool describe_grid(Keys& top, int dimension, GridSpec& grid);
 void describe_time(Keys& top, TimeSpec& time);
 void describe_gravity(Keys& top, int dimension, GravitySpec& gravity);
+/// Needs the grid.
+void describe_heat(Keys& top, bool grid_known, Scene& scene);
 void describe_output(Keys& top, int dimension, OutputSpec& output);
 /// @return whether the strain is stated
 bool describe_method(Keys& top, MethodSpec& method);
 /// Chooses the strain that suits the contact where the scene states none. Needs the bodies.
 void describe_contact(Keys& top, bool strain_stated, Scene& scene);
 /// `law` and its parameters; what is absent keeps its value, also where another law has it.
-void describe_law(Keys& map, const char* says, SurfaceLaw& law);
+/// @param heat  the scene has temperatures
+void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law);
 /// `contact.pairs`. Needs the bodies.
 /// @param top  the scene, where bodies stand that could not be read
 void describe_pairs(Keys& contact, Keys& top, Scene& scene);
@@ -60,6 +63,8 @@ void check_walls(const Value& top, const Scene& scene);
 void close_faces(const Value& top, Scene& scene);
 /// Refuses laws that plane stress cannot have.
 void check_plane_stress(const Value& top, const Scene& scene);
+/// Refuses what heat does not know, and materials that it knows too little of.
+void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlace>& places);
 /// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.
 void check_axisymmetric(const Value& top, bool grid_known, Scene& scene);
 

@@ -43,13 +43,36 @@ const LawChoice& law_of(Keys& map, const MaterialKind& kind, const MaterialModel
   return *chosen;
 }
 
-void describe_model(Keys& map, const MaterialKind& kind, MaterialModel& model) {
+/// What heat asks of any material.
+void describe_heat_of(Keys& map, MaterialSpec& material) {
+  const auto key = [&](const char* name, const char* says, double& member, const Number& form) {
+    if (!map.writes() || member != 0) map.key(name, says, member, form);
+  };
+  const bool own = std::visit(
+      []<class Law>(const Law&) {
+        if constexpr (Evolving<Law>) return Law::kColumns.temperature;
+        return false;
+      },
+      material.model);
+  if (!own)
+    key("heat_capacity", "Heat per mass and temperature.", material.heat_capacity,
+        Number{Measure::heat_capacity, kPositive});
+  key("conductivity", "Of heat, in scenes with `heat`.", material.conductivity,
+      Number{Measure::conductivity, kNotNegative});
+  if (!std::holds_alternative<Rigid>(material.model))
+    key("thermal_expansion", "Of a length, in scenes with `heat`.", material.expansion,
+        Number{Measure::expansion, kAny});
+}
+
+void describe_model(Keys& map, const MaterialKind& kind, MaterialSpec& material) {
+  MaterialModel& model = material.model;
   const LawChoice& chosen = law_of(map, kind, model);
   for (const LawChoice& law : kind.laws) {
     if (!map.tells() && &law != &chosen) continue;
     const auto body = [&] {
       if (!map.writes()) model = law.standard;
       law.describe(map, model);
+      describe_heat_of(map, material);
     };
     if (*law.with)
       map.under(law.with, true, body);
@@ -70,7 +93,7 @@ void describe_material(Slot& slot, MaterialSpec& material) {
                                    [&](Slot& model) { model.choose(index, kinds); });
     for (const MaterialKind& kind : kinds)
       map.under(fmt::format("model={}", kind.name), known && &kind == &kinds[index],
-                [&] { describe_model(map, kind, material.model); });
+                [&] { describe_model(map, kind, material); });
   });
 }
 

@@ -53,7 +53,8 @@ class PairEntries {
         map.need_at("materials", "Two materials; also one and the same. A pair of bodies counts before it.",
                     "two materials", [&](Slot& slot) { describe_two(slot, true, pair); });
       named = map.good();
-      describe_law(map, "The law of this pair; what it leaves out is that of `contact`.", pair.law);
+      describe_law(map, "The law of this pair; what it leaves out is that of `contact`.", scene_.heat.active,
+                   pair.law);
       if (!map.reads() || !named) return;
       map.check(pair.materials ? "materials" : "between", [&](Slot& who) {
         check(who, pair);

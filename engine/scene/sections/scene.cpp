@@ -92,6 +92,7 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
   else if (scene.contact.active)
     check_interfaces(top, scene);
   if (scene.method.extended) check_extension(top, scene);
+  check_heat(top, scene, places);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
@@ -106,6 +107,7 @@ std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene) {
   const bool grid_known = describe_grid(top, scene.dimension(), scene.grid);
   describe_time(top, scene.time);
   const bool strain_stated = describe_method(top, scene.method);
+  describe_heat(top, grid_known, scene);
   describe_materials(top, scene.materials);
   const std::vector<BodyPlace> places = describe_bodies(top, scene);
   describe_boundaries(top, grid_known, scene);

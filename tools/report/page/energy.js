@@ -3,12 +3,12 @@
 
 function energyBalance(history) {
   const column = name => history.columns.get(name) ?? new Float64Array(history.rows);
-  const [kinetic, stored, dissipated, friction, gone, boundary, body] = ['kinetic_J', 'stored_J', 'dissipated_J',
-    'friction_J', 'outflow_J', 'boundary_work_J', 'body_force_work_J'].map(column);
+  const [kinetic, stored, dissipated, friction, gone, boundary, body, heat] = ['kinetic_J', 'stored_J', 'dissipated_J',
+    'friction_J', 'outflow_J', 'boundary_work_J', 'body_force_work_J', 'expansion_work_J'].map(column);
   const error = new Float64Array(history.rows);
   let first = 0, scale = 0;
   for (let i = 0; i < history.rows; ++i) {
-    const balance = kinetic[i] + stored[i] + dissipated[i] + friction[i] + gone[i] - boundary[i] - body[i];
+    const balance = kinetic[i] + stored[i] + dissipated[i] + friction[i] + gone[i] - boundary[i] - body[i] - heat[i];
     if (i === 0) first = balance;
     scale = Math.max(scale, kinetic[i] + stored[i] + dissipated[i], Math.abs(boundary[i]), Math.abs(body[i]));
     error[i] = scale > 0 ? (balance - first) / scale : 0;
@@ -27,6 +27,9 @@ function energyWords(history, error) {
   const energy = joule => valueText(Math.abs(joule), shownUnit('J'), 3);
   const parts = [], came = change('boundary_work_J') + change('body_force_work_J');
   if (came !== 0) parts.push(came > 0 ? `Boundaries and body forces put ${energy(came)} in.` : `Boundaries and body forces took ${energy(came)} out.`);
+  const expanded = change('expansion_work_J'), warmed = change('heat_in_J');
+  if (expanded !== 0) parts.push(`Heat that stretched the bodies ${expanded > 0 ? 'put' : 'took'} ${energy(expanded)} ${expanded > 0 ? 'in' : 'out'}.`);
+  if (warmed !== 0) parts.push(`${energy(warmed)} of heat came ${warmed > 0 ? 'in' : 'out'} through faces and given nodes.`);
   const where = [['kinetic_J', 'kinetic energy'], ['stored_J', 'stored energy']]
     .map(([name, text]) => [change(name), text]).filter(([joule]) => joule !== 0)
     .map(([joule, text]) => `${text} ${joule > 0 ? 'rose' : 'fell'} by ${energy(joule)}`);

@@ -1,0 +1,208 @@
+/// Heat between bodies: what touches, ties, friction, and what crosses a surface.
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/heat/heat.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+/// Cells: surfaces this near touch as heat sees it, whether anything presses them or not.
+constexpr double kTouches = 0.02;
+
+}  // namespace
+
+/// What touches, on how much of a surface, and how much the temperatures there differ by. The area of a node
+/// is that of the side of less mass, as interfaces have it (Contact::bridges_around).
+template <int Dim>
+void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& contact) {
+  const auto& list = contact.list();
+  crossings_.assign(list.entries.size(), {});
+  const auto& nodes = state.nodes;
+  const double *mass = nodes.column(Nodal::mass), *temperature = nodes.column(Nodal::temperature);
+  const auto n = static_cast<std::int64_t>(list.nodes.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list.nodes[static_cast<std::size_t>(k)];
+    const auto slot_of = [&](int field) {
+      return list.fields[static_cast<std::size_t>(node.field_begin + field)].slot;
+    };
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list.entries[static_cast<std::size_t>(e)];
+      Crossing& crossing = crossings_[static_cast<std::size_t>(e)];
+      const LawScope scope = contact.scope_of(state, node, entry);
+      if (scope == LawScope::nowhere) continue;
+      const int partner = contact.partner(state, node, entry);
+      const auto field_of = [&](int field) {
+        return static_cast<std::size_t>(
+            list.fields[static_cast<std::size_t>(node.field_begin + field)].field);
+      };
+      crossing.a = slot_of(entry.a);
+      crossing.b = slot_of(partner);
+      crossing.field_a = field_of(entry.a);
+      crossing.field_b = field_of(partner);
+      crossing.tied = scope == LawScope::everywhere;
+      if (crossing.tied || entry.normal.isZero(0) || !nodes.has(Nodal::volume_gradient)) continue;
+      const ConductanceSpec& surface = contact.conductance_of(state, node, entry);
+      const bool touches = scope == LawScope::bridged
+                               ? contact.joined(e)
+                               : entry.touching || entry.separation < kTouches * state.grid.cell;
+      const double gap = std::max(0.0, entry.separation);
+      if (touches)
+        crossing.conductance = std::min(surface.touching, stiffest_);
+      else if (surface.gap > 0 && gap < state.grid.cell)
+        crossing.conductance =
+            1 / (1 / std::min(surface.touching > 0 ? surface.touching : stiffest_, stiffest_) +
+                 gap / surface.gap);
+      const double a = nodes.vector(Nodal::volume_gradient, crossing.a).dot(entry.normal),
+                   b = -nodes.vector(Nodal::volume_gradient, crossing.b).dot(entry.normal);
+      const double m_a = mass[crossing.a], m_b = mass[crossing.b];
+      double around = state.depth == Depth::hoop ? kFullTurn * node.node[0] * state.grid.cell : 1;
+      // In a lump each touching pair is seen from both sides.
+      if (entry.b < 0 && node.rigid < 0 && node.field_end - node.field_begin > 2) around *= 0.5;
+      crossing.area = around * std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+      if (!touches) crossing.sides = {around * a, around * b};
+      crossing.jump = temperature[crossing.b] - temperature[crossing.a];
+    }
+  }
+}
+
+/// The jump of a surface, and what drives it: means over the nodes around, by area. Where the conductivities
+/// of the two differ, so do their slopes, and led to nodes on either side of the surface their temperatures
+/// differ by as much one way as the other: a jump of each node by itself would drive heat round in circles.
+template <int Dim>
+auto Heat<Dim>::mean_jump(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
+                          std::size_t e) const -> Jump {
+  const auto& list = contact.list();
+  const Crossing& own = crossings_[e];
+  double area = 0;
+  std::array<double, 2> sides{};
+  Jump sum;
+  for (int m = 0; m < power(3, Dim); ++m) {
+    const int k = contact_neighbour(state.tiling, list, node, m);
+    if (k < 0) continue;
+    const auto& other = list.nodes[static_cast<std::size_t>(k)];
+    for (int f = other.entry_begin; f < other.entry_end; ++f) {
+      const Crossing& beside = crossings_[static_cast<std::size_t>(f)];
+      if (!beside.conducts() || beside.field_a != own.field_a || beside.field_b != own.field_b) continue;
+      area += beside.area;
+      sum.jump += beside.area * beside.jump;
+      sum.drive += beside.area * beside.drive;
+      for (std::size_t k = 0; k < 2; ++k) sides[k] += beside.sides[k];
+    }
+  }
+  // Across a gap each side has its surface at a place of its own, and some of it on nodes that are not
+  // shared.
+  const double wider = std::max(1.0, std::max(sides[0], sides[1]) / area);
+  return {sum.jump / area, sum.drive / area, wider};
+}
+
+/// Gives what is tied on a node one value: a temperature by capacities, of flows what warms all alike.
+template <int Dim>
+void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity) const {
+  const auto& list = contact.list();
+  const double* capacity = state.nodes.column(Nodal::heat_capacity);
+  double* value = state.nodes.column(quantity);
+  const bool flow = quantity == Nodal::heat_flow;
+  const auto n = static_cast<std::int64_t>(list.nodes.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list.nodes[static_cast<std::size_t>(k)];
+    // Of each group, its slots are found from its first one: nodes have few fields.
+    const auto joined = [&](int s, int t) {
+      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+        const Crossing& c = crossings_[static_cast<std::size_t>(e)];
+        if (c.tied && ((c.a == s && c.b == t) || (c.a == t && c.b == s))) return true;
+      }
+      return false;
+    };
+    constexpr int kMost = 64;
+    int slots[kMost], group[kMost];
+    const int count = std::min(kMost, node.field_end - node.field_begin);
+    for (int f = 0; f < count; ++f) {
+      slots[f] = list.fields[static_cast<std::size_t>(node.field_begin + f)].slot;
+      group[f] = f;
+    }
+    for (int f = 0; f < count; ++f)
+      for (int g = 0; g < f; ++g)
+        if (group[f] != group[g] && joined(slots[f], slots[g])) {
+          const int from = group[f], to = group[g];
+          for (int h = 0; h < count; ++h)
+            if (group[h] == from) group[h] = to;
+        }
+    for (int f = 0; f < count; ++f) {
+      if (group[f] != f) continue;
+      double all = 0, sum = 0;
+      for (int g = 0; g < count; ++g)
+        if (group[g] == f) {
+          all += capacity[slots[g]];
+          sum += flow ? value[slots[g]] : capacity[slots[g]] * value[slots[g]];
+        }
+      if (!(all > 0)) continue;
+      for (int g = 0; g < count; ++g)
+        if (group[g] == f) value[slots[g]] = flow ? capacity[slots[g]] * (sum / all) : sum / all;
+    }
+  }
+}
+
+/// Heat of friction, by effusivities: as two half-spaces share it that are equally warm where they touch.
+/// (The books want one order, and a node has little to do: one thread.)
+template <int Dim>
+void Heat<Dim>::rub(State<Dim>& state, const Contact<Dim>& contact, double dt) {
+  const auto& list = contact.list();
+  double* flow = state.nodes.column(Nodal::heat_flow);
+  for (const auto& node : list.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      const Crossing& crossing = crossings_[at];
+      const double work = list.entries[at].friction_work;
+      if (crossing.a < 0 || work == 0) continue;
+      const double e_a = effusivity_[crossing.field_a], e_b = effusivity_[crossing.field_b];
+      const bool hard_a = rigid_[crossing.field_a], hard_b = rigid_[crossing.field_b];
+      const double share = e_a + e_b > 0 ? e_a / (e_a + e_b) : hard_a ? 0 : hard_b ? 1 : 0.5;
+      if (!hard_a) flow[crossing.a] += share * work / dt;
+      if (!hard_b) flow[crossing.b] += (1 - share) * work / dt;
+      sums_.friction += (hard_a ? 0 : share * work) + (hard_b ? 0 : (1 - share) * work);
+    }
+}
+
+/// Heat that crosses surfaces. The jump J of a node's temperatures follows J' = f - rJ, r = hA (1/C_a +
+/// 1/C_b), while all else drives it by f; what crosses is hA times the mean of J over the step,
+///   hA/r [(1 - w/x) f + w J/dt],  x = r dt,  w = 1 - exp(-x).
+/// So a conductance may be as large as it likes: what crosses then is what keeps J at zero. At most half of J
+/// goes in a step, with the same f/r at rest: nodes that have little of a body give back up to 2.4 times what
+/// its particles took of them (theory.md, "Heat"), and would swing.
+template <int Dim>
+void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt) {
+  const auto& list = contact.list();
+  const double* capacity = state.nodes.column(Nodal::heat_capacity);
+  double* flow = state.nodes.column(Nodal::heat_flow);
+  const auto inverse = [&](int slot, std::size_t field) { return rigid_[field] ? 0 : 1 / capacity[slot]; };
+  for (Crossing& c : crossings_)
+    if (c.conducts()) c.drive = inverse(c.b, c.field_b) * flow[c.b] - inverse(c.a, c.field_a) * flow[c.a];
+  for (const auto& node : list.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      const Crossing& c = crossings_[at];
+      if (!c.conducts()) continue;
+      const auto [jump, drive, wider] = mean_jump(state, contact, node, at);
+      const double both = c.conductance * c.area * wider,
+                   rate = both * (inverse(c.a, c.field_a) + inverse(c.b, c.field_b)), x = rate * dt;
+      if (!(x > 0)) continue;
+      const double share = std::min(-std::expm1(-x), 0.5);
+      const double crosses = both / rate * ((1 - share / x) * drive + share * jump / dt);
+      flow[c.a] += crosses;
+      flow[c.b] -= crosses;
+      if (rigid_[c.field_a]) sums_.rigid -= dt * crosses;
+      if (rigid_[c.field_b]) sums_.rigid += dt * crosses;
+    }
+}
+
+// Here: the members that this file defines.
+template class Heat<2>;
+template class Heat<3>;
+
+}  // namespace mpmfast
