@@ -109,7 +109,8 @@ std::string blocks(double angle, const std::string& contact) {
 }
 
 /// Means of the bodies, K.
-std::array<double, 2> means(const Step<2>& step) {
+template <int Dim>
+std::array<double, 2> means(const Step<Dim>& step) {
   std::array<double, 2> sum{}, mass{};
   const auto& particles = step.state().particles;
   for (std::size_t p = 0; p < particles.size(); ++p) {
@@ -136,6 +137,72 @@ TEST_CASE("two blocks cool each other through a conductance, along the grid and 
   Step<2> step(scene);
   step.advance(step.stable_dt());
   CHECK(means(step)[1] - means(step)[0] == doctest::Approx(100).epsilon(1e-12).scale(0));
+}
+
+TEST_CASE("two boxes cool each other through a conductance in three dimensions") {
+  const Scene scene = scene_from(R"(
+space: 3d
+grid: {size: [8 mm, 8 mm, 14 mm], cell: 1 mm}
+time: {end: 10 ms}
+materials: {m: {model: neo_hookean, density: 1 g/cm^3, young: 10 MPa, poisson: 0, heat_capacity: 1000 J/kg/K, conductivity: 20 kW/m/K}}
+heat: {temperature: 300 K}
+bodies:
+  - {name: lower, box: {from: [2 mm, 2 mm, 2.3 mm], to: [6 mm, 6 mm, 6.3 mm]}, material: m}
+  - {name: upper, box: {from: [2 mm, 2 mm, 6.3 mm], to: [6 mm, 6 mm, 12.3 mm]}, material: m, temperature: 400 K}
+contact: {conductance: 20 kW/m^2/K}
+)");
+  Step<3> step(scene);
+  run_to_end(step, scene);
+  const auto [lower, upper] = means(step);
+  const double h = 1 / (1 / 20e3 + (4e-3 + 6e-3) / 3 / 20e3), rate = h / 1e6 * (1 / 4e-3 + 1 / 6e-3);
+  CHECK(upper - lower == doctest::Approx(100 * std::exp(-rate * scene.time.end)).epsilon(0.01).scale(0));
+}
+
+TEST_CASE("the wall of a tube has the temperatures of a logarithm, and lets through what they say") {
+  const Scene scene = scene_from(R"(
+space: axisymmetric
+grid: {origin: [5 mm, 0 mm], size: [15 mm, 2 mm], cell: 0.5 mm}
+time: {end: 80 ms}
+materials: {m: {model: linear_elastic, density: 1 g/cm^3, young: 1 MPa, poisson: 0, heat_capacity: 1000 J/kg/K, conductivity: 5 kW/m/K}}
+heat: {temperature: 300 K, boundaries: {left: {temperature: 400 K}, right: {temperature: 300 K}}}
+bodies: [{name: tube, box: {from: [5 mm, 0 mm], to: [20 mm, 2 mm]}, material: m}]
+)");
+  Step<2> step(scene);
+  const double first = step.stable_dt();
+  double before = 0, from = 0;
+  while (step.state().time < scene.time.end * (1 - 1e-12)) {
+    if (step.state().time < 0.9 * scene.time.end)
+      before = step.heat().sums().conditions[0], from = step.state().time;
+    step.advance(step.dt_towards(scene.time.end, first));
+  }
+  CHECK(worst(step, 100, [](double r) { return 400 - 100 * std::log(r / 5e-3) / std::log(4.0); }) < 2e-3);
+  const double through = (step.heat().sums().conditions[0] - before) / (step.state().time - from);
+  const double told = 2 * std::numbers::pi * 5e3 * 2e-3 * 100 / std::log(4.0);  // W
+  CHECK(through == doctest::Approx(told).epsilon(0.005).scale(0));
+}
+
+/// Heat presses by p = gamma rho U where nothing can expand, and is no stored energy of the balance.
+TEST_CASE("an equation of state takes conducted heat into its internal energy") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [8 mm, 2 mm], cell: 1 mm}
+time: {end: 200 us}
+materials:
+  m: {model: mie_gruneisen, density: 1 g/cm^3, bulk: 1 GPa, gruneisen: 1.5, hugoniot_slope: 1.4, heat_capacity: 1000 J/kg/K, conductivity: 10 kW/m/K}
+heat: {boundaries: {left: {flux: 10 MW/m^2}}}
+bodies: [{name: a, box: {from: [0 mm, 0 mm], to: [8 mm, 2 mm]}, material: m}]
+boundaries: {left: wall, right: wall, bottom: wall, top: wall}
+)");
+  const Outcome out = run(scene);
+  REQUIRE(out.failure == "");
+  const double heat = 10e6 * 2e-3 * 200e-6;  // J
+  CHECK(out.history.at("heat_in_J").back() ==
+        doctest::Approx(heat).epsilon(1e-3).scale(0));  // as J of domains
+  CHECK(out.history.at("heat_J").back() ==
+        doctest::Approx(heat).epsilon(0.01).scale(0));  // and what compresses
+  const double volume = 8e-3 * 2e-3, pressure = 1.5 * heat / volume;
+  CHECK(out.history.at("a.mean_stress_xx_Pa").back() == doctest::Approx(-pressure).epsilon(0.01).scale(0));
+  CHECK(std::abs(out.history.at("stored_J").back() + out.history.at("kinetic_J").back()) < 0.01 * heat);
 }
 
 TEST_CASE("a gap conducts by what fills it") {
