@@ -157,7 +157,7 @@ TEST_CASE("the overlap has the same bits on any number of threads and for any or
   for (const int threads : {2, 3, 7}) CHECK(same_bits(measure_overlap(domains, threads), one));
 
   const auto of = [](const std::vector<std::uint32_t>& order) {
-    const std::vector<BodyView<2>> bodies(3, BodyView<2>{{0.03, 0.05}, 0, false});
+    const std::vector<BodyView<2>> bodies(3, BodyView<2>{{0.03, 0.05}, 0, false, {}});
     return measure_overlap(particle_domains(output_test::particles_in_order<2>(order), bodies, {0, 1, 2}), 1);
   };
   const Overlap sorted = of(output_test::ascending(2000));
@@ -168,7 +168,7 @@ TEST_CASE("the overlap has the same bits on any number of threads and for any or
 TEST_CASE("a particle's domain is its undeformed rectangle under F") {
   const auto particles = output_test::particles_in_order<2>({2, 0, 1});
   const std::vector<BodyView<2>> bodies{
-      {{1, 2}, 0, false}, {{3, 4}, 0, false}, {{5, 6}, 0, false}};  // body b holds id b
+      {{1, 2}, 0, false, {}}, {{3, 4}, 0, false, {}}, {{5, 6}, 0, false, {}}};  // body b holds id b
   const auto domains = particle_domains(particles, bodies, {10, 20, 20});
   REQUIRE(domains.size() == 3);
   CHECK(domains[0].owner == 10);
