@@ -13,7 +13,7 @@ template <int Dim>
 struct StateView {
   double *dissipated, *internal_energy, *plastic_strain, *temperature;
   double* elastic_strain[kSymmetric<Dim>];
-  double* thermal_stretch;  ///< θ, of a length by heat since the start: laws see F/θ
+  double* thermal_stretch = nullptr;  ///< θ, of a length by heat since the start: laws see F/θ
 };
 
 /// Pointers to the particle columns (SI); those that a plan does not allocate are null.
@@ -76,7 +76,7 @@ struct BodyView {
   double half_size[Dim];  ///< m, of its particles' undeformed domains
   int material;
   bool rigid;
-  BodyHeat heat;
+  BodyHeat heat{};
 };
 
 /// Everything that the transfers of one tile read beside the nodal columns.

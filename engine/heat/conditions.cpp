@@ -50,15 +50,14 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
           }
         }
         if (!in) continue;
-        const double around = state.depth == Depth::hoop ? kFullTurn * node[0] * state.grid.cell : 1;
         for (int t = stack.begin; t < stack.end; ++t) {
           const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
           if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
           Fed& fed = fed_.emplace_back();
           fed.slot = t * kTileNodes<Dim> + local;
           fed.condition = static_cast<int>(c);
-          fed.around = around;
-          if (condition.face && holds(fed.condition)) mirror(state, node, field, fed);
+          fed.node = node;
+          fed.field = field;
         }
         if (holds(static_cast<int>(c))) break;  // the first that holds a node counts
       }
@@ -69,12 +68,14 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
 /// where the field has them. (At the temperature of the face, rows of a spline beyond it hold a slab of 20
 /// cells 2 % off, and a face that cuts a cell is taken to lie on its next row.)
 template <int Dim>
-void Heat<Dim>::mirror(const State<Dim>& state, const NodeIndex<Dim>& node, int field, Fed& fed) const {
+void Heat<Dim>::mirror(const State<Dim>& state, Fed& fed) const {
   const auto c = static_cast<std::size_t>(fed.condition);
   const int axis = scene_->heat.conditions[c].axis;
-  const double at = 2 * plane_[c] - node[axis];
-  if (std::abs(at - node[axis]) < 2 * kRowTolerance) return;  // on the face
-  NodeIndex<Dim> row = node;
+  fed.by_face = 1;
+  fed.by_inner = {};
+  const double at = 2 * plane_[c] - fed.node[axis];
+  if (std::abs(at - fed.node[axis]) < 2 * kRowTolerance) return;  // on the face
+  NodeIndex<Dim> row = fed.node;
   row[axis] = static_cast<int>(std::floor(at + kRowTolerance));
   const double second = std::max(0.0, at - row[axis]);
   std::array<double, 2> share{1 - second, second > kRowTolerance ? second : 0};
@@ -82,7 +83,7 @@ void Heat<Dim>::mirror(const State<Dim>& state, const NodeIndex<Dim>& node, int 
   double own = 0;  // what of it is the node itself
   for (std::size_t k = 0; k < 2; ++k, ++row[axis]) {
     if (share[k] == 0) continue;
-    slot[k] = state.tiling.slot(row, field);
+    slot[k] = state.tiling.slot(row, fed.field);
     if (slot[k] < 0 || !(state.nodes.column(Nodal::heat_capacity)[slot[k]] > 0)) return;
     if (slot[k] == fed.slot) own = std::exchange(share[k], 0);
   }
@@ -101,25 +102,34 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
     if (!conditions[c].face) continue;
     const double plane = place_of(*scene_, conditions[c], t);
     const double cells = (plane - grid.origin[static_cast<std::size_t>(conditions[c].axis)]) / grid.cell;
-    stale_ |= cells != plane_[c];
+    const int row = wall_row(cells, conditions[c].upper).row;
+    stale_ |= row != row_[c];
     plane_[c] = cells;
-    row_[c] = wall_row(cells, conditions[c].upper).row;
+    row_[c] = row;
   }
   if (stale_) list_nodes(state);
   stale_ = false;
   auto& nodes = state.nodes;
-  for (const Fed& fed : fed_) {
-    if (holds(fed.condition)) continue;
+  const double* capacity = nodes.column(Nodal::heat_capacity);
+  for (Fed& fed : fed_) {
     const HeatConditionSpec& condition = conditions[static_cast<std::size_t>(fed.condition)];
+    if (holds(fed.condition)) {
+      if (condition.face) mirror(state, fed);
+      continue;
+    }
+    if (!(capacity[fed.slot] > 0)) continue;
     const double out = nodes.column(Nodal::volume_gradient, condition.axis)[fed.slot];
-    const double area = fed.around * std::max(0.0, condition.upper ? out : -out);
-    const double value = mean_over(condition.value, t, dt);
-    const double flux =
-        condition.kind == HeatConditionSpec::Kind::flux
-            ? value
-            : condition.coefficient * (value - scale_.reference - nodes.column(Nodal::temperature)[fed.slot]);
-    nodes.column(Nodal::heat_flow)[fed.slot] += flux * area;
-    sums_.conditions[static_cast<std::size_t>(fed.condition)] += flux * area * dt;
+    const double area = around(state, fed.node) * std::max(0.0, condition.upper ? out : -out);
+    double flow = mean_over(condition.value, t, dt) * area;
+    if (condition.kind == HeatConditionSpec::Kind::ambient) {
+      // As across a surface whose other side keeps its temperature (Heat::cross).
+      const double colder =
+          flow / std::max(area, 1e-300) - scale_.reference - nodes.column(Nodal::temperature)[fed.slot];
+      flow =
+          capacity[fed.slot] / dt * shared(condition.coefficient * area / capacity[fed.slot] * dt) * colder;
+    }
+    nodes.column(Nodal::heat_flow)[fed.slot] += flow;
+    sums_.conditions[static_cast<std::size_t>(fed.condition)] += flow * dt;
   }
 }
 

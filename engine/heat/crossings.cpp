@@ -1,5 +1,7 @@
 /// Heat between bodies: what touches, ties, friction, and what crosses a surface.
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -46,28 +48,45 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       crossing.field_b = field_of(partner);
       crossing.tied = scope == LawScope::everywhere;
       if (crossing.tied || entry.normal.isZero(0) || !nodes.has(Nodal::volume_gradient)) continue;
+      const double share = share_of(state, contact, node, e);
+      if (share == 0) continue;
       const ConductanceSpec& surface = contact.conductance_of(state, node, entry);
       const bool touches = scope == LawScope::bridged
                                ? contact.joined(e)
                                : entry.touching || entry.separation < kTouches * state.grid.cell;
       const double gap = std::max(0.0, entry.separation);
-      if (touches)
-        crossing.conductance = std::min(surface.touching, stiffest_);
-      else if (surface.gap > 0 && gap < state.grid.cell)
-        crossing.conductance =
-            1 / (1 / std::min(surface.touching > 0 ? surface.touching : stiffest_, stiffest_) +
-                 gap / surface.gap);
+      if (touches) {
+        crossing.conductance = capped(surface.touching);
+      } else if (surface.gap > 0 && gap < state.grid.cell) {
+        const double over = surface.touching > 0 ? 1 / surface.touching : 0;  // resistances in series
+        crossing.conductance = 1 / (over + gap / surface.gap);
+      }
       const double a = nodes.vector(Nodal::volume_gradient, crossing.a).dot(entry.normal),
                    b = -nodes.vector(Nodal::volume_gradient, crossing.b).dot(entry.normal);
-      const double m_a = mass[crossing.a], m_b = mass[crossing.b];
-      double around = state.depth == Depth::hoop ? kFullTurn * node.node[0] * state.grid.cell : 1;
-      // In a lump each touching pair is seen from both sides.
-      if (entry.b < 0 && node.rigid < 0 && node.field_end - node.field_begin > 2) around *= 0.5;
-      crossing.area = around * std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
-      if (!touches) crossing.sides = {around * a, around * b};
+      const double m_a = mass[crossing.a], m_b = mass[crossing.b], wide = share * around(state, node.node);
+      crossing.area = wide * std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+      if (!touches) crossing.sides = {wide * a, wide * b};
       crossing.jump = temperature[crossing.b] - temperature[crossing.a];
     }
   }
+}
+
+/// How much of a surface an entry stands for: none of a lump whose pairs are listed one by one, half where
+/// two lumps see each other.
+template <int Dim>
+double Heat<Dim>::share_of(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
+                           int e) const {
+  if (node.pair_begin < node.entry_end) return e < node.pair_begin ? 0 : 1;
+  const auto& entries = contact.list().entries;
+  const auto& entry = entries[static_cast<std::size_t>(e)];
+  if (entry.b >= 0) return 1;
+  const int partner = contact.partner(state, node, entry);
+  for (int f = node.entry_begin; f < node.entry_end; ++f) {
+    const auto& other = entries[static_cast<std::size_t>(f)];
+    if (f != e && other.b < 0 && other.a == partner && contact.partner(state, node, other) == entry.a)
+      return 0.5;
+  }
+  return 1;
 }
 
 /// The jump of a surface, and what drives it: means over the nodes around, by area. Where the conductivities
@@ -102,7 +121,7 @@ auto Heat<Dim>::mean_jump(const State<Dim>& state, const Contact<Dim>& contact, 
 
 /// Gives what is tied on a node one value: a temperature by capacities, of flows what warms all alike.
 template <int Dim>
-void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity) const {
+void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity) {
   const auto& list = contact.list();
   const double* capacity = state.nodes.column(Nodal::heat_capacity);
   double* value = state.nodes.column(quantity);
@@ -119,9 +138,10 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
       }
       return false;
     };
-    constexpr int kMost = 64;
-    int slots[kMost], group[kMost];
-    const int count = std::min(kMost, node.field_end - node.field_begin);
+    const int count = node.field_end - node.field_begin;
+    std::vector<int>& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+    room.resize(2 * static_cast<std::size_t>(count));
+    int *const slots = room.data(), *const group = slots + count;
     for (int f = 0; f < count; ++f) {
       slots[f] = list.fields[static_cast<std::size_t>(node.field_begin + f)].slot;
       group[f] = f;
@@ -183,16 +203,25 @@ void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt)
   const auto inverse = [&](int slot, std::size_t field) { return rigid_[field] ? 0 : 1 / capacity[slot]; };
   for (Crossing& c : crossings_)
     if (c.conducts()) c.drive = inverse(c.b, c.field_b) * flow[c.b] - inverse(c.a, c.field_a) * flow[c.a];
+  const auto n = static_cast<std::int64_t>(list.nodes.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto& node = list.nodes[static_cast<std::size_t>(k)];
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      Crossing& c = crossings_[static_cast<std::size_t>(e)];
+      if (c.conducts()) c.mean = mean_jump(state, contact, node, static_cast<std::size_t>(e));
+    }
+  }
   for (const auto& node : list.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
       const Crossing& c = crossings_[at];
       if (!c.conducts()) continue;
-      const auto [jump, drive, wider] = mean_jump(state, contact, node, at);
+      const auto [jump, drive, wider] = c.mean;
       const double both = c.conductance * c.area * wider,
                    rate = both * (inverse(c.a, c.field_a) + inverse(c.b, c.field_b)), x = rate * dt;
       if (!(x > 0)) continue;
-      const double share = std::min(-std::expm1(-x), 0.5);
+      const double share = shared(x);
       const double crosses = both / rate * ((1 - share / x) * drive + share * jump / dt);
       flow[c.a] += crosses;
       flow[c.b] -= crosses;

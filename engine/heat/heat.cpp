@@ -1,5 +1,7 @@
 #include "engine/heat/heat.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,6 +30,7 @@ Heat<Dim>::Heat(const Scene& scene, const Plan& plan)
   plane_.assign(scene.heat.conditions.size(), std::numeric_limits<double>::quiet_NaN());
   effusivity_.assign(plan.fields.size(), 0);
   rigid_ = plan.field_rigid;
+  rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   double diffusivity = 0, conductivity = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const MaterialSpec& material = scene.materials[static_cast<std::size_t>(scene.bodies[b].material)];
@@ -137,7 +140,8 @@ void Heat<Dim>::end(State<Dim>& state, double t, double dt) {
 template <int Dim>
 void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Contact<Dim>& contact) {
   auto& nodes = state.nodes;
-  const double *temperature = nodes.column(Nodal::temperature), *rise = nodes.column(Nodal::heat_flow);
+  const double *temperature = nodes.column(Nodal::temperature), *rise = nodes.column(Nodal::heat_flow),
+               *capacity = nodes.column(Nodal::heat_capacity);
   double *rest = nodes.column(Nodal::temperature_filter), *series = nodes.column(Nodal::temperature_series);
   for_each_slot(state, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) rest[i] = temperature[i] + rise[i];
@@ -160,8 +164,12 @@ void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Conta
     for_each_slot(state, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) rest[i] -= seen[i];
     });
-    for (const Fed& fed : fed_)
-      if (holds(fed.condition)) rest[fed.slot] = 0;
+    // What the filter would do to nodes that are held comes in through their condition instead.
+    for (const Fed& fed : fed_) {
+      if (!holds(fed.condition)) continue;
+      sums_.conditions[static_cast<std::size_t>(fed.condition)] -= capacity[fed.slot] * rest[fed.slot];
+      rest[fed.slot] = 0;
+    }
     for_each_slot(state, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t i = begin; i < end; ++i) series[i] += rest[i];
     });

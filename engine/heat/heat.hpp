@@ -4,7 +4,9 @@
 /// friction makes of it. All of it is one task of the step, on the weights of its particles before they move
 /// (tools/manual/theory.md, "Heat").
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "engine/contact/contact.hpp"
@@ -50,14 +52,19 @@ class Heat {
  private:
   /// A node that a condition holds or feeds.
   struct Fed {
-    int slot, condition;
-    double around = 1;  ///< 2π r about an axis, else 1: what areas want
+    int slot, condition, field;
+    NodeIndex<Dim> node;
     /// What is held: T = by_face T_face + Σ by_inner T_inner. Beyond a face it is the mirror image of what is
     /// inside, so that the straight line through both has T_face on the face.
     double by_face = 1;
     std::array<int, 2> inner{};  ///< slots
     std::array<double, 2> by_inner{};
     double end = 0;  ///< T at the end of the step, from the scene's, K
+  };
+  /// Of a surface: its jump, and what drives it.
+  struct Jump {
+    double jump = 0, drive = 0;
+    double wider = 1;  ///< so much more than the node's has the surface
   };
   /// What crosses an entry of the contact list.
   struct Crossing {
@@ -69,22 +76,32 @@ class Heat {
     double conductance = 0;         ///< W/(m² K)
     double jump = 0;                ///< T_b − T_a there, K
     double drive = 0;               ///< what all else changes it by, K/s
+    Jump mean;                      ///< of both over the nodes around
     bool conducts() const { return area > 0 && conductance > 0; }
-  };
-  struct Jump {
-    double jump = 0, drive = 0;
-    double wider = 1;  ///< so much more than the node's has the surface
   };
 
   void find_temperatures(State<Dim>& state, Nodal out) const;
   void find_crossings(const State<Dim>& state, const Contact<Dim>& contact);
+  double share_of(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
+                  int entry) const;
+  /// What counts of a conductance, W/(m² K).
+  double capped(double conductance) const {
+    return std::isinf(conductance) || (stiffest_ > 0 && conductance > stiffest_) ? stiffest_ : conductance;
+  }
   Jump mean_jump(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
                  std::size_t entry) const;
-  void tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity) const;
+  void tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity);
   void rub(State<Dim>& state, const Contact<Dim>& contact, double dt);
   void cross(State<Dim>& state, const Contact<Dim>& contact, double dt);
   void list_nodes(const State<Dim>& state);
-  void mirror(const State<Dim>& state, const NodeIndex<Dim>& node, int field, Fed& fed) const;
+  void mirror(const State<Dim>& state, Fed& fed) const;
+  /// What areas want beside a section: 2π r about an axis, m; else 1.
+  static double around(const State<Dim>& state, const NodeIndex<Dim>& node) {
+    return state.depth == Depth::hoop ? kFullTurn * (state.grid.origin[0] + node[0] * state.grid.cell) : 1;
+  }
+  /// Of a jump, what goes in a step that is x times as long as the jump would last: at most half
+  /// (Heat::cross).
+  static double shared(double x) { return std::min(-std::expm1(-x), 0.5); }
   /// @param temperature  of a slot, from the scene's, K
   template <class F>
   double held(const Fed& fed, double face, const F& temperature) const {
@@ -111,9 +128,10 @@ class Heat {
   std::vector<double> effusivity_;  ///< √(k ρ c), by field
   std::vector<bool> rigid_;         ///< by field
   std::vector<Fed> fed_;
-  std::vector<int> row_;             ///< by condition: the first row of nodes at or beyond its face
-  std::vector<double> plane_;        ///< by condition: where its face is, in cells from the grid's origin
-  std::vector<Crossing> crossings_;  ///< as the entries of the contact list
+  std::vector<int> row_;                 ///< by condition: the first row of nodes at or beyond its face
+  std::vector<double> plane_;            ///< by condition: where its face is, in cells from the grid's origin
+  std::vector<Crossing> crossings_;      ///< as the entries of the contact list
+  std::vector<std::vector<int>> rooms_;  ///< by thread: the groups of a node's fields
   HeatSums sums_;
   bool stale_ = true;
 };

@@ -4,12 +4,13 @@
 
 namespace mpmfast {
 
-Material make_material(const MaterialSpec& spec, double cell) {
+Material make_material(const MaterialSpec& spec, double cell, bool heat) {
   return std::visit(
       [&]<class Model>(Model law) -> Material {
         if constexpr (requires { law.set_cell(cell); }) law.set_cell(cell);
         if constexpr (requires { law.heating; })
-          if (spec.heat_capacity > 0) law.heating = law.heat_share / (law.density * spec.heat_capacity);
+          if (heat && spec.heat_capacity > 0)
+            law.heating = law.heat_share / (law.density * spec.heat_capacity);
         if constexpr (std::is_same_v<Model, Rigid>)
           return NeoHookean{};  // its particles are never asked
         else
@@ -63,7 +64,7 @@ std::vector<Quantity> state_columns(const std::vector<MaterialSpec>& materials) 
             any.elastic_strain |= Law::kColumns.elastic_strain;
           }
         },
-        make_material(spec, 1));
+        make_material(spec, 1, false));
   std::vector<Quantity> columns;
   if (any.dissipated) columns.push_back(Quantity::dissipated_energy);
   if (any.internal_energy) columns.push_back(Quantity::internal_energy);

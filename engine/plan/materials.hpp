@@ -11,7 +11,8 @@
 namespace mpmfast {
 
 /// @param cell  edge of a grid cell, m: the length of artificial viscosity
-Material make_material(const MaterialSpec& spec, double cell);
+/// @param heat  the scene has temperatures
+Material make_material(const MaterialSpec& spec, double cell, bool heat);
 
 /// c, J/(kg K): of a law that has a temperature its own, else what the scene says beside; 0: nothing.
 double heat_capacity_of(const MaterialSpec& spec);

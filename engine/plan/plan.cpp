@@ -131,6 +131,7 @@ void plan_heat(const Scene& scene, Plan& plan) {
                         std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(),
                                     [&](const ContactPair& pair) { return conducts(pair.law); }));
   if (fed || crossed) need_column(Nodal::volume_gradient, plan);
+  if (plan.contact) need_column(Nodal::volume, plan);  // which of several fields a lump stands for
 }
 
 void plan_columns(const Scene& scene, Plan& plan) {

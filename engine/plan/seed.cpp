@@ -197,7 +197,8 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.depth = plan.depth;
   state.body_field = plan.body_field;
   state.field_rigid = plan.field_rigid;
-  for (const auto& m : scene.materials) state.materials.push_back(make_material(m, scene.grid.cell));
+  for (const auto& m : scene.materials)
+    state.materials.push_back(make_material(m, scene.grid.cell, plan.heat));
 
   const std::vector<Outline> surfaces = outlines(scene, plan);
   if (!surfaces.empty()) state.tiling.part_surfaces();

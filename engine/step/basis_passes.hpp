@@ -176,12 +176,14 @@ class BasisPasses final : public Passes<Dim> {
 
   void project_heat(State<Dim>& state, HeatScale scale) override {
     auto& nodes = state.nodes;
+    for (auto& room : rooms_)
+      if (!room->heat) room->heat = std::make_unique<HeatRoom<Dim, Basis>>();
     NodeColumns<Dim + 2> content;
     content.column[0] = nodes.column(Nodal::heat_capacity);
     set_led(nodes, content.column + 1);
     const NodeColumns<1> flow = nodes.template columns<1>(Nodal::heat_flow);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      project_heat_tile<Dim, Basis>(c, room.heat, scale, content, flow);
+      project_heat_tile<Dim, Basis>(c, *room.heat, scale, content, flow);
     });
   }
 
@@ -190,7 +192,7 @@ class BasisPasses final : public Passes<Dim> {
     NodeColumns<Dim + 1> out;
     set_led(state.nodes, out.column);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      filter_heat_tile<Dim, Basis>(c, room.heat, in, out);
+      filter_heat_tile<Dim, Basis>(c, *room.heat, in, out);
     });
   }
 
@@ -208,7 +210,7 @@ class BasisPasses final : public Passes<Dim> {
       if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) continue;
       heat_reports_[at] = update_heat_tile<Dim, Basis>(
           context(state, view, static_cast<int>(t)),
-          rooms_[static_cast<std::size_t>(omp_get_thread_num())]->heat, scale, filtered, in);
+          *rooms_[static_cast<std::size_t>(omp_get_thread_num())]->heat, scale, filtered, in);
     }
     HeatReport all;
     for (const HeatReport& one : heat_reports_) {
@@ -229,7 +231,7 @@ class BasisPasses final : public Passes<Dim> {
     XpicRoom<Dim, Basis, 2 * Dim> xpic;
     ReExtrapolateRoom<Dim, Basis> re_extrapolate;
     UpdateRoom<Dim, Basis> update;
-    HeatRoom<Dim, Basis> heat;
+    std::unique_ptr<HeatRoom<Dim, Basis>> heat;  ///< where a scene has any
   };
 
   static auto visitor(const State<Dim>& state) {

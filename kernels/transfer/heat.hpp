@@ -49,13 +49,14 @@ inline void scatter_entries(const Weights& w, int k, const double (&entries)[NC]
   }
 }
 
-/// J V_p0: of planes that stretch along their normal with that, of rings the whole turn.
+/// J V_p0, at most 2 V_p0, which steps are stable for: of planes that stretch along their normal with that,
+/// of rings the whole turn.
 template <int Dim>
 inline double current_volume(const ParticleView<Dim>& p, std::uint32_t q) {
   double f[Dim * Dim];
   for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
-  const double volume = p.volume[q] * determinant<Dim>(f);
-  return p.stretch ? volume * p.stretch[q] : volume;
+  const double ratio = p.stretch ? p.stretch[q] * determinant<Dim>(f) : determinant<Dim>(f);
+  return p.volume[q] * (ratio < 2 ? ratio : 2);
 }
 
 /// The part of a temperature at X that does not hang on the node, T − g·X, then g, both times `capacity`.

@@ -21,10 +21,10 @@ inline void for_each_state_column(const StateView<Dim>& view, State& state, cons
     for (int c = 0; c < kSymmetric<Dim>; ++c) f(view.elastic_strain[c], state.elastic_strain[c]);
 }
 
-/// 1/θ of kLanes particles; 1 where heat stretches nothing.
+/// 1/θ of kLanes particles.
 template <int Dim>
 inline Lanes cooling(const StateView<Dim>& view, std::uint32_t at) {
-  return view.thermal_stretch ? 1.0 / load_lanes(view.thermal_stretch + at) : broadcast<Lanes>(1.0);
+  return 1.0 / load_lanes(view.thermal_stretch + at);
 }
 
 /// What of F a law answers to where heat has stretched the material: F/θ, since F = θ F_e. What it stores is
@@ -62,14 +62,17 @@ inline void advance_relaxed(const StateView<2>& view, const Law& law, const Lane
                             int terms, std::uint32_t at, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
                             Lanes& wave_speed_squared) {
   advance_deformation<2>(l, dt, terms, f);
-  const Lanes cooling = detail::cooling(view, at);
-  Lanes seen[4] = {f[0], f[1], f[2], f[3]}, full[9];
-  detail::cool(cooling, seen);
-  const Lanes relaxed = law.relaxed_stretch(seen, cooling * s);
+  Lanes seen[4] = {f[0], f[1], f[2], f[3]}, relaxed = s, full[9];
+  if (view.thermal_stretch) {
+    const Lanes cooling = detail::cooling(view, at);
+    detail::cool(cooling, seen);
+    relaxed *= cooling;
+  }
+  relaxed = law.relaxed_stretch(seen, relaxed);
   embed(seen, relaxed, full);
   law.template stress<3>(full, tau, wave_speed_squared);
   wave_speed_squared = law.plate_wave_speed_squared(seen, relaxed);
-  s = relaxed / cooling;
+  s = view.thermal_stretch ? relaxed * load_lanes(view.thermal_stretch + at) : relaxed;
 }
 
 /// Axisymmetry: F ← (I + a) F and s ← (1 + b) s, b the increment of the hoop rate v_r/r. Plane strain that
@@ -78,21 +81,26 @@ template <class Law>
 inline void advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate, double dt,
                          int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
                          Lanes& wave_speed_squared) {
-  const Lanes cooling = detail::cooling(view, at), of_volume = cooling * cooling * cooling;
-  const Lanes before = of_volume * (s * determinant<2>(f)), around = stretch_increment(rate, dt, terms);
+  Lanes before = s * determinant<2>(f);
+  const Lanes around = stretch_increment(rate, dt, terms);
   Lanes a[4], full[9];
   deformation_increment<2>(l, dt, terms, a);
   deform<2>(a, f);
   s += around * s;
   embed(f, s, full);
-  detail::cool(cooling, full);
+  Lanes now = s * determinant<2>(f);
+  if (view.thermal_stretch) {
+    const Lanes cooling = detail::cooling(view, at), of_volume = cooling * cooling * cooling;
+    detail::cool(cooling, full);
+    before *= of_volume;
+    now *= of_volume;
+  }
   if constexpr (Evolving<Law>) {
     Lanes increment[9];
     embed(a, around, increment);
     MaterialState<2, Lanes> plane{};
     detail::load_state<Law>(view, at, plane);
     MaterialState<3, Lanes> state = widened(plane);
-    const Lanes now = of_volume * (s * determinant<2>(f));
     law.template advance<3>(StrainStep<3, Lanes>{increment, full, before, now, l[0] + l[3] + rate, dt}, state,
                             tau, wave_speed_squared);
     plane = narrowed(state);

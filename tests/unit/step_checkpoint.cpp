@@ -324,5 +324,23 @@ method: {basis: lcpdi}
   }
 }
 
+TEST_CASE("heat goes on to the bit: held and fed faces, contact, friction, expansion and the filter") {
+  for (const char* basis : {"ugimp", "bspline2"})
+    check_goes_on<2>(std::string(R"(
+space: plane_strain
+grid: {size: [20 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa, heat_capacity: 50 J/kg/K, conductivity: 2 kW/m/K, thermal_expansion: 1e-5 K^-1}}
+bodies:
+  - {name: slab, box: {from: [2 mm, 0.4 mm], to: [12 mm, 4 mm]}, material: m, velocity: [30 m/s, 0 m/s]}
+  - {name: top, box: {from: [5 mm, 4 mm], to: [10 mm, 8 mm]}, material: m, velocity: [0 m/s, -3 m/s], temperature: 400 K}
+boundaries: {bottom: {wall: sliding, position: 0.4 mm}}
+heat: {temperature: 310 K, filter: {every: 0.3}, boundaries: {bottom: {temperature: 350 K}, left: {flux: 1 MW/m^2}}}
+contact: {friction: 0.3}
+method: {basis: )") + basis +
+                         "}\n",
+                     kSanitized ? 9 : 23, kSanitized ? 16 : 46);
+}
+
 }  // namespace
 }  // namespace mpmfast

@@ -102,7 +102,7 @@ TEST_CASE("a perfect interface is one field to round-off with heat on, filtered 
     check_one_field<2>({{"method.basis", basis}, {"heat.filter", "{order: 2, every: 0}"}});
     check_one_field<2>({{"method.basis", basis},
                         {"heat.boundaries",
-                         "{left: {temperature: 320 K}, hot: {box: {from: [5 mm, 3 mm], to: "
+                         "{hot: {box: {from: [5 mm, 3 mm], to: "
                          "[8 mm, 5 mm]}, temperature: 350 K}}"}});
   }
   check_one_field<3>({});
@@ -194,7 +194,7 @@ TEST_CASE("conduction is stable at its own time step, wherever the surface cuts 
     }
 }
 
-TEST_CASE("heat goes the same way on any number of threads, and on from an archive") {
+TEST_CASE("heat goes the same way on any number of threads") {
   const auto temperatures = [](int threads) {
     const int before = omp_get_max_threads();
     omp_set_num_threads(threads);
@@ -207,6 +207,136 @@ TEST_CASE("heat goes the same way on any number of threads, and on from an archi
   const std::vector<double> one = temperatures(1);
   CHECK(one == temperatures(2));
   CHECK(one == temperatures(3));
+}
+
+/// A slab that moves along a held face which cuts its cells, fed on one side, with contact and friction.
+const char* const kFed = R"(
+space: plane_strain
+grid: {size: [20 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa, heat_capacity: 50 J/kg/K, conductivity: 2 kW/m/K}}
+bodies:
+  - {name: slab, box: {from: [2 mm, 0.4 mm], to: [12 mm, 4 mm]}, material: m, velocity: [30 m/s, 0 m/s]}
+  - {name: top, box: {from: [5 mm, 4 mm], to: [10 mm, 8 mm]}, material: m, velocity: [0 m/s, -3 m/s], temperature: 400 K}
+boundaries: {bottom: {wall: sliding, position: 0.4 mm}}
+heat: {temperature: 310 K, boundaries: {bottom: {temperature: 350 K}, top: {ambient: 300 K, coefficient: 1 MW/m^2/K}, left: {flux: 1 MW/m^2}}}
+contact: {friction: 0.3}
+)";
+
+/// What came in and what friction made is what bodies have more.
+template <int Dim>
+void check_books(const std::string& yaml, const std::vector<Override>& sets) {
+  const Scene scene = scene_from(yaml, sets);
+  Step<Dim> step(scene);
+  const double before = contents(step).back();
+  advance(step, kSanitized ? 10 : 60);
+  const HeatSums& sums = step.heat().sums();
+  const double in =
+      std::accumulate(sums.conditions.begin(), sums.conditions.end(), sums.friction + sums.rigid);
+  CHECK(std::abs(in) > 0);
+  CHECK(std::abs(contents(step).back() - before - in) < 1e-11 * std::abs(before) + 1e-11 * std::abs(in));
+}
+
+TEST_CASE("what comes in through faces is what the bodies have more, with every basis, filtered or not") {
+  for (const char* basis : bases())
+    for (const char* filter : {"none", "{order: 2, every: 0}", "{order: 1, every: 0.1}"}) {
+      CAPTURE(std::string(basis));
+      CAPTURE(std::string(filter));
+      check_books<2>(kFed, {{"method.basis", basis}, {"heat.filter", filter}});
+    }
+}
+
+/// Three blocks that meet at a place; the third of any model.
+std::string three(const std::string& model) {
+  return R"(
+space: plane_strain
+grid: {size: [24 mm, 12 mm], cell: 1 mm}
+time: {end: 1 s}
+materials:
+  m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa, heat_capacity: 50 J/kg/K, conductivity: 2 kW/m/K}
+  n: {)" +
+         model +
+         R"(, heat_capacity: 50 J/kg/K}
+bodies:
+  - {name: a, box: {from: [2 mm, 2 mm], to: [10 mm, 8.5 mm]}, material: m, velocity: [3 m/s, 0 m/s]}
+  - {name: b, box: {from: [10 mm, 2 mm], to: [18 mm, 5.3 mm]}, material: m, temperature: 350 K}
+  - {name: c, box: {from: [10 mm, 5.3 mm], to: [20 mm, 10 mm]}, material: n, temperature: 400 K}
+heat: {temperature: 310 K}
+)";
+}
+const std::string kSoft = "model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa";
+
+TEST_CASE("heat crosses where several bodies meet, by pairs, lumps or at once, and rigid ones keep theirs") {
+  for (const char* contact : {"{friction: 0.2}", "{normal: logistic_regression, friction: 0.2}",
+                              "{normal: average_gradient}", "{normal: logistic_regression, fields: pairs}"}) {
+    CAPTURE(std::string(contact));
+    const std::vector<Override> sets{{"contact", contact}};
+    const Scene scene = scene_from(three(kSoft), sets);
+    Step<2> step(scene);
+    const std::vector<double> before = contents(step);
+    advance(step, kSanitized ? 10 : 60);
+    const std::vector<double> after = contents(step);
+    CHECK(after[0] > before[0]);
+    CHECK(after[2] < before[2]);
+    CHECK(std::abs(after.back() - before.back() - step.heat().sums().friction) < 1e-12 * before.back());
+  }
+  const Scene scene = scene_from(three("model: rigid"));
+  Step<2> step(scene);
+  const std::vector<double> before = contents(step);
+  advance(step, kSanitized ? 10 : 60);
+  const std::vector<double> after = contents(step);
+  CHECK(after[2] == before[2]);
+  CHECK(step.heat().sums().rigid > 0);
+  CHECK(std::abs(after.back() - before.back() - step.heat().sums().friction - step.heat().sums().rigid) <
+        1e-12 * before.back());
+}
+
+/// Two blocks that touch along one flat face.
+TEST_CASE(
+    "a third body far away does not change what crosses between two, whatever is done where many meet") {
+  const auto crossed = [](const std::string& contact, bool third) {
+    std::string yaml = three(kSoft);
+    const auto at = yaml.find("  - {name: c");
+    if (third)
+      yaml.replace(yaml.find("[10 mm, 5.3 mm], to: [20 mm, 10 mm]"), 35, "[21 mm, 9 mm], to: [23 mm, 11 mm]");
+    else
+      yaml.erase(at, yaml.find('\n', at) + 1 - at);
+    const Scene scene = scene_from(yaml, {{"contact", contact}});
+    Step<2> step(scene);
+    const double before = contents(step)[0];
+    advance(step, 20);
+    return contents(step)[0] - before;
+  };
+  for (const char* contact : {"{friction: 0.2}", "{normal: logistic_regression, fields: pairs}"})
+    CHECK(crossed(contact, true) == doctest::Approx(crossed(contact, false)).epsilon(1e-9).scale(0));
+}
+
+TEST_CASE("a scene with heat says what it does not know") {
+  const auto refused = [](const std::string& yaml, const std::vector<Override>& sets,
+                          const std::string& what) {
+    CAPTURE(what);
+    try {
+      scene_from(yaml, sets);
+      FAIL("it was taken");
+    } catch (const SceneError& error) {
+      CHECK(std::string(error.what()).find(what) != std::string::npos);
+    }
+  };
+  const std::string soft = three(kSoft);
+  refused(three("model: rigid"), {{"contact", "{law: perfect}"}}, "tied to rigid ones");
+  refused(soft, {{"contact", "{family: penalty}"}}, "surfaces that are followed");
+  refused(soft, {{"heat.boundaries", "{left: {temperature: -5 K}}"}}, "not positive");
+  refused(soft,
+          {{"heat.boundaries", "{left: {ambient: [[0 s, 300 K], [1 s, 0 K]], coefficient: 1 W/m^2/K}}"}},
+          "not positive");
+  refused(soft,
+          {{"heat.boundaries", "{hot: {box: {from: [5 mm, 5 mm], to: [4 mm, 6 mm]}, temperature: 300 K}}"}},
+          "lies below");
+  refused(soft, {{"heat.boundaries", "{lefft: 300 K}"}}, "not a face of the grid");
+  refused(soft, {{"heat", "none"}}, "bodies have temperatures where the scene has heat");
+  std::string bare = soft;
+  bare.erase(bare.rfind(", heat_capacity: 50 J/kg/K"), 26);
+  refused(bare, {}, "needs its heat_capacity");
 }
 
 /// Materials of each kind of law that heat may stretch; all with K = 80, G = 30 MPa.

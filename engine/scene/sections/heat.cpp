@@ -11,18 +11,27 @@ namespace {
 
 using Kind = HeatConditionSpec::Kind;
 
+/// A temperature in time, above zero.
+void need_temperature(Keys& map, const char* name, const char* says, TimeTable& table) {
+  map.need_at(name, says, expected_of(Table{Measure::temperature}), [&](Slot& slot) {
+    if (!slot.take(table, Table{Measure::temperature}) || !slot.reads()) return;
+    if (std::any_of(table.value.begin(), table.value.end(), [](double value) { return !(value > 0); }))
+      slot.complain("not positive");
+  });
+}
+
 /// {temperature}, {flux} or {ambient, coefficient}; of nodes in a box a temperature alone.
 void describe_value(Keys& map, HeatConditionSpec& condition) {
   if (!condition.face) {
-    map.need("temperature", "Of these nodes.", condition.value, Table{Measure::temperature});
+    need_temperature(map, "temperature", "Of these nodes.", condition.value);
     return;
   }
-  const auto choice = map.one_of({{"temperature"}, {"flux"}, {"ambient", "coefficient"}},
-                                 static_cast<int>(condition.kind));
+  const auto choice =
+      map.one_of({{"temperature"}, {"flux"}, {"ambient", "coefficient"}}, static_cast<int>(condition.kind));
   if (choice.none()) map.report("needs either temperature, flux, or ambient and coefficient");
   if (choice.takes(0)) {
     condition.kind = Kind::temperature;
-    map.need("temperature", "Of what lies at the face.", condition.value, Table{Measure::temperature});
+    need_temperature(map, "temperature", "Of what lies at the face.", condition.value);
   }
   if (choice.takes(1)) {
     condition.kind = Kind::flux;
@@ -30,7 +39,7 @@ void describe_value(Keys& map, HeatConditionSpec& condition) {
   }
   if (choice.takes(2)) {
     condition.kind = Kind::ambient;
-    map.need("ambient", "Temperature of what is around.", condition.value, Table{Measure::temperature});
+    need_temperature(map, "ambient", "Temperature of what is around.", condition.value);
     map.need("coefficient", "Heat that comes in, a kelvin that the face is colder.", condition.coefficient,
              Number{Measure::conductance, kPositive});
   }
@@ -56,6 +65,9 @@ void describe_condition(Slot& slot, const Scene& scene, HeatConditionSpec& condi
              if (!face)
                map.need_at("box", "All nodes in this box.", "a map {from, to}", [&](Slot& box) {
                  describe_corners(box, scene.dimension(), condition.lower, condition.corner);
+                 for (std::size_t k = 0; box.reads() && box.good() && k < 3; ++k)
+                   if (condition.lower[k] > condition.corner[k])
+                     box.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
                });
              describe_value(map, condition);
            });
@@ -80,11 +92,11 @@ void describe_conditions(Keys& map, const Scene& scene, std::vector<HeatConditio
     for (const Key& key : map.reader().value().node().keys) add(key.text, Kind::temperature);
   for (std::size_t k = 0; k < entries.size(); ++k) {
     const bool face = face_named(entries[k].name);
-    const bool good = map.entry(k, face ? "FACE" : "NAME",
-                                face ? "A face of the grid, or where its wall stands: what it does to heat."
-                                     : "A temperature given at some nodes.",
-                                entries[k].name,
-                                [&](Slot& slot) { describe_condition(slot, scene, entries[k]); });
+    const bool good =
+        map.entry(k, face ? "FACE" : "NAME",
+                  face ? "A face of the grid, or where its wall stands: what it does to heat."
+                       : "A temperature given at some nodes.",
+                  entries[k].name, [&](Slot& slot) { describe_condition(slot, scene, entries[k]); });
     if (map.reads() && good) conditions.push_back(entries[k]);
   }
 }
@@ -128,16 +140,15 @@ void describe_heat(Keys& top, bool, Scene& scene) {
 
 namespace {
 
-/// What the material's law says of heat by itself: a temperature, and an equation of state that holds heat.
+/// What the particles of a material have by its law.
 struct LawHeat {
-  bool temperature = false, equation = false, plastic = false;
+  bool temperature = false, plastic = false;
 };
 LawHeat heat_of(const MaterialSpec& material) {
   return std::visit(
       []<class Law>(const Law&) {
         LawHeat heat;
-        if constexpr (Evolving<Law>)
-          heat = {Law::kColumns.temperature, Law::kColumns.internal_energy, Law::kColumns.plastic_strain};
+        if constexpr (Evolving<Law>) heat = {Law::kColumns.temperature, Law::kColumns.plastic_strain};
         return heat;
       },
       material.model);
@@ -171,20 +182,29 @@ void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlac
   if (scene.method.extended) stated.report("heat does not know extended splines (method.extension)");
   if (scene.contact.family == ContactFamily::penalty)
     stated.report("heat does not cross surfaces that are followed (contact.family: penalty) yet");
+  const auto ties = [](const SurfaceLaw& law) { return std::holds_alternative<Perfect>(law.acts); };
+  const auto& pairs = scene.contact.pairs;
+  const bool tied =
+      ties(scene.contact.law) ||
+      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return ties(pair.law); });
+  if (tied && scene.contact.active &&
+      std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [&](const BodySpec& body) { return is_rigid(scene, body); }))
+    stated.report("heat does not know bodies that are tied to rigid ones (law: perfect)", "law: stick");
+  if (scene.space == Space::axisymmetric && scene.grid.origin[0] == 0)
+    for (const HeatConditionSpec& condition : scene.heat.conditions)
+      if (condition.face && condition.axis == 0 && !condition.upper)
+        stated.find("boundaries")->find(condition.name)->report("the axis of the scene is no face");
   for (std::size_t m = 0; m < scene.materials.size(); ++m) {
     const MaterialSpec& material = scene.materials[m];
-    const bool used =
-        std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                    [&](const BodySpec& body) { return body.material == static_cast<int>(m); });
+    const bool used = std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                                  [&](const BodySpec& body) { return body.material == static_cast<int>(m); });
     if (!used || std::holds_alternative<Rigid>(material.model)) continue;
     const auto entry = top.find("materials")->find(material.name);
     const Value place = entry ? *entry : stated;
     const LawHeat law = heat_of(material);
     if (!law.temperature && material.heat_capacity == 0)
       place.report(fmt::format("'{}' needs its heat_capacity in a scene with heat", material.name));
-    if (law.equation && material.expansion != 0)
-      place.report(fmt::format("the equation of state of '{}' says how heat expands it", material.name),
-                   "Leave thermal_expansion out");
   }
 }
 

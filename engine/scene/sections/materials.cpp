@@ -48,18 +48,22 @@ void describe_heat_of(Keys& map, MaterialSpec& material) {
   const auto key = [&](const char* name, const char* says, double& member, const Number& form) {
     if (!map.writes() || member != 0) map.key(name, says, member, form);
   };
-  const bool own = std::visit(
-      []<class Law>(const Law&) {
-        if constexpr (Evolving<Law>) return Law::kColumns.temperature;
-        return false;
+  struct Knows {
+    bool temperature = false, expansion = false;
+  };
+  const Knows own = std::visit(
+      []<class Law>(const Law&) -> Knows {
+        if constexpr (std::is_same_v<Law, Rigid>) return {false, true};
+        if constexpr (Evolving<Law>) return {Law::kColumns.temperature, Law::kColumns.internal_energy};
+        return {};
       },
       material.model);
-  if (!own)
+  if (!own.temperature)
     key("heat_capacity", "Heat per mass and temperature.", material.heat_capacity,
         Number{Measure::heat_capacity, kPositive});
   key("conductivity", "Of heat, in scenes with `heat`.", material.conductivity,
       Number{Measure::conductivity, kNotNegative});
-  if (!std::holds_alternative<Rigid>(material.model))
+  if (!own.expansion)  // an equation of state has its gamma, and nothing stretches what is rigid
     key("thermal_expansion", "Of a length, in scenes with `heat`.", material.expansion,
         Number{Measure::expansion, kAny});
 }
