@@ -269,7 +269,7 @@ TEST_CASE("slow: with four cells to the half-width it hangs on which cells count
                filled = pressure_error("0.1 mm", {{"method.extension", "{occupation: 0.25}"}});
   CHECK(half_empty < 0.036);  // measured 0.032; plain splines 0.011
   CHECK(plain < 0.015);
-  CHECK(filled < 1.1 * plain);
+  CHECK(filled < 1.1 * plain);  // measured 0.011 both
 }
 
 TEST_CASE("slow: with eight cells to the half-width the pressure of half a disk is Hertz's within 1.5 %") {
