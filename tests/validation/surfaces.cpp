@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "engine/output/read_frame.hpp"
@@ -196,14 +197,17 @@ TEST_CASE("a shock passes a tie of surfaces between walls, and arrives when it s
 
 /// K24 Eq. 45: of the stress across the plane at boundary points within Hertz's half-width, over its largest;
 /// of the means over the last two fifths of the ramp, by place in the half-width. The load swings by one or
-/// two percent about that of the ramp: at one moment, the error is that of the moment (0.1 mm: 2.4 to 4.8 %).
-double pressure_error(const char* cell, const char* extension) {
-  const Scene scene = scene_file("hertz_plane.yaml", {{"grid.cell", cell},
-                                                      {"method.extension", extension},
-                                                      {"output.frames", "0"},
-                                                      {"output.history", "1"}});
+/// two percent about that of the ramp: at one moment, the error is that of the moment (0.1 mm: 2.0 to 6.2 %).
+/// Hertz's profile has a root at its edge: of all quadratic splines on the grid those nearest to it (in L2)
+/// err by 5.7, 2.8 and 1.4 % on cells of 0.2, 0.1 and 0.05 mm, with an order of 1. Contact on nodes knows no
+/// boundary points: of it, the lowest particles of columns as wide as a particle (with surfaces these err
+/// by 3.7 % where the points do by 3.8).
+double pressure_error(const char* cell, const std::vector<Override>& method) {
+  std::vector<Override> sets = method;
+  sets.insert(sets.end(), {{"grid.cell", cell}, {"output.frames", "0"}, {"output.history", "1"}});
+  const Scene scene = scene_file("hertz_plane.yaml", sets);
   Step<2> step(scene);
-  const double first = step.stable_dt();
+  const double first = step.stable_dt(), column = scene.grid.cell / 4;
   constexpr std::size_t kPlaces = 24;
   std::array<double, kPlaces> sum{};
   std::array<int, kPlaces> count{};
@@ -215,15 +219,22 @@ double pressure_error(const char* cell, const char* extension) {
     const double force = 156.7e3 * state.time / scene.time.end,
                  half_width = std::sqrt(4 * force * 8e-3 / (std::numbers::pi * 10e9)),
                  largest = 2 * force / (std::numbers::pi * half_width);
+    std::vector<std::size_t> points;
+    std::map<int, std::size_t> lowest;  // by column
     for (std::size_t p = 0; p < state.particles.size(); ++p) {
       const Vec<2> x = state.particles.vector(Quantity::position, p);
-      const double s = (x[0] - 8.4e-3) / half_width;
       const int body = state.particles.body()[p];
-      if (body != 1 || x[1] > 2e-3 || std::abs(s) >= 1 ||
-          !state.surfaces.holds(body, state.particles.id()[p]))
-        continue;
-      const double stress =
-          state.particles.column(Quantity::kirchhoff_stress, 1)[p] / state.particles.volume_ratio(p);
+      if (body != 1 || x[1] > 2e-3 || std::abs(x[0] - 8.4e-3) >= half_width) continue;
+      if (state.surfaces.holds(body, state.particles.id()[p])) points.push_back(p);
+      if (!state.surfaces.empty()) continue;
+      const auto [of, added] = lowest.insert({static_cast<int>(std::floor(x[0] / column)), p});
+      if (x[1] < state.particles.column(Quantity::position, 1)[of->second]) of->second = p;
+    }
+    for (const auto& [where, p] : lowest) points.push_back(p);
+    for (const std::size_t p : points) {
+      const double s = (state.particles.column(Quantity::position, 0)[p] - 8.4e-3) / half_width,
+                   stress = state.particles.column(Quantity::kirchhoff_stress, 1)[p] /
+                            state.particles.volume_ratio(p);
       const auto place = static_cast<std::size_t>(0.5 * (s + 1) * kPlaces);
       sum[place] += stress / largest + std::sqrt(1 - s * s);
       ++count[place];
@@ -240,19 +251,31 @@ double pressure_error(const char* cell, const char* extension) {
   return std::sqrt(squares / places);
 }
 
-TEST_CASE("slow: the pressure of half a disk on a plane comes to Hertz's with the cells") {
-  const char* extended = "{occupation: 0.75}";
-  const double coarse = pressure_error("0.2 mm", extended), fine = pressure_error("0.1 mm", extended);
-  MESSAGE("extended: ", coarse, ", ", fine);
-  CHECK(coarse < 0.05);
-  CHECK(fine < 0.04);
-  CHECK(fine < coarse);  // measured 0.038 and 0.032
+const std::vector<Override> kPlain{{"method.extension", "none"}};
+
+TEST_CASE("slow: the pressure of half a disk on a plane is Hertz's within what splines can say of its edge") {
+  const double coarse = pressure_error("0.2 mm", {}), plain = pressure_error("0.2 mm", kPlain),
+               nodes = pressure_error("0.2 mm",
+                                      {{"method.extension", "none"}, {"contact", "{law: frictionless}"}});
+  CHECK(coarse < 0.041);  // measured 0.038, with a stiffness of 2 0.043; plain splines 0.0385; nodes 0.79
+  CHECK(coarse < 1.02 * plain);
+  CHECK(nodes > 0.5);
 }
 
-TEST_CASE("slow: with eight cells to the half-width the pressure of half a disk is Hertz's within 2 %") {
-  const double finest = pressure_error("0.05 mm", "{occupation: 0.75}");
-  MESSAGE("extended: ", finest);
-  CHECK(finest < 0.02);
+// Where the plane cuts them the cells of 0.1 mm are filled to 0.3: who takes these for filled has plain
+// splines.
+TEST_CASE("slow: with four cells to the half-width it hangs on which cells count as filled") {
+  const double half_empty = pressure_error("0.1 mm", {}), plain = pressure_error("0.1 mm", kPlain),
+               filled = pressure_error("0.1 mm", {{"method.extension", "{occupation: 0.25}"}});
+  CHECK(half_empty < 0.036);  // measured 0.032; plain splines 0.011
+  CHECK(plain < 0.015);
+  CHECK(filled < 1.1 * plain);  // measured 0.011 both
+}
+
+TEST_CASE("slow: with eight cells to the half-width the pressure of half a disk is Hertz's within 1.5 %") {
+  const double coarse = pressure_error("0.2 mm", {}), finest = pressure_error("0.05 mm", {});
+  CHECK(finest < 0.015);                           // measured 0.0103
+  CHECK(0.5 * std::log2(coarse / finest) > 0.85);  // the mean order of two halvings, measured 0.94
 }
 
 /// When the speed of a body comes to a tenth of the striker's, s.

@@ -10,46 +10,69 @@
 
 namespace mpmfast {
 
-/// Has no point gone half of what the lists allow for?
+/// The farthest that a point has gone, m: lists hold up to half of kSkin.
 template <int Dim>
-bool Penalty<Dim>::lists_hold() const {
+double Penalty<Dim>::moved_since_listed() const {
   double squared = 0;
   for (int p : near_points_)
     squared = std::max(squared, (at(p) - listed_at_[static_cast<std::size_t>(p)]).squaredNorm());
-  const double most = 0.5 * kSkin * cell_;
-  return squared <= most * most;
+  return std::sqrt(squared);
+}
+
+/// No point of a facet is nearer to those listed with it, m.
+template <int Dim>
+double Penalty<Dim>::clearance(const Listing& listing) const {
+  double least = kInfinity;
+  for (int k = 0; k < kPoints; ++k) {
+    const Vec<Dim> x = mean(listing.facet, k, now_);
+    for (int j = listing.begin; j < listing.end; ++j) {
+      const Ball& other = ball(listed(j));
+      const Vec<Dim> from = x - other.middle;
+      least = std::min(least, std::max(from.norm() - other.radius, std::abs(other.normal.dot(from))));
+    }
+  }
+  return least;
 }
 
 /// What lies in tiles that share nodes with another field: the others touch nothing before the next sort.
+/// What was near before stays so until something else comes near.
+/// @return  has something come near?
 template <int Dim>
-void Penalty<Dim>::find_near(const State<Dim>& state) {
+bool Penalty<Dim>::find_near(const State<Dim>& state) {
   const auto& tiling = state.tiling;
-  std::vector<std::uint8_t> shared(tiling.node_tiles.size(), 0);
+  shared_.assign(tiling.node_tiles.size(), 0);
   for (const auto& stack : tiling.stacks)
     if (stack.end - stack.begin > 1)
-      for (int t = stack.begin; t < stack.end; ++t) shared[static_cast<std::size_t>(t)] = 1;
-  is_near_.assign(surfaces_->points(), 0);
+      for (int t = stack.begin; t < stack.end; ++t) shared_[static_cast<std::size_t>(t)] = 1;
+  near_now_.assign(surfaces_->points(), 0);
   for (const auto& tile : tiling.tiles) {
     bool meets = false;
-    for (const int slot : tile.slot) meets |= shared[static_cast<std::size_t>(slot / kTileNodes<Dim>)] != 0;
+    for (const int slot : tile.slot) meets |= shared_[static_cast<std::size_t>(slot / kTileNodes<Dim>)] != 0;
     if (!meets) continue;
     for (int r = tile.run_begin; r < tile.run_end; ++r) {
       const auto& run = tiling.runs[static_cast<std::size_t>(r)];
       if (!run.on_surface) continue;
       for (std::uint32_t p = run.begin; p < run.end; ++p)
-        is_near_[static_cast<std::size_t>(surfaces_->number(run.body, state.particles.id()[p]))] = 1;
+        near_now_[static_cast<std::size_t>(surfaces_->number(run.body, state.particles.id()[p]))] = 1;
     }
   }
-  near_points_.clear();
-  for (std::size_t p = 0; p < is_near_.size(); ++p)
-    if (is_near_[p]) near_points_.push_back(static_cast<int>(p));
+  bool more = is_near_.empty();
+  for (std::size_t p = 0; p < is_near_.size(); ++p) more |= near_now_[p] > is_near_[p];
+  if (!more) return false;
+  is_near_ = near_now_;
   near_facets_.clear();
   for (std::size_t f = 0; f < surfaces_->facets.size(); ++f) {
     const auto& corner = surfaces_->facets[f].point;
-    if (std::any_of(corner.begin(), corner.end(),
-                    [&](int p) { return is_near_[static_cast<std::size_t>(p)]; }))
-      near_facets_.push_back(static_cast<int>(f));
+    if (std::none_of(corner.begin(), corner.end(),
+                     [&](int p) { return is_near_[static_cast<std::size_t>(p)]; }))
+      continue;
+    near_facets_.push_back(static_cast<int>(f));
+    for (int p : corner) near_now_[static_cast<std::size_t>(p)] = 1;
   }
+  near_points_.clear();  // all corners of these facets
+  for (std::size_t p = 0; p < near_now_.size(); ++p)
+    if (near_now_[p]) near_points_.push_back(static_cast<int>(p));
+  return true;
 }
 
 template <int Dim>
@@ -74,7 +97,7 @@ void Penalty<Dim>::find_balls(int threads) {
 #pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
   for (std::int64_t k = 0; k < n; ++k) {
     const int f = near_facets_[static_cast<std::size_t>(k)];
-    Ball ball{Vec<Dim>::Zero(), facet_normal(f), 0};
+    Ball ball{Vec<Dim>::Zero(), facet_normal(f), 0, facet(f).body};
     for (int p : facet(f).point) ball.middle += at(p);
     ball.middle /= Dim;
     for (int p : facet(f).point) ball.radius = std::max(ball.radius, (at(p) - ball.middle).squaredNorm());
@@ -181,14 +204,14 @@ void Penalty<Dim>::list_all(int threads) {
     const int begin = static_cast<int>(room.listed.size());
     list_around(near_facets_[static_cast<std::size_t>(k)], room.listed);
     const int end = static_cast<int>(room.listed.size());
-    if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end});
+    if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end, 0});
   }
   listing_.clear();
   listed_.clear();
   for (const Room& room : rooms_) {
     const int before = static_cast<int>(listed_.size());
     for (const Listing& one : room.listing)
-      listing_.push_back({one.facet, before + one.begin, before + one.end});
+      listing_.push_back({one.facet, before + one.begin, before + one.end, 0});
     listed_.insert(listed_.end(), room.listed.begin(), room.listed.end());
   }
   // Who lists is listed too.
@@ -201,8 +224,9 @@ void Penalty<Dim>::list_all(int threads) {
 }
 
 // Here: the members that this file defines.
-template bool Penalty<2>::lists_hold() const;
-template void Penalty<2>::find_near(const State<2>&);
+template double Penalty<2>::moved_since_listed() const;
+template double Penalty<2>::clearance(const Listing&) const;
+template bool Penalty<2>::find_near(const State<2>&);
 template NodeIndex<2> Penalty<2>::cell_of(const Vec<2>&) const;
 template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
 template void Penalty<2>::fill_bins();
@@ -210,8 +234,9 @@ template void Penalty<2>::list_around(int, std::vector<int>&) const;
 template void Penalty<2>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<2>::list_all(int);
 template void Penalty<2>::find_balls(int);
-template bool Penalty<3>::lists_hold() const;
-template void Penalty<3>::find_near(const State<3>&);
+template double Penalty<3>::moved_since_listed() const;
+template double Penalty<3>::clearance(const Listing&) const;
+template bool Penalty<3>::find_near(const State<3>&);
 template NodeIndex<3> Penalty<3>::cell_of(const Vec<3>&) const;
 template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
 template void Penalty<3>::fill_bins();

@@ -34,9 +34,14 @@ struct Penalty<Dim>::Candidate {
 template <int Dim>
 std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   gather(state);
-  if (stale_) find_near(state);
+  const bool more = stale_ && find_near(state);
   find_balls(state.threads);
-  if (stale_ || !lists_hold()) list_all(state.threads);
+  double moved = more ? kInfinity : moved_since_listed();
+  const bool fresh = !(moved <= 0.5 * kSkin * cell_);
+  if (fresh) {
+    list_all(state.threads);
+    moved = 0;
+  }
   stale_ = false;
   const int fold = find_normals(state.threads);
   if (fold >= 0) {
@@ -48,10 +53,12 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   const auto n = static_cast<std::int64_t>(listing_.size());
   // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k)
-    for (int at = 0; at < kPoints; ++at)
-      look_around(listing_[static_cast<std::size_t>(k)], at,
-                  rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+  for (std::int64_t k = 0; k < n; ++k) {
+    Listing& listing = listing_[static_cast<std::size_t>(k)];
+    if (2 * moved < listing.clear) continue;  // both sides may have gone as far
+    const bool outside = look_around(listing, rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+    if (fresh && outside) listing.clear = clearance(listing);
+  }
   return std::nullopt;
 }
 
@@ -127,33 +134,44 @@ std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
   return foot;
 }
 
-/// What a point of a facet touches, of the facets listed with it.
+/// What the points of a facet touch, of the facets listed with it.
+/// @return  are they outside of all of the bodies?
 template <int Dim>
-void Penalty<Dim>::look_around(const Listing& listing, int k_th, Room& room) const {
-  const Vec<Dim> x = mean(listing.facet, k_th, now_);
-  for (int begin = listing.begin; begin < listing.end;) {
-    // Those of a body follow each other.
-    const int body = facet(listed(begin)).body;
-    int end = begin, nearest = begin;
-    room.squared.clear();
-    double widest = 0;
-    for (; end < listing.end && facet(listed(end)).body == body; ++end) {
-      const Ball& ball = ball_[static_cast<std::size_t>(listed(end))];
-      room.squared.push_back((x - ball.middle).squaredNorm());
-      widest = std::max(widest, ball.radius);
-      if (room.squared.back() < room.squared[static_cast<std::size_t>(nearest - begin)]) nearest = end;
-    }
-    // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
-    const Ball& under = ball_[static_cast<std::size_t>(listed(nearest))];
-    if (under.normal.dot(x - under.middle) <= 2 * widest)
-      look_at_body(listing.facet, k_th, x, {begin, end, nearest}, room);
-    begin = end;
+bool Penalty<Dim>::look_around(const Listing& listing, Room& room) const {
+  const auto count = static_cast<std::size_t>(listing.end - listing.begin);
+  Vec<Dim> x[kPoints];
+  for (int k = 0; k < kPoints; ++k) x[k] = mean(listing.facet, k, now_);
+  if (room.squared.size() < kPoints * count) room.squared.resize(kPoints * count);
+  double* squared = room.squared.data();
+  for (std::size_t j = 0; j < count; ++j) {
+    const Vec<Dim>& middle = ball(listed(listing.begin + static_cast<int>(j))).middle;
+    for (std::size_t k = 0; k < kPoints; ++k) squared[k * count + j] = (x[k] - middle).squaredNorm();
   }
+  bool outside = true;
+  for (int k = 0; k < kPoints; ++k, squared += count)
+    for (int begin = listing.begin; begin < listing.end;) {
+      // Those of a body follow each other.
+      const int body = ball(listed(begin)).body;
+      const double* of_body = squared + (begin - listing.begin);
+      int end = begin, nearest = begin;
+      double widest = 0;
+      for (; end < listing.end && ball(listed(end)).body == body; ++end) {
+        widest = std::max(widest, ball(listed(end)).radius);
+        if (of_body[end - begin] < of_body[nearest - begin]) nearest = end;
+      }
+      // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
+      const Ball& under = ball(listed(nearest));
+      if (under.normal.dot(x[k] - under.middle) <= 2 * widest)
+        outside &= look_at_body(listing.facet, k, x[k], {begin, end, nearest, of_body}, room);
+      begin = end;
+    }
+  return outside;
 }
 
 /// The nearest foot on each piece of a body.
+/// @return  is the point outside of it?
 template <int Dim>
-void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours,
+bool Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours,
                                 Room& room) const {
   Candidate found[kNear];
   int count = 0;
@@ -162,9 +180,8 @@ void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neig
     int place = 0;
     while (place < count && found[place].piece < piece) ++place;
     const bool known = place < count && found[place].piece == piece;
-    const double most =
-        ball_[static_cast<std::size_t>(f)].radius + (known ? found[place].foot.distance : cell_);
-    if (room.squared[static_cast<std::size_t>(k - neighbours.begin)] > most * most) return;
+    const double most = ball(f).radius + (known ? found[place].foot.distance : cell_);
+    if (neighbours.squared[k - neighbours.begin] > most * most) return;
     const std::optional<Foot<Dim>> foot = foot_of(x, facet(f));
     if (!foot) return;
     const Candidate candidate{facet(f).body, piece, f, *foot};
@@ -179,19 +196,21 @@ void Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neig
   try_foot(neighbours.nearest);
   for (int k = neighbours.begin; k < neighbours.end; ++k)
     if (k != neighbours.nearest) try_foot(k);
-  if (count > 0) touch_body(own, k_th, found, found + count, room.touches);
+  return count > 0 && touch_body(own, k_th, x, found, found + count, room.touches);
 }
 
 /// Of a body that holds the point: how deep, and which of its pieces push. About an edge that sticks out the
 /// depth is 1/d² = Σ 1/d_j² over the pieces j there, so that it is zero on both and their forces, −½ k
 /// ∂d²/∂x, never jump; about one that is sunk in, and inside a piece, it is the least.
+/// @return  is it outside?
 template <int Dim>
-void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const Candidate* end,
-                              std::vector<Touch>& out) const {
+bool Penalty<Dim>::touch_body(int own, int k_th, const Vec<Dim>& x, const Candidate* begin,
+                              const Candidate* end, std::vector<Touch>& out) const {
   const Candidate* nearest = std::min_element(
       begin, end, [](const Candidate& a, const Candidate& b) { return a.foot.distance < b.foot.distance; });
   const Foot<Dim>& first = nearest->foot;
-  if (!(first.distance > 0) || (first.clipped ? first.convex : !first.below)) return;
+  if (!(first.distance > 0)) return false;
+  if (first.clipped ? first.convex : !first.below) return true;
   const double reach = 1 / (cell_ * cell_);
   const auto weight = [&](const Candidate& c) {  // 1/d_j²
     const double d = c.foot.distance;
@@ -209,20 +228,20 @@ void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const C
   };
   for (const Candidate* c = begin; c != end; ++c) way += part(*c) * c->foot.exit;
   const double length = way.norm();
-  if (!(length > 0)) return;
+  if (!(length > 0)) return false;
   const int body = facet(own).body;
-  if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return;
+  if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return false;
   // What lies round an edge does not press. The area is the undeformed one, so that springs keep energy.
-  const double facing = std::max(0.0, -ball_[static_cast<std::size_t>(own)].normal.dot(way) / length);
+  const double facing = std::max(0.0, -ball(own).normal.dot(way) / length);
   const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / kPoints;
-  if (!(stiffness > 0)) return;
+  if (!(stiffness > 0)) return false;
   double energy = 0.5 * stiffness * depth * depth;
   for (const Candidate* c = begin; c != end; ++c) {
     const double share = part(*c);
     if (!(share > 0)) continue;
     Touch touch{own, k_th, c->facet, stiffness, share * depth, energy, c->foot.exit, {}, {}};
     const auto& other = facet(c->facet);
-    touch.to_foot = -mean(own, k_th, now_);
+    touch.to_foot = -x;
     for (int k = 0; k < Dim; ++k) {
       touch.share[k] = c->foot.share[k];
       touch.to_foot += touch.share[k] * at(other.point[static_cast<std::size_t>(k)]);
@@ -230,6 +249,7 @@ void Penalty<Dim>::touch_body(int own, int k_th, const Candidate* begin, const C
     out.push_back(touch);
     energy = 0;
   }
+  return false;
 }
 
 // Here: the members that this file defines.
@@ -238,16 +258,18 @@ template void Penalty<2>::gather(const State<2>&);
 template Vec<2> Penalty<2>::facet_normal(int) const;
 template int Penalty<2>::find_normals(int);
 template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
-template void Penalty<2>::look_around(const Listing&, int, Room&) const;
-template void Penalty<2>::look_at_body(int, int, const Vec<2>&, const Neighbours&, Room&) const;
-template void Penalty<2>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
+template bool Penalty<2>::look_around(const Listing&, Room&) const;
+template bool Penalty<2>::look_at_body(int, int, const Vec<2>&, const Neighbours&, Room&) const;
+template bool Penalty<2>::touch_body(int, int, const Vec<2>&, const Candidate*, const Candidate*,
+                                     std::vector<Touch>&) const;
 template std::optional<Fold> Penalty<3>::look(const State<3>&);
 template void Penalty<3>::gather(const State<3>&);
 template Vec<3> Penalty<3>::facet_normal(int) const;
 template int Penalty<3>::find_normals(int);
 template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
-template void Penalty<3>::look_around(const Listing&, int, Room&) const;
-template void Penalty<3>::look_at_body(int, int, const Vec<3>&, const Neighbours&, Room&) const;
-template void Penalty<3>::touch_body(int, int, const Candidate*, const Candidate*, std::vector<Touch>&) const;
+template bool Penalty<3>::look_around(const Listing&, Room&) const;
+template bool Penalty<3>::look_at_body(int, int, const Vec<3>&, const Neighbours&, Room&) const;
+template bool Penalty<3>::touch_body(int, int, const Vec<3>&, const Candidate*, const Candidate*,
+                                     std::vector<Touch>&) const;
 
 }  // namespace mpmfast

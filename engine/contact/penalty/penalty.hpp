@@ -91,10 +91,11 @@ class Penalty {
     std::array<Hold, kHolds> of;
   };
   struct Candidate;
-  /// Where a facet is, m: no corner is further from its middle than the radius; and its unit normal.
+  /// Where a facet is, m: no corner is further from its middle than the radius; its unit normal, its body.
   struct Ball {
     Vec<Dim> middle, normal;
     double radius;
+    int body;
   };
   struct Binned {
     NodeIndex<Dim> cell;
@@ -104,25 +105,28 @@ class Penalty {
   /// A facet and, from begin to end, the facets that may touch it.
   struct Listing {
     int facet, begin, end;
+    double clear = 0;  ///< m: by more it was outside of all of them when they were listed; 0 where it was not
   };
   /// Cells that points of two bodies may come closer by until they are listed anew.
-  static constexpr double kSkin = 0.2;
-  /// Facets of one body among those listed, and which of them has its middle nearest to a point.
+  static constexpr double kSkin = 0.4;
+  /// Facets of one body among those listed, which of them has its middle nearest to a point, and the squares
+  /// of the distances to all, m².
   struct Neighbours {
     int begin, end, nearest;
+    const double* squared;
   };
   struct Room {
     std::vector<Touch> touches;
     std::vector<Pushed> pushed;   ///< as touches
     std::size_t pressed = 0;      ///< points that touch
-    std::vector<double> squared;  ///< m², of neighbours: from the point to the middles
+    std::vector<double> squared;  ///< m², of a listing: from each point to each middle
     std::vector<Listing> listing;
     std::vector<int> listed;
     int fold = -1;
   };
 
   void gather(const State<Dim>& state);
-  void find_near(const State<Dim>& state);
+  bool find_near(const State<Dim>& state);
   int find_normals(int threads);
   void find_balls(int threads);
   void fill_bins();
@@ -130,11 +134,12 @@ class Penalty {
   void list_around(int own, std::vector<int>& out) const;
   void leave_far_ones(const Ball& ball, std::ptrdiff_t begin, std::vector<int>& out) const;
   void list_all(int threads);
-  bool lists_hold() const;
+  double moved_since_listed() const;
+  double clearance(const Listing& listing) const;
   int listed(int k) const { return listed_[static_cast<std::size_t>(k)]; }
-  void look_around(const Listing& listing, int k_th, Room& room) const;
-  void look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours, Room& room) const;
-  void touch_body(int own, int at, const Candidate* begin, const Candidate* end,
+  bool look_around(const Listing& listing, Room& room) const;
+  bool look_at_body(int own, int k_th, const Vec<Dim>& x, const Neighbours& neighbours, Room& room) const;
+  bool touch_body(int own, int k_th, const Vec<Dim>& x, const Candidate* begin, const Candidate* end,
                   std::vector<Touch>& out) const;
   double stiffness_between(int body_a, int body_b) const;
   Vec<Dim> facet_normal(int facet) const;
@@ -150,6 +155,7 @@ class Penalty {
   const typename Surfaces<Dim>::Facet& facet(int f) const {
     return surfaces_->facets[static_cast<std::size_t>(f)];
   }
+  const Ball& ball(int f) const { return ball_[static_cast<std::size_t>(f)]; }
   const Vec<Dim>& at(int point) const { return now_[static_cast<std::size_t>(point)]; }
   /// Of the k-th point of integration of a facet, of what its corners have.
   Vec<Dim> mean(int f, int k, const std::vector<Vec<Dim>>& of) const {
@@ -179,12 +185,13 @@ class Penalty {
   PairTable pairs_;
   std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
 
-  std::vector<Vec<Dim>> now_, before_;          ///< positions by number of the point, m
-  double time_before_ = 0;                      ///< s
-  std::vector<Holds> holds_;                    ///< by number
-  std::vector<int> near_points_, near_facets_;  ///< that another field's nodes are near
-  std::vector<std::uint8_t> is_near_;           ///< by number
-  std::vector<Listing> listing_;                ///< by facet
+  std::vector<Vec<Dim>> now_, before_;            ///< positions by number of the point, m
+  double time_before_ = 0;                        ///< s
+  std::vector<Holds> holds_;                      ///< by number
+  std::vector<int> near_points_, near_facets_;    ///< that another field's nodes are near
+  std::vector<std::uint8_t> is_near_, near_now_;  ///< by number
+  std::vector<std::uint8_t> shared_;              ///< by tile's nodes: with another field
+  std::vector<Listing> listing_;                  ///< by facet
   std::vector<int> listed_, listed_wedges_;
   std::vector<Vec<Dim>> listed_at_;  ///< positions by number when they were listed, m
   std::vector<Vec<Dim>> wedge_normal_;
