@@ -23,9 +23,10 @@ enum class Measure {
   temperature,
   heat_capacity,
   rate,
-  interface_stiffness
+  interface_stiffness,
+  surface_energy
 };
-inline constexpr int kMeasures = 15;
+inline constexpr int kMeasures = 16;
 
 /// The interval a number must lie in, and its name in messages.
 struct Limit {

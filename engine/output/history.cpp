@@ -51,6 +51,15 @@ const WallSpec* piston_of(const BoundarySpec& boundary) {
   return wall && largest(wall->speed) > 0 ? wall : nullptr;
 }
 
+/// Do surfaces of the scene lose energy as they part?
+bool has_bonds(const Scene& scene) {
+  const auto breaks = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
+  const auto& pairs = scene.contact.pairs;
+  return scene.contact.active &&
+         (breaks(scene.contact.law) ||
+          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return breaks(pair.law); }));
+}
+
 /// How much further apart than at first a piston and what it faces are, by their first distance: negative in
 /// compression. It faces the wall on the other side of the grid, or that face.
 double nominal_strain(const Scene& scene, const WallSpec& piston, double time) {
@@ -104,6 +113,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     if (piston_of(boundary)) names.push_back(boundary.name + ".strain");
   if (scene.contact.family == ContactFamily::penalty)
     for (const auto& pair : scene.contact.pairs) names.push_back(pair_name(scene, pair) + ".area_m2");
+  if (has_bonds(scene)) names.push_back("interface_J");
   return names;
 }
 
@@ -197,6 +207,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
   if (scene.contact.family == ContactFamily::penalty)
     for (std::size_t k = 0; k < scene.contact.pairs.size(); ++k)
       numbers.add(k < row.pair_area.size() ? row.pair_area[k] : 0.0);
+  if (has_bonds(scene)) numbers.add(row.interface);
   return numbers.all;
 }
 

@@ -59,6 +59,7 @@ const QuantityKind kKinds[] = {
     {"a heat capacity", "J/kg/K", "J/kg/K", {2, 0, -2, 0, -1}},
     {"a rate", "s^-1, us^-1", "s^-1", {0, 0, -1}},
     {"a stiffness of an interface", "Pa/m, MPa/mm, GPa/m", "Pa/m", {-2, 1, -2, 0}},
+    {"an energy of a surface", "J/m^2, N/m, N/mm", "J/m^2", {0, 1, -2, 0}},
 };
 
 /// Words and symbols that people use for units, and what stands for them here.

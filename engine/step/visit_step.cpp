@@ -46,8 +46,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
-/// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes and how
-/// they are pressed alone (remember).
+/// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes, how
+/// they are pressed alone (remember), their jumps and what is left of their bonds.
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
@@ -77,6 +77,13 @@ void Contact<Dim>::visit(Archive& archive) {
   for (std::size_t k = 0; k < known.size(); ++k) {
     list_.bridges[k].known = known[k] != 0;
     for (std::size_t d = 0; d < Dim; ++d) list_.bridges[k].jump[static_cast<int>(d)] = jumps[Dim * k + d];
+  }
+  if (bonds_) {
+    std::vector<double> ways(keys_.size());
+    list_.bonds.resize(keys_.size());
+    for (std::size_t k = 0; k < ways.size(); ++k) ways[k] = list_.bonds[k].way;
+    archive.column("contact/bonds", ways.data(), ways.size());
+    for (std::size_t k = 0; k < ways.size(); ++k) list_.bonds[k].way = ways[k];
   }
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());

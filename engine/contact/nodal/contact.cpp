@@ -138,6 +138,11 @@ void Contact<Dim>::recall(const State<Dim>& state) {
     last_bridges_.swap(list_.bridges);
     list_.bridges.assign(list_.entries.size(), {});
   }
+  if (bonds_) {
+    last_ways_.clear();
+    for (const Bond& bond : list_.bonds) last_ways_.push_back(bond.way);
+    list_.bonds.assign(list_.entries.size(), {});
+  }
   const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
   auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (const auto& node : list_.nodes)
@@ -154,6 +159,9 @@ void Contact<Dim>::recall(const State<Dim>& state) {
         bridge.jump = before.jump;
         bridge.known = before.known;
       }
+      if (bonds_)
+        list_.bonds[static_cast<std::size_t>(e)].before =
+            last_ways_[static_cast<std::size_t>(last - memory_.begin())];
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;
       entry.spring_before = last->spring;

@@ -61,6 +61,14 @@ struct Bridge {
   Vec<Dim> impulse = Vec<Dim>::Zero();             ///< Δp_a, N s
 };
 
+/// What lasts of a bond at an entry whose law breaks (kernels/contact/cohesive.hpp).
+struct Bond {
+  double before = -1;  ///< the way to broken, of [0, 1], at the end of the last step; negative: none was here
+  double way = 1;      ///< now; 1: broken
+  double lost = 0;     ///< J, in this step
+  bool broken() const { return way >= 1; }
+};
+
 /// Of an interface on the nodes around one: sums of the areas, m², and the mean of `told`, m.
 template <int Dim>
 struct BridgesAround {
@@ -98,6 +106,7 @@ struct ContactList {
   std::vector<ContactField> fields;
   std::vector<ContactEntry<Dim>> entries;
   std::vector<Bridge<Dim>> bridges;  ///< as `entries`; none where no law has springs
+  std::vector<Bond> bonds;           ///< as `entries`; none where no law breaks
   std::vector<int> node_at;          ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };

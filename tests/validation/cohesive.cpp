@@ -1,0 +1,217 @@
+// Cohesive laws in scenes: bars that are pulled apart, in any direction of the glue, there and back; blocks
+// that part as they fly through the grid.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "kernels/contact/laws.hpp"
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// Of cohesive_bars.yaml.
+constexpr double kYoung = 10e6, kLength = 0.1, kCell = 5e-3, kHeight = 0.01, kStrength = 10e3,
+                 kToughness = 2.5;
+constexpr double kStiffness = 10 * kYoung / kCell;  // what glue has where the scene says nothing
+
+/// Traction of glue that opens for the first time, written out once more. @param plateau, area  of its shape
+double traction(const std::string& shape, double opening) {
+  const double first = kStrength / kStiffness;
+  const double area = shape == "triangular"    ? 0.5
+                      : shape == "trapezoidal" ? 0.75
+                                               : 1 / 7.0 - 1 / (std::exp(7.0) - 1);
+  const double length = (kToughness / kStrength - 0.5 * first) / area, way = (opening - first) / length;
+  if (way < 0) return kStiffness * opening;
+  if (way > 1) return 0;
+  if (shape == "triangular") return kStrength * (1 - way);
+  if (shape == "trapezoidal") return kStrength * std::min(1.0, 2 * (1 - way));
+  return kStrength * (std::exp(-7 * way) - std::exp(-7.0)) / (1 - std::exp(-7.0));
+}
+
+/// Stress of the bars whose end has moved so far: σ = T(u − σL/E).
+double stress_at(const std::string& shape, double way) {
+  double low = 0, high = way;
+  for (int k = 0; k < 60; ++k) {
+    const double opening = 0.5 * (low + high);
+    (opening + traction(shape, opening) * kLength / kYoung < way ? low : high) = opening;
+  }
+  return traction(shape, 0.5 * (low + high));
+}
+
+/// How far the end has moved: up to speed in the first sixth of the time, at rest in the last.
+double way_at(double time, double way) {
+  const double ramp = 0.02, speed = way / 0.1, end = 0.12;
+  if (time < ramp) return 0.5 * speed * time * time / ramp;
+  if (time < end - ramp) return speed * (time - 0.5 * ramp);
+  const double left = end - time;
+  return way - 0.5 * speed * left * left / ramp;
+}
+
+std::vector<double> mean_stress(const History& history) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < history.at("time_s").size(); ++k)
+    out.push_back(0.5 * (history.at("left.mean_stress_xx_Pa")[k] + history.at("right.mean_stress_xx_Pa")[k]));
+  return out;
+}
+
+TEST_CASE(
+    "bars pulled apart follow each cohesive law, from the strength to nothing, wherever the glue lies in a "
+    "cell") {
+  for (const char* shape : {"triangular", "exponential", "trapezoidal"})
+    for (const char* joint : {"50 mm", "51.25 mm", "52.5 mm"}) {
+      if (joint[2] == '.' && shape[0] != 't') continue;
+      CAPTURE(std::string(shape));
+      CAPTURE(std::string(joint));
+      const Outcome out =
+          run(scene_file("cohesive_bars.yaml",
+                         {{"contact.shape", shape}, {"variables.joint", joint}, {"output.frames", "0"}}));
+      REQUIRE(out.failure == "");
+      const std::vector<double> stress = mean_stress(out.history);
+      double most = 0, off = 0;
+      for (std::size_t k = 0; k < stress.size(); ++k) {
+        const double exact = stress_at(shape, way_at(out.history.at("time_s")[k], 0.8e-3));
+        most = std::max(most, stress[k]);
+        off = std::max(off, std::abs(stress[k] - exact));
+      }
+      MESSAGE("peak ", most / kStrength, " off ", off / kStrength, " lost ",
+              out.history.at("interface_J").back() / (kToughness * kHeight), " balance ",
+              out.summary.energy_error);
+      CHECK(most == doctest::Approx(kStrength).epsilon(0.01));
+      CHECK(off < 0.02 * kStrength);
+      CHECK(out.history.at("interface_J").back() == doctest::Approx(kToughness * kHeight).epsilon(0.02));
+      CHECK(std::abs(out.summary.energy_error) < 0.01);
+    }
+}
+
+/// Runs cohesive_bars.yaml with the end on its way by a table of speeds.
+Outcome pull(std::vector<Override> sets, const std::string& speed = "") {
+  sets.push_back({"output.frames", "0"});
+  if (!speed.empty()) sets.push_back({"boundaries.end.speed", speed});
+  return run(scene_file("cohesive_bars.yaml", sets));
+}
+
+/// Pulled by 0.4 mm, where the traction of a triangular law is (0.5 - 0.4)/(0.5 - 0.1) of the strength less
+/// what the bars give; back by 0.6 mm; and forth by 1 mm.
+TEST_CASE("glue that softened unloads to the origin, presses as if whole, and takes its toughness in all") {
+  const Outcome out =
+      pull({{"time.end", "260 ms"}, {"output.history", "1300"}},
+           "[[0 ms, 0 m/s], [10 ms, 8 mm/s], [50 ms, 8 mm/s], [60 ms, 0 m/s], [70 ms, -8 mm/s], [135 ms, "
+           "-8 mm/s], [145 ms, 0 m/s], [155 ms, 8 mm/s], [250 ms, 8 mm/s], [260 ms, 0 m/s]]");
+  REQUIRE(out.failure == "");
+  const std::vector<double> stress = mean_stress(out.history);
+  const auto at = [&](double time) {
+    std::size_t k = 0;
+    while (out.history.at("time_s")[k] < time * (1 - 1e-9)) ++k;
+    return k;
+  };
+  const double turned = stress_at("triangular", 0.4e-3), left = turned / (0.4e-3 - turned * kLength / kYoung);
+  const auto back = [&](double way) { return way / (1 / left + kLength / kYoung); };
+  const std::size_t pulled = at(0.06), half = at(0.06 + 0.03), pressed = at(0.145);
+  MESSAGE("stress ", stress[pulled] / turned, " ", stress[half] / back(0.4e-3 - 0.2e-3), " ",
+          stress[pressed] / (-0.2e-3 / (kLength / kYoung + 1 / kStiffness)));
+  CHECK(stress[pulled] == doctest::Approx(turned).epsilon(0.02));
+  CHECK(stress[half] == doctest::Approx(back(0.2e-3)).epsilon(0.02));
+  CHECK(stress[pressed] == doctest::Approx(-0.2e-3 / (kLength / kYoung + 1 / kStiffness)).epsilon(0.01));
+  const auto& lost = out.history.at("interface_J");
+  CHECK(lost[pressed] == doctest::Approx(lost[pulled]).epsilon(0.005));
+  CHECK(lost.back() == doctest::Approx(kToughness * kHeight).epsilon(0.02));
+  CHECK(std::abs(out.summary.energy_error) < 0.01);
+}
+
+/// Of a bar cut at an angle: glue of one stiffness opens and slides so that the jump is along the bar, so the
+/// stress is that of the bar alone, the traction n.σ, and both modes have their share.
+TEST_CASE("an oblique cut opens and slides at once: its strength, and the toughness of that mix") {
+  for (const char* shape : {"triangular", "trapezoidal"}) {
+    const Outcome out =
+        pull({{"contact.shape", shape},
+              {"contact.shear_strength", "20 kPa"},
+              {"contact.shear_toughness", "5 J/m^2"},
+              {"contact.mode_exponent", "2"},
+              {"bodies",
+               "[{name: left, polygon: [[0 mm, 0 mm], [46.25 mm, 0 mm], [56.25 mm, 10 mm], [0 mm, 10 mm]], "
+               "material: rubber}, {name: right, polygon: [[46.25 mm, 0 mm], [100 mm, 0 mm], [100 mm, 10 "
+               "mm], [56.25 mm, 10 mm]], material: rubber}]"}});
+    REQUIRE(out.failure == "");
+    const std::vector<double> stress = mean_stress(out.history);
+    // σ_n = τ = σ/2: (σ/2)² (1/10² + 1/20²) = 1.
+    const double strength = 2 / std::sqrt(1 / 1e8 + 1 / 4e8);
+    // G_I = c²g σ_c²/K and G_II = d²g τ_c²/K with c²: d² = 1/1e8 : 1/4e8 are equal: G²(1/2.5² + 1/5²) = 1 for
+    // each.
+    const double toughness = 2 / std::sqrt(1 / 6.25 + 1 / 25.0);
+    MESSAGE("peak ", *std::max_element(stress.begin(), stress.end()) / strength, " lost ",
+            out.history.at("interface_J").back() / (toughness * kHeight * std::numbers::sqrt2));
+    CHECK(*std::max_element(stress.begin(), stress.end()) == doctest::Approx(strength).epsilon(0.02));
+    CHECK(out.history.at("interface_J").back() ==
+          doctest::Approx(toughness * kHeight * std::numbers::sqrt2).epsilon(0.02));
+    CHECK(std::abs(out.summary.energy_error) < 0.01);
+  }
+}
+
+/// Two stiff blocks that part at equal and opposite velocities, while both fly.
+struct Parting {
+  double lost, left;  ///< J; of the energy of their parting
+};
+
+Parting part(double angle, const Vec<2>& flight, const Vec<2>& parting) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto text = [](double x) { return std::to_string(x); };
+  const auto place = [&](double x, double y) {
+    return "[" + text(30 + c * x - s * y) + " mm, " + text(30 + s * x + c * y) + " mm]";
+  };
+  const auto block = [&](double low, double high, double sign) {
+    const Vec<2> v =
+        flight + 0.5 * sign * Vec<2>(c * parting[0] - s * parting[1], s * parting[0] + c * parting[1]);
+    return "polygon: [" + place(-20, low) + ", " + place(20, low) + ", " + place(20, high) + ", " +
+           place(-20, high) + "], material: m, seeding: {angle: " + text(angle * 180 / std::numbers::pi) +
+           " deg}, velocity: [" + text(v[0]) + " m/s, " + text(v[1]) + " m/s]";
+  };
+  const std::string yaml =
+      "space: plane_strain\ngrid: {size: [80 mm, 80 mm], cell: 2 mm}\ntime: {end: 1 s, cfl: 0.5}\n"
+      "materials: {m: {model: neo_hookean, density: 1 g/cm^3, young: 100 MPa, poisson: 0}}\nbodies:\n  - "
+      "{name: lower, " +
+      block(-4, 0, -1) + "}\n  - {name: upper, " + block(0, 4, 1) +
+      "}\ncontact: {law: cohesive, normal_strength: 20 kPa, shear_strength: 20 kPa, normal_toughness: 2 "
+      "J/m^2, "
+      "shear_toughness: 2 J/m^2, initial_stiffness: 2 GPa/m}\n";
+  const Scene scene = scene_from(yaml);
+  Step<2> step(scene);
+  auto& state = step.state();
+  const auto relative = [&] {
+    Vec<2> sum = Vec<2>::Zero();
+    for (std::size_t p = 0; p < state.particles.size(); ++p)
+      sum += (state.particles.body()[p] == 0 ? -1 : 1) * state.particles.column(Quantity::mass)[p] *
+             state.particles.vector(Quantity::velocity, p);
+    return Vec<2>(sum / (0.04 * 0.004 * 1000));
+  };
+  const double reach = 0.2e-3 * 2.5;  // beyond the jump at which it breaks
+  const double end = reach / (0.3 * parting.norm());
+  while (state.time < end) step.advance(step.stable_dt());
+  const double mass = 0.04 * 0.004 * 1000 / 2;
+  return {step.sums().interface_loss, 0.5 * mass * relative().squaredNorm()};
+}
+
+TEST_CASE(
+    "damage moves with the bodies: blocks that part lose as much as they fly through cells as at rest") {
+  const double energy = 2 * 0.04, speed = std::sqrt(2 * 2.5 * energy / (0.04 * 0.004 * 1000 / 2));
+  for (double angle : {0.0, std::numbers::pi / 6})
+    for (const Vec<2>& way : {Vec<2>(0, speed), Vec<2>(speed, 0)}) {
+      CAPTURE(angle);
+      CAPTURE(way[0]);
+      const Parting still = part(angle, {0, 0}, way);
+      const Parting moving = part(angle, {12 * speed, 7 * speed}, way);
+      MESSAGE("lost ", still.lost / energy, " ", still.left / (1.5 * energy), "  moving ", moving.lost / energy, " ",
+              moving.left / (1.5 * energy));
+      CHECK(still.lost == doctest::Approx(energy).epsilon(0.01));
+      CHECK(moving.lost == doctest::Approx(still.lost).epsilon(0.01));
+      CHECK(moving.left == doctest::Approx(still.left).epsilon(0.01));
+    }
+}
+
+}  // namespace
+}  // namespace mpmfast
