@@ -103,16 +103,19 @@ class Contact {
   const AnyLaw& law_of(const State<Dim>& state, const ContactNode<Dim>& node,
                        const ContactEntry<Dim>& entry) const;
   /// An entry by itself: `bonds` has it.
-  Bond& bond_of(const ContactEntry<Dim>& entry) {
+  Bond<Dim>& bond_of(const ContactEntry<Dim>& entry) {
     return list_.bonds[static_cast<std::size_t>(&entry - list_.entries.data())];
   }
-  const Bond& bond_of(const ContactEntry<Dim>& entry) const {
+  const Bond<Dim>& bond_of(const ContactEntry<Dim>& entry) const {
     return list_.bonds[static_cast<std::size_t>(&entry - list_.entries.data())];
   }
   void find_bonds(const State<Dim>& state);
+  void weigh_bonds(const State<Dim>& state);
+  template <class F>
+  void for_each_bond(const State<Dim>& state, const F& f);
   bool is_cracked(const State<Dim>& state, const ContactNode<Dim>& node) const;
-  double way_around(const State<Dim>& state, const ContactNode<Dim>& node,
-                    const ContactEntry<Dim>& entry) const;
+  void take_nearest(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                    Bond<Dim>& bond) const;
   const ContactEntry<Dim>* same_pair(const State<Dim>& state, const ContactNode<Dim>& node,
                                      const ContactEntry<Dim>& entry, int place) const;
   void carry_bonds(const State<Dim>& state, double dt);
@@ -135,7 +138,7 @@ class Contact {
   bool start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e);
   Vec<Dim> pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls,
                    bool alone) const;
-  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond& bond,
+  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
                    const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
@@ -228,7 +231,7 @@ class Contact {
   std::vector<Together> together_;         ///< of each thread
   std::vector<Memory> memory_;             ///< of the last step, in order of the keys
   std::vector<Bridge<Dim>> last_bridges_;  ///< likewise
-  std::vector<double> last_ways_;          ///< of bonds, likewise
+  std::vector<Bond<Dim>> last_bonds_;      ///< likewise
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

@@ -79,11 +79,20 @@ void Contact<Dim>::visit(Archive& archive) {
     for (std::size_t d = 0; d < Dim; ++d) list_.bridges[k].jump[static_cast<int>(d)] = jumps[Dim * k + d];
   }
   if (bonds_) {
-    std::vector<double> ways(keys_.size());
+    std::vector<double> bonds((Dim + 1) * keys_.size());
     list_.bonds.resize(keys_.size());
-    for (std::size_t k = 0; k < ways.size(); ++k) ways[k] = list_.bonds[k].way;
-    archive.column("contact/bonds", ways.data(), ways.size());
-    for (std::size_t k = 0; k < ways.size(); ++k) list_.bonds[k].way = ways[k];
+    const auto for_each_bond = [&](const auto& f) {
+      for (std::size_t k = 0; k < keys_.size(); ++k) f(list_.bonds[k], bonds.data() + (Dim + 1) * k);
+    };
+    for_each_bond([](const auto& bond, double* out) {
+      out[Dim] = bond.way;
+      std::copy(bond.offset.data(), bond.offset.data() + Dim, out);
+    });
+    archive.column("contact/bonds", bonds.data(), bonds.size());
+    for_each_bond([](auto& bond, const double* in) {
+      bond.way = in[Dim];
+      std::copy(in, in + Dim, bond.offset.data());
+    });
   }
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());

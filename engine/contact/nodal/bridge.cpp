@@ -86,12 +86,14 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       const double m_a = mass[slot_a], m_b = mass[slot_b];
       const bool joined = is_joined(state, node, entry),
                  touches = scope_of(state, node, entry) == LawScope::contact;
+      const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
+                   b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
+      const double area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+      if (bonds_) bond_of(entry).area = area;
       if (joined) {
         bridge.normal = entry.normal;
         bridge.told = told_jump(state, node, slot_a, slot_b);
-        const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
-                     b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
-        bridge.own_area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+        bridge.own_area = area;
         bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
       }
       if (joined && touches)  // the gap is that of the jump
@@ -221,7 +223,7 @@ Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>
 
 /// The impulse of an entry's bond on its field a, N s.
 template <int Dim>
-Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond& bond,
+Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
                                const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const {
   const double reduced = 1 / (bridge.inverse_a + bridge.inverse_b);
   const BondStart<Dim> start{law,
@@ -233,7 +235,8 @@ Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, c
                              bridge.jump,
                              bridge.rate,
                              reduced * pulls};
-  const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - rate_after_bond(start, dt));
+  const Vec<Dim> end = bond.follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
+  const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
   return node.constrained ? free_part(node, impulse) : impulse;
 }
 
@@ -241,26 +244,32 @@ Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, c
 /// hold.
 template <int Dim>
 void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (!bridge.acts) continue;
+      const Vec<Dim> from = bridge.jump;
+      bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
+      if (const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr)
+        if (!bond_of(entry).follows()) end_bond(*law, from, bridge, bond_of(entry));
+    }
+  if (bonds_) carry_bonds(state, dt);
   books_.stored = books_.lost = 0;
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-      if (bridge.acts) {
-        const Vec<Dim> from = bridge.jump;
-        bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
-        if (const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr)
-          end_bond(*law, from, bridge, bond_of(entry));
-      }
       if (bonds_) books_.lost += bond_of(entry).lost;
       bridge.known = bridge.acts;
       if (!bridge.acts) continue;
+      const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr;
+      const double left = law ? law->integrity_of(bond_of(entry).way) : 1;
       const double gap = bridge.jump.dot(bridge.normal);
       const double slip = (bridge.jump - gap * bridge.normal).squaredNorm();
-      books_.stored +=
-          0.5 * ((gap > 0 ? bridge.tension : bridge.compression) * gap * gap + bridge.shear * slip);
+      books_.stored += 0.5 * ((gap > 0 ? left * bridge.tension : bridge.compression) * gap * gap +
+                              left * bridge.shear * slip);
     }
-  if (bonds_) carry_bonds(state, dt);
 }
 
 /// The entry of the same two fields at one of the 3^Dim places around a node (itself in the middle).

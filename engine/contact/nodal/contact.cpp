@@ -139,8 +139,7 @@ void Contact<Dim>::recall(const State<Dim>& state) {
     list_.bridges.assign(list_.entries.size(), {});
   }
   if (bonds_) {
-    last_ways_.clear();
-    for (const Bond& bond : list_.bonds) last_ways_.push_back(bond.way);
+    last_bonds_.swap(list_.bonds);
     list_.bonds.assign(list_.entries.size(), {});
   }
   const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
@@ -159,9 +158,12 @@ void Contact<Dim>::recall(const State<Dim>& state) {
         bridge.jump = before.jump;
         bridge.known = before.known;
       }
-      if (bonds_)
-        list_.bonds[static_cast<std::size_t>(e)].before =
-            last_ways_[static_cast<std::size_t>(last - memory_.begin())];
+      if (bonds_) {
+        const Bond<Dim>& before = last_bonds_[static_cast<std::size_t>(last - memory_.begin())];
+        auto& bond = list_.bonds[static_cast<std::size_t>(e)];
+        bond.before = before.way;
+        bond.offset_before = before.offset;
+      }
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;
       entry.spring_before = last->spring;

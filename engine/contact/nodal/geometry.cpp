@@ -15,6 +15,7 @@ void Contact<Dim>::find_geometry(State<Dim>& state, ContactFitter<Dim>& basis) {
   grid_separations(state);
   find_bonds(state);
   find_bridges(state);
+  weigh_bonds(state);
   if (spec_.detection == DetectionKind::velocity || spec_.separation == SeparationKind::none)
     for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
 }
