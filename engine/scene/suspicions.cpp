@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <ranges>
@@ -41,7 +42,8 @@ class Suspicions {
     falls();
     joints(scene_.contact.law, "contact");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
-      joints(scene_.contact.pairs[k].law, fmt::format("contact.pairs.{}", k));
+      if (!same_bond(scene_.contact.pairs[k].law, scene_.contact.law))
+        joints(scene_.contact.pairs[k].law, fmt::format("contact.pairs.{}", k));
     if (scene_.contact.family == ContactFamily::penalty && !scene_.method.extended)
       say("contact.family", "penalty forces throw nodes at surfaces that have hardly any mass",
           "method: {basis: bspline2, extension: {occupation: 0.75}}");
@@ -241,6 +243,16 @@ class Suspicions {
       out.largest = std::max(out.largest, own);
     }
     return out;
+  }
+
+  /// Of a pair that has the bond of all others, nothing is said again.
+  static bool same_bond(const SurfaceLaw& one, const SurfaceLaw& other) {
+    const auto *a = std::get_if<Cohesive>(&one.acts), *b = std::get_if<Cohesive>(&other.acts);
+    const auto numbers = [](const Cohesive& c) {
+      return std::array{c.normal_strength,   c.shear_strength,        c.normal_toughness,  c.shear_toughness,
+                        c.initial_stiffness, c.compression_stiffness, c.fall().integral(1)};
+    };
+    return a && b && numbers(*a) == numbers(*b);
   }
 
   void joints(const SurfaceLaw& law, const std::string& path) {

@@ -130,9 +130,10 @@ TEST_CASE("along any direction the energies of both modes meet the power law whe
         CAPTURE(static_cast<int>(shape));
         Pair pair{law_of(shape, exponent), 1, 1};
         const Vec<2> way = 1e-3 * Vec<2>(std::cos(angle), std::sin(angle));
-        double opening = 0, sliding = 0;
+        double opening = 0, sliding = 0, most = 0;
         while (pair.integrity > 0) {
           pair.open(way);
+          most = std::max(most, std::hypot(pair.traction[0] / 1, pair.traction[1] / 2));
           opening += pair.traction[0] * way[0];
           sliding += pair.traction[1] * way[1];
         }
