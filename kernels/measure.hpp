@@ -27,9 +27,10 @@ enum class Measure {
   conductivity,
   heat_flux,
   conductance,
-  expansion
+  expansion,
+  surface_energy
 };
-inline constexpr int kMeasures = 19;
+inline constexpr int kMeasures = 20;
 
 /// The interval a number must lie in, and its name in messages.
 struct Limit {

@@ -13,6 +13,7 @@ struct ContactBooks {
   double friction_work = 0;                ///< J
   double rigid_work = 0;                   ///< J, of rigid bodies on the others
   double stored = 0;                       ///< J, in the springs of interfaces at the end of the step
+  double lost = 0;                         ///< J, of bonds that soften and break
   std::vector<Vec<Dim>> rigid_impulse;     ///< N s, on rigid bodies; by field
   std::vector<Vec<3>> rigid_moment;        ///< N m s, on rigid bodies about their pivots; by field
   std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
@@ -21,7 +22,7 @@ struct ContactBooks {
 
   /// Empty ones. @param fields, pairs  how many there are
   void open(std::size_t fields, std::size_t pairs) {
-    friction_work = rigid_work = stored = 0;
+    friction_work = rigid_work = stored = lost = 0;
     rigid_impulse.assign(fields, Vec<Dim>::Zero());
     rigid_moment.assign(fields, Vec<3>::Zero());
     pair_impulse.assign(pairs, Vec<Dim>::Zero());

@@ -108,8 +108,36 @@ class Contact {
   const Bridge<Dim>& bridge_of(const ContactEntry<Dim>& entry) const {
     return list_.bridges[static_cast<std::size_t>(&entry - list_.entries.data())];
   }
-  const Interface* springs_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                              const ContactEntry<Dim>& entry) const;
+  const AnyLaw& law_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                       const ContactEntry<Dim>& entry) const;
+  /// An entry by itself: `bonds` has it.
+  Bond<Dim>& bond_of(const ContactEntry<Dim>& entry) {
+    return list_.bonds[static_cast<std::size_t>(&entry - list_.entries.data())];
+  }
+  const Bond<Dim>& bond_of(const ContactEntry<Dim>& entry) const {
+    return list_.bonds[static_cast<std::size_t>(&entry - list_.entries.data())];
+  }
+  void find_bonds(const State<Dim>& state);
+  void weigh_bonds(const State<Dim>& state);
+  template <class F>
+  void for_each_bond(const State<Dim>& state, const F& f);
+  bool is_cracked(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  void take_nearest(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                    Bond<Dim>& bond) const;
+  const ContactEntry<Dim>* same_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                                     const ContactEntry<Dim>& entry, int place) const;
+  void carry_bonds(const State<Dim>& state, double dt);
+  bool is_joined(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                    const ContactEntry<Dim>& entry) const;
+  /// f(law), or f(the contact) of surfaces whose bond is broken or that contact holds apart.
+  template <class Law, class F>
+  void as_it_is(const ContactEntry<Dim>& entry, const Law& law, F f) const {
+    if constexpr (requires { law.contact(); })
+      if (law.compression == Pressed::contact || is_broken(entry)) return f(law.contact());
+    f(law);
+  }
+  bool is_broken(const ContactEntry<Dim>& entry) const { return bonds_ && bond_of(entry).broken(); }
   void find_bridges(const State<Dim>& state);
   BridgesAround<Dim> bridges_around(const State<Dim>& state, const ContactNode<Dim>& node,
                                     const ContactEntry<Dim>& entry) const;
@@ -118,6 +146,8 @@ class Contact {
   bool start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e);
   Vec<Dim> pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls,
                    bool alone) const;
+  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
+                   const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
   struct Total {
@@ -202,12 +232,14 @@ class Contact {
   double first_share_;           ///< of the first correction's impulse: a force of the second too
   bool geometry_;                ///< some law asks for normals and separations
   bool bridges_;                 ///< some law joins surfaces by springs
+  bool bonds_;                   ///< some law joins them by bonds that break
   bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;        ///< of the entries
   std::vector<Together> together_;         ///< of each thread
   std::vector<Memory> memory_;             ///< of the last step, in order of the keys
   std::vector<Bridge<Dim>> last_bridges_;  ///< likewise
+  std::vector<Bond<Dim>> last_bonds_;      ///< likewise
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

@@ -51,9 +51,8 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       const double share = share_of(state, contact, node, e);
       if (share == 0) continue;
       const ConductanceSpec& surface = contact.conductance_of(state, node, entry);
-      const bool touches = scope == LawScope::bridged
-                               ? contact.joined(e)
-                               : entry.touching || entry.separation < kTouches * state.grid.cell;
+      const bool touches =
+          contact.joined(e) || entry.touching || entry.separation < kTouches * state.grid.cell;
       const double gap = std::max(0.0, entry.separation);
       if (touches) {
         crossing.conductance = capped(surface.touching);

@@ -307,8 +307,9 @@ Energies Simulation::energies() {
       HistoryRow row;
       fill_particle_sums(s.state().particles, i.scene, row);
       const auto& sums = s.sums();
-      return Energies{row.kinetic,           s.stored_energy(),  sums.friction_work,
-                      s.dissipated_energy(), sums.boundary_work, sums.body_force_work};
+      return Energies{row.kinetic,        s.stored_energy(),
+                      sums.friction_work, s.dissipated_energy() + sums.interface_loss,
+                      sums.boundary_work, sums.body_force_work};
     });
   });
 }

@@ -52,7 +52,7 @@ struct Callbacks {
 struct Energies {
   double kinetic = 0, stored = 0;
   double friction = 0;    ///< heat of contact
-  double dissipated = 0;  ///< plastic work and viscous heat
+  double dissipated = 0;  ///< plastic work, viscous heat and what bonds of surfaces lost
   double boundary_work = 0, body_force_work = 0;
 };
 

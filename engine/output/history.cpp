@@ -51,6 +51,15 @@ const WallSpec* piston_of(const BoundarySpec& boundary) {
   return wall && largest(wall->speed) > 0 ? wall : nullptr;
 }
 
+/// Do surfaces of the scene lose energy as they part?
+bool has_bonds(const Scene& scene) {
+  const auto breaks = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
+  const auto& pairs = scene.contact.pairs;
+  return scene.contact.active &&
+         (breaks(scene.contact.law) ||
+          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return breaks(pair.law); }));
+}
+
 /// How much further apart than at first a piston and what it faces are, by their first distance: negative in
 /// compression. It faces the wall on the other side of the grid, or that face.
 double nominal_strain(const Scene& scene, const WallSpec& piston, double time) {
@@ -109,6 +118,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     for (const auto& condition : scene.heat.conditions) names.push_back(condition.name + ".heat_J");
     for (const auto& body : scene.bodies) names.push_back(body.name + ".temperature_K");
   }
+  if (has_bonds(scene)) names.push_back("interface_J");
   return names;
 }
 
@@ -210,6 +220,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b)
       numbers.add(b < row.bodies.size() ? row.bodies[b].temperature : 0.0);
   }
+  if (has_bonds(scene)) numbers.add(row.interface);
   return numbers.all;
 }
 

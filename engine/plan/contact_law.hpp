@@ -15,6 +15,9 @@ namespace mpmfast {
 /// which all are stiffer than the second are tied. (Springs that are 500 times as stiff where surfaces press,
 /// and none where they part, make energy.)
 inline constexpr double kStiffest = 100, kTied = 1000;
+/// The initial stiffness of bonds in the same unit, where a scene has none; and in that with which they break
+/// at once at their strength, the least.
+inline constexpr double kBonded = 10, kBrittle = 1.01;
 
 /// The largest modulus of longitudinal waves in the bodies of a scene, at rest, Pa.
 inline double stiffest_modulus(const Scene& scene) {
@@ -37,6 +40,13 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
     if (std::all_of(all.begin(), all.end(), [&](const double* one) { return *one >= kTied * unit; }))
       return Perfect{};
     for (double* one : all) *one = std::min(*one, kStiffest * unit);
+  }
+  if (auto* bond = std::get_if<Cohesive>(&law)) {
+    const double unit = stiffest_modulus(scene) / cell;
+    double& stiffness = bond->initial_stiffness;
+    stiffness = stiffness > 0 ? std::min(stiffness, kStiffest * unit) : kBonded * unit;
+    stiffness = std::max(stiffness, kBrittle * bond->least_stiffness());
+    bond->compression_stiffness = std::min(bond->pressed_stiffness(), kStiffest * unit);
   }
   std::visit(
       [&](auto& one) {

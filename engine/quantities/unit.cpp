@@ -64,6 +64,7 @@ const QuantityKind kKinds[] = {
     {"a heat flux", "W/m^2, kW/m^2, MW/m^2", "W/m^2", {0, 1, -3, 0}},
     {"a heat conductance", "W/m^2/K, kW/m^2/K", "W/m^2/K", {0, 1, -3, 0, -1}},
     {"a thermal expansion", "K^-1", "K^-1", {0, 0, 0, 0, -1}},
+    {"an energy of a surface", "J/m^2, N/m, N/mm", "J/m^2", {0, 1, -2, 0}},
 };
 
 /// Words and symbols that people use for units, and what stands for them here.

@@ -71,6 +71,7 @@ HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<
   row.stored = step.stored_energy();
   row.dissipated = step.dissipated_energy();
   row.friction = sums.friction_work;
+  row.interface = sums.interface_loss;
   row.boundary_work = sums.boundary_work;
   row.body_force_work = sums.body_force_work;
   fill_particle_sums(state.particles, scene, row);

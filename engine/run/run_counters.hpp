@@ -33,14 +33,14 @@ class Marks {
   int next_ = 1;
 };
 
-/// The balance kinetic + stored + dissipated + friction + what left − work of boundaries, body forces and
-/// heat, and how far it has drifted.
+/// The balance kinetic + stored + dissipated + friction + what interfaces lost and what left − work of
+/// boundaries, body forces and heat, and how far it has drifted.
 class EnergyBalance {
  public:
   void add(const HistoryRow& row) {
     const double gone = row.outflow ? row.outflow->energy : 0;
     const double by_heat = row.heat ? row.heat->worked : 0;
-    const double balance = row.kinetic + row.stored + row.dissipated + row.friction + gone -
+    const double balance = row.kinetic + row.stored + row.dissipated + row.friction + row.interface + gone -
                            row.boundary_work - row.body_force_work - by_heat;
     if (!started_) first_ = balance;
     started_ = true;

@@ -244,6 +244,8 @@ struct ContactSpec {
   ManyFields fields = ManyFields::simultaneous;
   AreaKind area = AreaKind::volume_gradient;
   std::vector<ContactPair> pairs;
+  bool cracked = false;               ///< surfaces in a box have no cohesive bond at the start
+  Vec3 crack_lower{}, crack_upper{};  ///< its corners, m
 
   /// Can it be decided once a step which pairs touch? Else re-extrapolated strains make energy of contact.
   bool decides_once() const {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <ranges>
@@ -39,9 +40,10 @@ class Suspicions {
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
     falls();
-    springs(scene_.contact.law, "contact");
+    joints(scene_.contact.law, "contact");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
-      springs(scene_.contact.pairs[k].law, fmt::format("contact.pairs.{}", k));
+      if (!same_bond(scene_.contact.pairs[k].law, scene_.contact.law))
+        joints(scene_.contact.pairs[k].law, fmt::format("contact.pairs.{}", k));
     if (scene_.contact.family == ContactFamily::penalty && !scene_.method.extended)
       say("contact.family", "penalty forces throw nodes at surfaces that have hardly any mass",
           "method: {basis: bspline2, extension: {occupation: 0.75}}");
@@ -227,29 +229,77 @@ class Suspicions {
           "Is it an angle, or percent?");
   }
 
-  /// NN Eq. 5.36: Δt = C h/c < h √(ρ/(2 D h)), with the least ρ c² of the bodies.
-  void springs(const SurfaceLaw& law, const std::string& path) {
-    const auto* springs = std::get_if<Interface>(&law.acts);
-    if (!springs) return;
-    constexpr double kTieLike = 100;  // from here on a cell gives way a hundred times as much
-    double modulus = 0, stiffest = 0;
+  /// Of the bodies that deform, the least and the largest ρ c², Pa.
+  struct Moduli {
+    double least = 0, largest = 0;
+  };
+  Moduli moduli() const {
+    Moduli out;
     for (const BodySpec& body : scene_.bodies) {
       if (is_rigid(scene_, body)) continue;
       const auto m = static_cast<std::size_t>(body.material);
       const double own = density_of(scene_.materials[m]) * speed_[m] * speed_[m];
-      modulus = modulus > 0 ? std::min(modulus, own) : own;
-      stiffest = std::max(stiffest, own);
+      out.least = out.least > 0 ? std::min(out.least, own) : own;
+      out.largest = std::max(out.largest, own);
     }
-    const double most = modulus / (2 * scene_.time.cfl * scene_.time.cfl * scene_.grid.cell);
-    for (const auto& [key, stiffness] : {std::pair{"normal_stiffness", springs->normal_stiffness},
-                                         {"shear_stiffness", springs->shear_stiffness},
-                                         {"compression_stiffness", springs->compression_stiffness}})
-      if (stiffness > most && stiffness * scene_.grid.cell < kTieLike * stiffest)
-        say(path + "." + key,
-            fmt::format("{:.3g} Pa/m swings faster than steps follow: right at rest, but too slow for waves",
-                        stiffness),
-            fmt::format("Up to {:.3g} Pa/m; time.cfl {:.2g}, or smaller cells, would follow this one", most,
-                        scene_.time.cfl * std::sqrt(most / stiffness)));
+    return out;
+  }
+
+  /// Of a pair that has the bond of all others, nothing is said again.
+  static bool same_bond(const SurfaceLaw& one, const SurfaceLaw& other) {
+    const auto *a = std::get_if<Cohesive>(&one.acts), *b = std::get_if<Cohesive>(&other.acts);
+    const auto numbers = [](const Cohesive& c) {
+      return std::array{c.normal_strength,   c.shear_strength,        c.normal_toughness,  c.shear_toughness,
+                        c.initial_stiffness, c.compression_stiffness, c.fall().integral(1)};
+    };
+    return a && b && numbers(*a) == numbers(*b);
+  }
+
+  void joints(const SurfaceLaw& law, const std::string& path) {
+    if (const auto* springs = std::get_if<Interface>(&law.acts)) {
+      stiff(springs->normal_stiffness, path + ".normal_stiffness");
+      stiff(springs->shear_stiffness, path + ".shear_stiffness");
+      stiff(springs->compression_stiffness, path + ".compression_stiffness");
+    } else if (const auto* bond = std::get_if<Cohesive>(&law.acts)) {
+      stiff(bond->initial_stiffness, path + ".initial_stiffness");
+      stiff(bond->compression_stiffness, path + ".compression_stiffness");
+      crack(bond->normal_strength, bond->normal_toughness, bond->fall(), path + ".normal_strength");
+      crack(bond->shear_strength, bond->shear_toughness, bond->fall(), path + ".shear_strength");
+    }
+  }
+
+  /// NN Eq. 5.36: Δt = C h/c < h √(ρ/(2 D h)), with the least ρ c² of the bodies.
+  void stiff(double stiffness, const std::string& path) {
+    constexpr double kTieLike = 100;  // from here on a cell gives way a hundred times as much
+    const Moduli modulus = moduli();
+    const double most = modulus.least / (2 * scene_.time.cfl * scene_.time.cfl * scene_.grid.cell);
+    if (stiffness > most && stiffness * scene_.grid.cell < kTieLike * modulus.largest)
+      say(path,
+          fmt::format("{:.3g} Pa/m swings faster than steps follow: right at rest, but too slow for waves",
+                      stiffness),
+          fmt::format("Up to {:.3g} Pa/m; time.cfl {:.2g}, or smaller cells, would follow this one", most,
+                      scene_.time.cfl * std::sqrt(most / stiffness)));
+  }
+
+  /// Ahead of a crack the bond softens over about E G/σ² (Hillerborg 1976), which cells must resolve; and it
+  /// must break before its surfaces are so far apart that no node sees both.
+  void crack(double strength, double toughness, const Fall& fall, const std::string& path) {
+    constexpr double kFewest = 3;
+    const double modulus = moduli().least, cell = scene_.grid.cell;
+    const double zone = modulus * (toughness / strength) / strength,
+                 opening = toughness / (strength * fall.integral(1));
+    if (modulus > 0 && zone < kFewest * cell)
+      say(path,
+          fmt::format("a crack's zone, E G/strength^2 = {:.3g} m, is {:.2g} cells long: it grows in jumps",
+                      zone, zone / cell),
+          fmt::format("Up to {:.3g} Pa, or cells of {:.2g} m: three cells",
+                      strength * std::sqrt(zone / (kFewest * cell)), zone / kFewest));
+    if (opening > cell)
+      say(path,
+          fmt::format(
+              "the bond breaks at {:.3g} m, and surfaces that are a cell apart ({:g} m) let go before",
+              opening, cell),
+          "Larger cells, or less toughness for this strength");
   }
 
   const Node& root_;

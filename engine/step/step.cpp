@@ -424,6 +424,7 @@ template <int Dim>
 void Step<Dim>::book(const ContactBooks<Dim>& books) {
   sums_.friction_work += books.friction_work;
   sums_.boundary_work += books.rigid_work;
+  sums_.interface_loss += books.lost;
   for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) {
     sums_.rigid_impulse[f] += books.rigid_impulse[f];
     sums_.rigid_moment[f] += books.rigid_moment[f];

@@ -33,6 +33,7 @@ struct Sums {
   std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction_work;  ///< J, likewise
   Outflow outflow;
+  double interface_loss = 0;  ///< J, of bonds that soften and break
 };
 
 template <int Dim>

@@ -46,8 +46,8 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
-/// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes and how
-/// they are pressed alone (remember).
+/// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes, how
+/// they are pressed alone (remember), their jumps and what is left of their bonds.
 template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
@@ -77,6 +77,22 @@ void Contact<Dim>::visit(Archive& archive) {
   for (std::size_t k = 0; k < known.size(); ++k) {
     list_.bridges[k].known = known[k] != 0;
     for (std::size_t d = 0; d < Dim; ++d) list_.bridges[k].jump[static_cast<int>(d)] = jumps[Dim * k + d];
+  }
+  if (bonds_) {
+    std::vector<double> bonds((Dim + 1) * keys_.size());
+    list_.bonds.resize(keys_.size());
+    const auto for_each_bond = [&](const auto& f) {
+      for (std::size_t k = 0; k < keys_.size(); ++k) f(list_.bonds[k], bonds.data() + (Dim + 1) * k);
+    };
+    for_each_bond([](const auto& bond, double* out) {
+      out[Dim] = bond.way;
+      std::copy(bond.offset.data(), bond.offset.data() + Dim, out);
+    });
+    archive.column("contact/bonds", bonds.data(), bonds.size());
+    for_each_bond([](auto& bond, const double* in) {
+      bond.way = in[Dim];
+      std::copy(in, in + Dim, bond.offset.data());
+    });
   }
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());

@@ -30,6 +30,7 @@ void visit_sums(Archive& archive, const std::string& group, Sums<Dim>& sums) {
   archive.number(group + "/outflow_mass", sums.outflow.mass);
   archive.number(group + "/outflow_energy", sums.outflow.energy);
   archive.column(group + "/outflow_momentum", sums.outflow.momentum.data(), sums.outflow.momentum.size());
+  archive.number(group + "/interface_loss", sums.interface_loss);
 }
 
 }  // namespace mpmfast

@@ -2,7 +2,8 @@
 
 /// @file Contact laws of a pair of fields on a node (N20 §2.2, Eq. 8 to 10). A law says how much of the
 /// tangential momentum change that sticking would need the surfaces carry; resolve_pair does the rest. None
-/// of them has a memory: what happens on a node follows from this step's momenta, separation and area. Its
+/// of those that act by touch has a memory: what happens on a node follows from this step's momenta,
+/// separation and area. (Springs remember jumps, bonds what they have lost: interface.hpp, bond.hpp.) Its
 /// parameters are what a scene may say of it (`describe`, as of a material:
 /// kernels/materials/parameters.hpp). To add one: a struct like those below, and a place in AnyLaw.
 
@@ -12,29 +13,10 @@
 #include <limits>
 #include <variant>
 
-#include "kernels/measure.hpp"
+#include "kernels/contact/cohesive.hpp"
+#include "kernels/contact/sliding.hpp"
 
 namespace mpmfast {
-
-/// Where a law acts: on touching and approaching surfaces, also on such as are bonded, on every node that two
-/// fields share, by springs there on what their displacements differ by, or nowhere.
-enum class LawScope { contact, bonded, everywhere, bridged, nowhere };
-
-/// What a law is asked of a node.
-struct Sliding {
-  double normal;         ///< −Δp_a(0)·n, N s; positive in compression
-  double stick;          ///< |Δp_a(0)·t|, N s: what sticking needs
-  double reduced = 0;    ///< m_red, kg
-  double area_time = 0;  ///< A_c Δt, m² s, for laws that use the area
-};
-
-inline constexpr double kSticks = std::numeric_limits<double>::infinity();
-
-inline constexpr Number kCoefficient{Measure::number, kNotNegative};
-inline constexpr const char *kFrictionSays =
-                                "Coefficient of friction while sliding; may stand beside any law.",
-                            *kStaticSays =
-                                "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
 
 /// S = μN; before sliding up to μ_s N, where a scene gives that. Contact area and Δt cancel.
 struct Coulomb {
@@ -185,13 +167,16 @@ struct Viscous {
 };
 
 /// Surfaces joined by springs, on the jump of their displacements (NN §5.3, 5.5): traction D_n δ_n along the
-/// normal, of another stiffness where they overlap, D_t δ_t along the surface. See interface.hpp.
+/// normal, of another stiffness where they overlap, or in contact there (NN §5.6), D_t δ_t along the surface.
+/// See interface.hpp.
 struct Interface {
   static constexpr const char *kWord = "interface",
                               *kSays = "joined by springs: traction = stiffness × displacement jump";
   static constexpr LawScope scope = LawScope::bridged;
   static constexpr bool uses_area = true;
   double normal_stiffness = 0, shear_stiffness = 0, compression_stiffness = 0;  ///< Pa/m
+  Pressed compression = Pressed::spring;
+  double friction = 0, static_friction = 0;  ///< where contact holds them apart
 
   template <class Keys>
   void describe(Keys& map) {
@@ -199,17 +184,23 @@ struct Interface {
     map.need("normal_stiffness", "Traction by opening; 0: nothing holds surfaces that part.",
              normal_stiffness, kStiffness);
     map.need("shear_stiffness", "Traction by slip; 0: they slide freely.", shear_stiffness, kStiffness);
-    map.key("compression_stiffness", "The same where they overlap; 0: as `normal_stiffness`.",
-            compression_stiffness, kStiffness);
+    map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
+    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
   }
   double pressed_stiffness() const {
+    if (compression == Pressed::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : normal_stiffness;
   }
   double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
+  Coulomb contact() const { return {friction, static_friction}; }
 };
+
+inline Coulomb Cohesive::contact() const { return {friction, static_friction}; }
 
 /// In the order in which they are listed.
 using AnyLaw = std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction,
-                            Viscous, Interface>;
+                            Viscous, Interface, Cohesive>;
 
 }  // namespace mpmfast

@@ -19,7 +19,8 @@ TEST_CASE("a misspelt key, word or material name suggests the right one") {
         "scene.yaml:8:1: outptu: unknown key. Did you mean 'output'?");
   CHECK(fault(plain_scene() + "contact: {law: columb}\n") ==
         "scene.yaml:8:16: contact.law: not known here (one of coulomb, frictionless, stick, perfect, "
-        "ignore, adhesion, velocity_friction, viscous, interface), got 'columb'. "
+        "ignore, adhesion, velocity_friction, viscous, interface, "
+        "cohesive), got 'columb'. "
         "Did you mean 'coulomb'?");
   CHECK(fault(replaced(plain_scene(), "material: steel", "material: stele")) ==
         "scene.yaml:7:74: bodies.0.material: not known here (one of steel), got 'stele'. Did you mean "

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/plan/contact_law.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "scene_helpers.hpp"
 
@@ -49,6 +50,28 @@ TEST_CASE("a pair of bodies or materials has its law, and what it leaves out fro
   CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
 }
 
+TEST_CASE("a cohesive law has its keys, and its initial stiffness from the cells where there is none") {
+  const Scene scene =
+      parse(three_bodies("contact: {law: cohesive, shape: trapezoidal, plateau: 0.25, normal_strength: 2 "
+                         "MPa, shear_strength: 3 MPa, "
+                         "normal_toughness: 0.2 N/mm, shear_toughness: 300 J/m^2, mode_exponent: 1.5, "
+                         "compression: contact, friction: 0.2, "
+                         "crack: {from: [0 mm, 0 mm], to: [3 mm, 4 mm]}}\n"));
+  const auto& law = std::get<Cohesive>(scene.contact.law.acts);
+  CHECK(law.shape == Softening::trapezoidal);
+  CHECK(law.plateau == 0.25);
+  CHECK(law.normal_toughness == doctest::Approx(200));
+  CHECK(law.mode_exponent == 1.5);
+  CHECK(law.compression == Pressed::contact);
+  CHECK(scene.contact.law.friction == 0.2);
+  CHECK(scene.contact.crack_upper[0] == doctest::Approx(3e-3));
+  CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+  const AnyLaw on_grid = law_on(scene.contact.law, scene);
+  CHECK(std::get<Cohesive>(on_grid).initial_stiffness ==
+        doctest::Approx(kBonded * stiffest_modulus(scene) / scene.grid.cell));
+  CHECK(std::get<Cohesive>(on_grid).compression_stiffness == 0);
+}
+
 TEST_CASE("faults of laws and pairs are found where they stand") {
   const auto contact = [](const std::string& text) { return fault(three_bodies("contact: " + text + "\n")); };
   CHECK(holds(contact("{law: stick, viscosity: 1 Pa*s}"),
@@ -65,6 +88,21 @@ TEST_CASE("faults of laws and pairs are found where they stand") {
               "interfaces join bodies in pairs"));
   CHECK(holds(contact("{family: penalty, law: interface, normal_stiffness: 1, shear_stiffness: 1}"),
               "penalty contact only pushes"));
+  const std::string glue =
+      "{law: cohesive, normal_strength: 2 MPa, shear_strength: 1 MPa, shear_toughness: 9 N/m";
+  CHECK(holds(contact(glue + "}"),
+              "contact.normal_toughness: missing (an energy of a surface: J/m^2, N/m, N/mm)"));
+  CHECK(holds(contact(glue + ", normal_toughness: 3 Pa}"), "'Pa' is a pressure"));
+  CHECK(holds(
+      contact(glue + ", normal_toughness: 8 N/m, initial_stiffness: 249 MPa/mm}"),
+      "too soft: with these strengths it has more energy than breaks it; at least 2.5e+11 Pa/m was expected, "
+      "got '249 MPa/mm'"));
+  CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, shape: round}"),
+              "not known here (one of triangular, exponential, trapezoidal), got 'round'"));
+  CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, mode_exponent: 0.5}"), "must be 1 or more"));
+  CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, plateau: 1}"), "must be in [0, 1)"));
+  CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, compression: glue}"),
+              "not known here (one of spring, contact), got 'glue'"));
   CHECK(holds(contact("{corrections: 3}"), "not a whole number from 1 to 2"));
   CHECK(holds(contact("{fields: pairs, normal: average_gradient}"), "explicit pairs are found from"));
   const auto pair = [&](const std::string& text) { return contact("{pairs: [" + text + "]}"); };

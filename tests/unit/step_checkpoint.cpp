@@ -283,6 +283,34 @@ bodies:
                    7, 12);
 }
 
+/// Kept from breaking at once: beside whole ones there are bonds that soften, are broken, move to new nodes.
+TEST_CASE(
+    "bonds that soften and break go on to the bit on any number of threads, as they move through the grid") {
+  for (const char* more : {"", ", shape: exponential, compression: contact, friction: 0.2"})
+    check_goes_on<2>(R"(
+space: plane_strain
+grid: {size: [12 mm, 8 mm], cell: 0.5 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [1 mm, 1 mm], to: [5 mm, 3.2 mm]}, material: soft, velocity: [20 m/s, 40 m/s]}
+  - {name: b, box: {from: [1 mm, 3.2 mm], to: [5 mm, 5.4 mm]}, material: soft, velocity: [24 m/s, 44 m/s]}
+contact: {law: cohesive, normal_strength: 1 MPa, shear_strength: 1.2 MPa, normal_toughness: 10 J/m^2, shear_toughness: 14 J/m^2, mode_exponent: 2)" +
+                         std::string(more) + "}\n",
+                     20, 60);
+  check_goes_on<3>(R"(
+space: 3d
+grid: {size: [8 mm, 8 mm, 8 mm], cell: 0.8 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [1 mm, 1 mm, 1 mm], to: [6 mm, 6 mm, 3.5 mm]}, material: soft, velocity: [0 m/s, 0 m/s, -3 m/s]}
+  - {name: b, box: {from: [1 mm, 1 mm, 3.5 mm], to: [6 mm, 6 mm, 6 mm]}, material: soft, velocity: [4 m/s, 0 m/s, 0 m/s]}
+contact: {law: cohesive, normal_strength: 0.2 MPa, shear_strength: 0.1 MPa, normal_toughness: 2 J/m^2, shear_toughness: 2 J/m^2}
+)",
+                   12, 24);
+}
+
 /// With enough particles for several threads, and facets for each of them.
 TEST_CASE("surfaces that rub go on to the bit in three dimensions, on any number of threads") {
   check_goes_on<3>(R"(

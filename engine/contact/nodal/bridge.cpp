@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "engine/contact/contact.hpp"
+#include "engine/contact/nodal/bonds.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
 #include "kernels/contact/interface.hpp"
 
@@ -37,9 +38,28 @@ Vec<Dim> Contact<Dim>::told_jump(const State<Dim>& state, const ContactNode<Dim>
 }
 
 template <int Dim>
-const Interface* Contact<Dim>::springs_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                                          const ContactEntry<Dim>& entry) const {
-  return std::get_if<Interface>(&laws_[static_cast<std::size_t>(pair_of(state, node, entry) + 1)]);
+const AnyLaw& Contact<Dim>::law_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                   const ContactEntry<Dim>& entry) const {
+  return laws_[static_cast<std::size_t>(pair_of(state, node, entry) + 1)];
+}
+
+/// Do springs or a bond that holds act between the surfaces of an entry?
+template <int Dim>
+bool Contact<Dim>::is_joined(const State<Dim>& state, const ContactNode<Dim>& node,
+                             const ContactEntry<Dim>& entry) const {
+  const AnyLaw& law = law_of(state, node, entry);
+  return std::holds_alternative<Interface>(law) ||
+         (std::holds_alternative<Cohesive>(law) && !is_broken(entry));
+}
+
+/// By what corrections act on an entry.
+template <int Dim>
+LawScope Contact<Dim>::scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
+                                const ContactEntry<Dim>& entry) const {
+  LawScope scope{};
+  std::visit([&](const auto& law) { as_it_is(entry, law, [&](const auto& now) { scope = now.scope; }); },
+             law_of(state, node, entry));
+  return scope;
 }
 
 /// Jumps, and what surface each node has of an interface.
@@ -51,21 +71,36 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
   for (std::int64_t k = 0; k < n; ++k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-      if (!springs_of(state, node, entry) || entry.normal.isZero(0)) continue;
-      const int slot_a = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot,
-                slot_b =
-                    list_.fields[static_cast<std::size_t>(node.field_begin + partner(state, node, entry))]
-                        .slot;
-      bridge.normal = entry.normal;
-      bridge.told = told_jump(state, node, slot_a, slot_b);
-      const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
-                   b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
+      if (entry.normal.isZero(0)) continue;
+      if (const AnyLaw& law = law_of(state, node, entry);
+          !std::holds_alternative<Interface>(law) && !std::holds_alternative<Cohesive>(law))
+        continue;
+      const int other = partner(state, node, entry);
+      const auto slot_of = [&](int k) {
+        return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+      };
+      const int slot_a = slot_of(entry.a), slot_b = slot_of(other);
       const double* mass = state.nodes.column(Nodal::mass);
       const double m_a = mass[slot_a], m_b = mass[slot_b];
-      bridge.own_area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
-      bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
+      const bool joined = is_joined(state, node, entry),
+                 touches = scope_of(state, node, entry) == LawScope::contact;
+      const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
+                   b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
+      const double area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+      if (bonds_) bond_of(entry).area = area;
+      if (joined) {
+        bridge.normal = entry.normal;
+        bridge.told = told_jump(state, node, slot_a, slot_b);
+        bridge.own_area = area;
+        bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
+      }
+      if (joined && touches)  // the gap is that of the jump
+        entry.separation = (bridge.known ? bridge.jump : bridge.told).dot(entry.normal);
+      // Springs reach the last node, but a field of hardly any mass is thrown by its force: see mass_screen.
+      if (touches && other != node.rigid && std::min(m_a, m_b) < spec_.mass_screen * (m_a + m_b))
+        entry.normal.setZero();
     }
   }
 }
@@ -99,7 +134,13 @@ void Contact<Dim>::bridge(State<Dim>& state, double dt, const ContactNode<Dim>& 
       on_a -= bridge.impulse;
       on_b += bridge.impulse;
       const Vec<Dim> others = (bridge.inverse_b * on_b - bridge.inverse_a * on_a) / dt;
-      const Vec<Dim> impulse = pull_of(bridge, node, dt, bridge.pulls + others, acting == 1);
+      const auto* law =
+          bonds_ ? std::get_if<Cohesive>(&law_of(state, node, list_.entries[static_cast<std::size_t>(e)]))
+                 : nullptr;
+      const Vec<Dim> pulls = bridge.pulls + others;
+      const Vec<Dim> impulse =
+          law ? pull_of(bridge, *law, bond_of(list_.entries[static_cast<std::size_t>(e)]), node, dt, pulls)
+              : pull_of(bridge, node, dt, pulls, acting == 1);
       change = std::max(change, (impulse - bridge.impulse).squaredNorm());
       largest = std::max(largest, impulse.squaredNorm());
       bridge.impulse = impulse;
@@ -126,8 +167,7 @@ bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const Contac
   const double* mass = nodes.column(Nodal::mass);
   const auto& entry = list_.entries[static_cast<std::size_t>(e)];
   auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-  const auto* springs = springs_of(state, node, entry);
-  if (!springs || bridge.normal.isZero(0)) return false;
+  if (bridge.normal.isZero(0)) return false;  // none, or they are not joined
   const auto slot_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
   };
@@ -149,9 +189,16 @@ bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const Contac
   const double gap = std::abs(bridge.jump.dot(bridge.normal)) / cell_;
   const double area =
       bridge.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
-  bridge.tension = springs->normal_stiffness * area;
-  bridge.compression = springs->compression_stiffness * area;
-  bridge.shear = springs->shear_stiffness * area;
+  const AnyLaw& law = law_of(state, node, entry);
+  if (const auto* springs = std::get_if<Interface>(&law)) {
+    bridge.tension = springs->normal_stiffness * area;
+    bridge.compression = springs->compression_stiffness * area;
+    bridge.shear = springs->shear_stiffness * area;
+  } else if (const auto* bond = std::get_if<Cohesive>(&law)) {
+    bridge.tension = bridge.shear = bond->initial_stiffness * area;
+    bridge.compression = bond->compression_stiffness * area;
+    if (!bridge.acts) let_go(*bond, bridge, bond_of(entry));
+  }
   return bridge.acts;
 }
 
@@ -174,23 +221,74 @@ Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>
   return node.constrained ? free_part(node, impulse) : impulse;
 }
 
+/// The impulse of an entry's bond on its field a, N s.
+template <int Dim>
+Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
+                               const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const {
+  const double reduced = 1 / (bridge.inverse_a + bridge.inverse_b);
+  const BondStart<Dim> start{law,
+                             law.integrity_of(bond.way),
+                             bridge.tension,
+                             bridge.compression,
+                             reduced,
+                             bridge.normal,
+                             bridge.jump,
+                             bridge.rate,
+                             reduced * pulls};
+  const Vec<Dim> end = bond.follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
+  const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
+  return node.constrained ? free_part(node, impulse) : impulse;
+}
+
 /// The jumps at the end of the step, with the velocities that its strains end with, and what the springs
 /// hold.
 template <int Dim>
 void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
-  books_.stored = 0;
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (!bridge.acts) continue;
+      const Vec<Dim> from = bridge.jump;
+      bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
+      if (const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr)
+        if (!bond_of(entry).follows()) end_bond(*law, from, bridge, bond_of(entry));
+    }
+  if (bonds_) carry_bonds(state, dt);
+  books_.stored = books_.lost = 0;
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
+      if (bonds_) books_.lost += bond_of(entry).lost;
       bridge.known = bridge.acts;
       if (!bridge.acts) continue;
-      bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
+      const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr;
+      const double left = law ? law->integrity_of(bond_of(entry).way) : 1;
       const double gap = bridge.jump.dot(bridge.normal);
       const double slip = (bridge.jump - gap * bridge.normal).squaredNorm();
-      books_.stored +=
-          0.5 * ((gap > 0 ? bridge.tension : bridge.compression) * gap * gap + bridge.shear * slip);
+      books_.stored += 0.5 * ((gap > 0 ? left * bridge.tension : bridge.compression) * gap * gap +
+                              left * bridge.shear * slip);
     }
+}
+
+/// The entry of the same two fields at one of the 3^Dim places around a node (itself in the middle).
+template <int Dim>
+const ContactEntry<Dim>* Contact<Dim>::same_pair(const State<Dim>& state, const ContactNode<Dim>& node,
+                                                 const ContactEntry<Dim>& entry, int place) const {
+  const auto field = [&](const ContactNode<Dim>& at, int k) {
+    return list_.fields[static_cast<std::size_t>(at.field_begin + k)].field;
+  };
+  const int k = contact_neighbour(state.tiling, list_, node, place);
+  if (k < 0) return nullptr;
+  const auto& other = list_.nodes[static_cast<std::size_t>(k)];
+  for (int e = other.entry_begin; e < other.entry_end; ++e) {
+    const auto& beside = list_.entries[static_cast<std::size_t>(e)];
+    if (field(other, beside.a) == field(node, entry.a) &&
+        field(other, partner(state, other, beside)) == field(node, partner(state, node, entry)))
+      return &beside;
+  }
+  return nullptr;
 }
 
 /// What an interface has on the nodes around one, itself among them: areas, and the mean of the jumps.
@@ -204,25 +302,14 @@ void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
 template <int Dim>
 BridgesAround<Dim> Contact<Dim>::bridges_around(const State<Dim>& state, const ContactNode<Dim>& node,
                                                 const ContactEntry<Dim>& entry) const {
-  const auto field = [&](const ContactNode<Dim>& at, int k) {
-    return list_.fields[static_cast<std::size_t>(at.field_begin + k)].field;
-  };
   BridgesAround<Dim> sum;
-  for (int m = 0; m < power(3, Dim); ++m) {
-    const int k = contact_neighbour(state.tiling, list_, node, m);
-    if (k < 0) continue;
-    const auto& other = list_.nodes[static_cast<std::size_t>(k)];
-    for (int e = other.entry_begin; e < other.entry_end; ++e) {
-      const auto& beside = list_.entries[static_cast<std::size_t>(e)];
-      if (field(other, beside.a) != field(node, entry.a) ||
-          field(other, partner(state, other, beside)) != field(node, partner(state, node, entry)))
-        continue;
-      const Bridge<Dim>& bridge = bridge_of(beside);
+  for (int m = 0; m < power(3, Dim); ++m)
+    if (const auto* beside = same_pair(state, node, entry, m)) {
+      const Bridge<Dim>& bridge = bridge_of(*beside);
       sum.own_area += bridge.own_area;
       sum.mean_area += bridge.mean_area;
       sum.told += bridge.own_area * bridge.told;
     }
-  }
   if (sum.own_area > 0)
     sum.told /= sum.own_area;
   else

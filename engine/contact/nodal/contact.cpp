@@ -138,6 +138,10 @@ void Contact<Dim>::recall(const State<Dim>& state) {
     last_bridges_.swap(list_.bridges);
     list_.bridges.assign(list_.entries.size(), {});
   }
+  if (bonds_) {
+    last_bonds_.swap(list_.bonds);
+    list_.bonds.assign(list_.entries.size(), {});
+  }
   const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
   auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (const auto& node : list_.nodes)
@@ -153,6 +157,12 @@ void Contact<Dim>::recall(const State<Dim>& state) {
         auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
         bridge.jump = before.jump;
         bridge.known = before.known;
+      }
+      if (bonds_) {
+        const Bond<Dim>& before = last_bonds_[static_cast<std::size_t>(last - memory_.begin())];
+        auto& bond = list_.bonds[static_cast<std::size_t>(e)];
+        bond.before = before.way;
+        bond.offset_before = before.offset;
       }
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;

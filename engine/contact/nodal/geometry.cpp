@@ -13,7 +13,9 @@ void Contact<Dim>::find_geometry(State<Dim>& state, ContactFitter<Dim>& basis) {
   grid_normals(state);
   basis.fit_contact(state, spec_, list_);
   grid_separations(state);
+  find_bonds(state);
   find_bridges(state);
+  weigh_bonds(state);
   if (spec_.detection == DetectionKind::velocity || spec_.separation == SeparationKind::none)
     for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
 }

@@ -61,6 +61,21 @@ struct Bridge {
   Vec<Dim> impulse = Vec<Dim>::Zero();             ///< Δp_a, N s
 };
 
+/// What lasts of a bond at an entry whose law breaks (kernels/contact/cohesive.hpp): how much of it is worn,
+/// and where the material is that this was found at.
+template <int Dim>
+struct Bond {
+  double way = 1;                      ///< to broken, of [0, 1]
+  Vec<Dim> offset = Vec<Dim>::Zero();  ///< of that material from the node, cells
+  double before = -1;                  ///< the way at the end of the last step; negative: none was here
+  Vec<Dim> offset_before = Vec<Dim>::Zero();
+  double area = 0;        ///< of the surface at the node, also where it is broken, m²
+  double least_area = 0;  ///< with less, it has hardly any of the surface, and does as the nodes around, m²
+  double lost = 0;        ///< J, in this step
+  bool broken() const { return way >= 1; }
+  bool follows() const { return area < least_area; }
+};
+
 /// Of an interface on the nodes around one: sums of the areas, m², and the mean of `told`, m.
 template <int Dim>
 struct BridgesAround {
@@ -98,6 +113,7 @@ struct ContactList {
   std::vector<ContactField> fields;
   std::vector<ContactEntry<Dim>> entries;
   std::vector<Bridge<Dim>> bridges;  ///< as `entries`; none where no law has springs
+  std::vector<Bond<Dim>> bonds;      ///< as `entries`; none where no law breaks
   std::vector<int> node_at;          ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };

@@ -55,6 +55,8 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   laws_.push_back(law_on(spec_.law, scene));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
+  bonds_ = bridges_ && std::any_of(laws_.begin(), laws_.end(),
+                                   [](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); });
 }
 
 template <int Dim>
@@ -120,7 +122,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     const Meeting meeting = meet(state, node, entry.a, all);
     const double separation = separation_of(entry, meeting, dt);
-    const auto act = [&](const auto& law) {
+    const auto act_by = [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
@@ -129,6 +131,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       if (correction == Correction::final) entry.stuck = demand.hinders == Hinders::slip;
       pass_on(entry, correction, Law::scope);
     };
+    const auto act = [&](const auto& law) { as_it_is(entry, law, act_by); };
     if constexpr (Laws::by_pair)
       laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
     else
@@ -290,11 +293,12 @@ template <int Dim>
 template <class Laws, class F>
 void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                             F f) const {
+  const auto act = [&](const auto& law) { as_it_is(entry, law, f); };
   if constexpr (Laws::by_pair)
     laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
-              list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, f);
+              list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, act);
   else
-    laws.with(0, 0, f);
+    laws.with(0, 0, act);
 }
 
 /// FLIP's particles take a share of what surfaces that touch change in the first correction.

@@ -129,6 +129,11 @@ void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   map.key("points_per_cell", "Points that follow a surface, along the side of a cell.",
           contact.springs.per_cell, Whole{1, 64});
   describe_pairs(map, top, scene);
+  map.at("crack", "Cohesive laws: surfaces in this box are not bonded at the start.", [&](Slot& slot) {
+    if (slot.writes() && !contact.cracked) return;
+    describe_corners(slot, scene.dimension(), contact.crack_lower, contact.crack_upper);
+    contact.cracked = true;
+  });
 }
 
 }  // namespace

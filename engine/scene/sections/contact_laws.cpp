@@ -11,44 +11,50 @@ namespace mpmfast {
 
 namespace {
 
+/// Hands each parameter of a law to a function: a number, or one of some words.
+template <class F>
+struct Visitor {
+  const F& f;
+
+  template <class T, class Form>
+  void key(const char* name, const char* says, T& member, const Form& form) const {
+    f(name, says, member, form, false);
+  }
+  template <class T, class Form>
+  void need(const char* name, const char* says, T& member, const Form& form) const {
+    f(name, says, member, form, true);
+  }
+};
+
 /// Calls f(name, says, member, form, needed) with each parameter of a law.
 template <class F>
 void for_each_parameter(AnyLaw& law, const F& f) {
-  struct Visitor {
-    const F& f;
-
-    void key(const char* name, const char* says, double& member, const Number& form) {
-      f(name, says, member, form, false);
-    }
-    void need(const char* name, const char* says, double& member, const Number& form) {
-      f(name, says, member, form, true);
-    }
-  };
-  Visitor visitor{f};
+  const Visitor<F> visitor{f};
   std::visit([&](auto& one) { one.describe(visitor); }, law);
 }
 
 using Values = std::map<std::string, double>;
 
-/// The parameters of a law by name.
+/// The parameters of a law by name, words by their place.
 Values values_of(AnyLaw law) {
   Values values;
-  for_each_parameter(
-      law, [&](const char* name, const char*, double member, const Number&, bool) { values[name] = member; });
+  for_each_parameter(law, [&](const char* name, const char*, auto member, const auto&, bool) {
+    values[name] = static_cast<double>(member);
+  });
   return values;
 }
 
 /// The keys of a law: one that has no default may be absent where another law has given it.
 void describe_parameters(Keys& map, bool given, AnyLaw& law) {
-  for_each_parameter(
-      law, [&](const char* name, const char* says, double& member, const Number& form, bool needed) {
-        if (!needed)
-          map.key(name, says, member, form);
-        else if (given)
-          map.derived(name, says, member, form);
-        else
-          map.need(name, says, member, form);
-      });
+  for_each_parameter(law,
+                     [&](const char* name, const char* says, auto& member, const auto& form, bool needed) {
+                       if (!needed)
+                         map.key(name, says, member, form);
+                       else if (given)
+                         map.derived(name, says, member, form);
+                       else
+                         map.need(name, says, member, form);
+                     });
 }
 
 bool has(const ContactLawKind& kind, const std::string& name) {
@@ -76,6 +82,18 @@ void check_friction(Keys& map, const AnyLaw& law) {
     map.report(fault);
 }
 
+/// A bond that has its strength has no more energy than it may take.
+void check_toughness(Keys& map, const AnyLaw& law) {
+  const auto* bond = std::get_if<Cohesive>(&law);
+  if (!bond || bond->initial_stiffness == 0 || bond->initial_stiffness >= bond->least_stiffness()) return;
+  map.check("initial_stiffness", [&](Slot& slot) {
+    slot.complain(
+        fmt::format("too soft: with these strengths it has more energy than breaks it; at least "
+                    "{:.4g} Pa/m was expected",
+                    bond->least_stiffness()));
+  });
+}
+
 /// All that any law may say.
 void tell_laws(Keys& map) {
   for (const ContactLawKind& kind : contact_laws()) {
@@ -90,7 +108,7 @@ std::vector<ContactLawKind> kinds_of(std::index_sequence<K...>) {
   const auto add = [&]<class Law>(Law law) {
     kinds.push_back({Law::kWord, Law::kSays, law, {}});
     for_each_parameter(kinds.back().standard,
-                       [&](const char* name, const char*, double, const Number&, bool needed) {
+                       [&](const char* name, const char*, const auto&, const auto&, bool needed) {
                          kinds.back().parameters.push_back({name, needed});
                        });
   };
@@ -143,8 +161,8 @@ void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
     Values known = values_of(law.acts);
     known.emplace("friction", law.friction);
     law.acts = kind.standard;
-    for_each_parameter(law.acts, [&](const char* name, const char*, double& member, const Number&, bool) {
-      if (known.contains(name)) member = known[name];
+    for_each_parameter(law.acts, [&](const char* name, const char*, auto& member, const auto&, bool) {
+      if (known.contains(name)) member = static_cast<std::decay_t<decltype(member)>>(known[name]);
     });
   }
   describe_parameters(map, map.writes() || index == inherited, law.acts);
@@ -156,6 +174,7 @@ void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
   if (!map.reads()) return;
   refuse_others(map, kind);
   check_friction(map, law.acts);
+  check_toughness(map, law.acts);
 }
 
 }  // namespace mpmfast

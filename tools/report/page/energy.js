@@ -3,12 +3,12 @@
 
 function energyBalance(history) {
   const column = name => history.columns.get(name) ?? new Float64Array(history.rows);
-  const [kinetic, stored, dissipated, friction, gone, boundary, body, heat] = ['kinetic_J', 'stored_J', 'dissipated_J',
-    'friction_J', 'outflow_J', 'boundary_work_J', 'body_force_work_J', 'expansion_work_J'].map(column);
+  const [kinetic, stored, dissipated, friction, bonds, gone, boundary, body, heat] = ['kinetic_J', 'stored_J', 'dissipated_J',
+    'friction_J', 'interface_J', 'outflow_J', 'boundary_work_J', 'body_force_work_J', 'expansion_work_J'].map(column);
   const error = new Float64Array(history.rows);
   let first = 0, scale = 0;
   for (let i = 0; i < history.rows; ++i) {
-    const balance = kinetic[i] + stored[i] + dissipated[i] + friction[i] + gone[i] - boundary[i] - body[i] - heat[i];
+    const balance = kinetic[i] + stored[i] + dissipated[i] + friction[i] + bonds[i] + gone[i] - boundary[i] - body[i] - heat[i];
     if (i === 0) first = balance;
     scale = Math.max(scale, kinetic[i] + stored[i] + dissipated[i], Math.abs(boundary[i]), Math.abs(body[i]));
     error[i] = scale > 0 ? (balance - first) / scale : 0;
@@ -34,7 +34,7 @@ function energyWords(history, error) {
     .map(([name, text]) => [change(name), text]).filter(([joule]) => joule !== 0)
     .map(([joule, text]) => `${text} ${joule > 0 ? 'rose' : 'fell'} by ${energy(joule)}`);
   if (where.length > 0) parts.push(where.join(', ').replace(/^./, c => c.toUpperCase()) + '.');
-  const lost = [['friction_J', 'to friction'], ['dissipated_J', 'to plastic work and viscous heat'], ['outflow_J', 'with particles that left']]
+  const lost = [['friction_J', 'to friction'], ['dissipated_J', 'to plastic work and viscous heat'], ['interface_J', 'to bonds that broke'], ['outflow_J', 'with particles that left']]
     .map(([name, text]) => [change(name), text]).filter(([joule]) => joule !== 0).map(([joule, text]) => `${energy(joule)} went ${text}`);
   if (lost.length > 0) parts.push(lost.join(', ') + '.');
   const off = error[last];

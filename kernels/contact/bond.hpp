@@ -1,0 +1,137 @@
+#pragma once
+
+/// @file A cohesive bond between two surfaces on a node, over one step: how much of it is left, and the force
+/// that takes from the fields exactly what the bond stores and loses (cohesive.hpp, interface.hpp).
+///
+/// With the mean integrity ω̄ of the step the force is F̄ = ω̄ K ½(δ + δ₁) (of overlap: all of its own
+/// stiffness), its work ω̄ (E₁ − E), E = ½ K (p² + s²). For any ω̄ between ω₁ and ω this is what the stored
+/// energy ωE grows by and a loss that is not negative,
+///
+///   ω̄ (E₁ − E) = (ω₁E₁ − ωE) + (ω̄ − ω₁) E₁ + (ω − ω̄) E.
+///
+/// ω̄ is the mean of ω over λ²: along one direction of the jump, where E is in proportion to λ², the work is
+/// then that below the traction, whatever the step, and the losses add up to the toughness. ω̄ gives the jump
+/// δ₁ of the step, δ₁ gives ω̄: one equation ω̄ = M(ω̄) in (0, ω], however opening and slip go together. M ≤ ω,
+/// so that a root lies in there always. Where softening is faster than the surfaces' inertia there are three:
+/// the one with the least damage is found, from above, at which the jump has not yet leapt.
+
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/contact/cohesive.hpp"
+#include "kernels/contact/interface.hpp"
+#include "kernels/dimension.hpp"
+
+namespace mpmfast {
+
+/// A jump as bonds see it.
+struct Parted {
+  double opening;       ///< m; of surfaces that overlap 0
+  double slip_squared;  ///< m²
+  double squared() const { return opening * opening + slip_squared; }
+};
+
+template <int Dim>
+Parted parted(const Vec<Dim>& jump, const Vec<Dim>& normal) {
+  const double along = jump.dot(normal);
+  return {std::max(0.0, along), (jump - along * normal).squaredNorm()};
+}
+
+/// ω̄ of a step, and ω at its end.
+struct Integrity {
+  double mean, end;
+};
+
+/// From one jump to another. @param before  ω at the start, above 0
+inline Integrity integrity_over(const Cohesive& law, double before, const Parted& from, const Parted& to) {
+  constexpr double kSmall = 1e-6;  // below, differences of the work are round-off
+  const double q0 = law.measure(from.opening, from.slip_squared),
+               q1 = law.measure(to.opening, to.slip_squared);
+  const double length = law.length(q1 > 0 ? law.measure(to.opening, 0) / q1 : 1);
+  const double last = std::sqrt(q1), end = std::min(before, law.integrity(last, length));
+  if (end >= before) return {before, before};
+  if (q1 <= q0) return {end, end};  // another direction, of less toughness
+  const double first = std::sqrt(q0);
+  if (q1 - q0 < kSmall * q1) return {0.5 * (std::min(before, law.integrity(first, length)) + end), end};
+  const double turn = law.lambda_of(before, length);  // from here on it softens
+  const double elastic = before * std::max(0.0, turn * turn - q0);
+  const double softening = law.work(last, length) - law.work(std::max(first, turn), length);
+  return {std::clamp((elastic + softening) / (q1 - q0), end, before), end};
+}
+
+/// What the bond loses on the way, J. @param stiffness  of the bond unharmed, N/m
+inline double lost_over(double stiffness, double before, const Integrity& integrity, const Parted& from,
+                        const Parted& to) {
+  return 0.5 * stiffness *
+         ((integrity.mean - integrity.end) * to.squared() + (before - integrity.mean) * from.squared());
+}
+
+/// A bond on a node at the start of a step.
+template <int Dim>
+struct BondStart {
+  const Cohesive& law;
+  double integrity;               ///< above 0
+  double stiffness, compression;  ///< of the bond unharmed and of overlap, N/m
+  double mass;                    ///< m_red, kg
+  Vec<Dim> normal;                ///< unit
+  Vec<Dim> jump, rate, opening;   ///< δ, m; its rate, m/s; what all other forces pull it open with, N
+};
+
+/// The rate of the jump at the end of the step with a mean integrity, m/s.
+template <int Dim>
+Vec<Dim> rate_with(const BondStart<Dim>& bond, double mean, double dt) {
+  const auto along = [&](const Vec<Dim>& x) { return x.dot(bond.normal); };
+  const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * bond.normal; };
+  const double spring = mean * bond.stiffness;
+  Vec<Dim> end = rate_after_springs(spring, bond.compression, bond.mass, dt,
+                                    {along(bond.jump), along(bond.rate), along(bond.opening)}, false) *
+                 bond.normal;
+  const Vec<Dim> slip = across(bond.jump), rate = across(bond.rate), drawn = across(bond.opening);
+  for (int d = 0; d < Dim; ++d)
+    end[d] += rate_after_spring(spring, bond.mass, dt, {slip[d], rate[d], drawn[d]}, false);
+  return end;
+}
+
+/// The largest root of ω̄ = M(ω̄): secants from above, where M < ω̄, and between both sides once one is below.
+template <int Dim>
+double mean_integrity(const BondStart<Dim>& bond, double dt) {
+  constexpr int kMost = 100;
+  constexpr double kExact = 1e-13;
+  const Parted from = parted<Dim>(bond.jump, bond.normal);
+  const auto excess = [&](double mean) {
+    const Vec<Dim> jump = bond.jump + 0.5 * dt * (bond.rate + rate_with(bond, mean, dt));
+    return integrity_over(bond.law, bond.integrity, from, parted<Dim>(jump, bond.normal)).mean - mean;
+  };
+  double high = bond.integrity, high_excess = excess(high), low = -1, low_excess = 0;
+  if (!(high_excess < 0)) return high;
+  double mean = high + high_excess;
+  int side = 0;  // that was moved last
+  for (int k = 0; k < kMost; ++k) {
+    const double here = excess(mean);
+    if (std::abs(here) <= kExact * mean) break;
+    if (here < 0 && low < 0) {  // still above all roots
+      const double slope = (high_excess - here) / (high - mean);
+      high = mean, high_excess = here;
+      mean = std::max(0.0, std::min(mean + here, slope < 0 ? mean - here / slope : mean));
+      continue;
+    }
+    if (here > 0) {
+      if (side > 0) high_excess *= 0.5;  // Illinois: no side stays for good
+      low = mean, low_excess = here, side = 1;
+    } else {
+      if (side < 0) low_excess *= 0.5;
+      high = mean, high_excess = here, side = -1;
+    }
+    if (!(high - low > kExact * high)) break;
+    mean = (low * high_excess - high * low_excess) / (high_excess - low_excess);
+  }
+  return mean;
+}
+
+/// The rate of the jump at the end of a step, m/s.
+template <int Dim>
+Vec<Dim> rate_after_bond(const BondStart<Dim>& bond, double dt) {
+  return rate_with(bond, mean_integrity(bond, dt), dt);
+}
+
+}  // namespace mpmfast

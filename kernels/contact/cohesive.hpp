@@ -1,0 +1,166 @@
+#pragma once
+
+/// @file A cohesive law: tractions over the jump of two surfaces that a glue holds together, which first grow
+/// with it, then fall to none, and what of that lasts.
+///
+/// With opening p = ⟨δ_n⟩, slip s = |δ_t|, one initial stiffness K and the strengths σ, τ the jump in units
+/// of where strengths are reached is λ² = (pK/σ)² + (sK/τ)². The tractions are T_n = ωKp, T_t = ωKδ_t: ω, the
+/// integrity, is 1 up to λ = 1 and ever smaller beyond, ω = S(ξ)/λ on the way ξ = (λ − 1)/(λ_f − 1) from 0 to
+/// 1, S a shape that falls from 1 to 0; less than it has been it stays. So surfaces that come back do so
+/// straight to the origin, and no path makes energy. Overlap has a stiffness of its own, which nothing
+/// softens.
+///
+/// Along one direction of the jump, c² of λ² by opening and d² by slip, the work per area is G_I = c² g σ²/K
+/// and G_II = d² g τ²/K with g = ½ + (λ_f − 1)∫S dξ, the area below the traction over λ. λ_f is that for
+/// which (G_I/G_Ic)^α + (G_II/G_IIc)^α = 1.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kernels/contact/sliding.hpp"
+
+namespace mpmfast {
+
+struct Coulomb;
+
+enum class Softening { triangular, exponential, trapezoidal };
+inline constexpr std::array<Word<Softening>, 3> kSoftenings{{
+    {Softening::triangular, "triangular", "straight from the strength to nothing (default)"},
+    {Softening::exponential, "exponential", "fast at first, with a long tail"},
+    {Softening::trapezoidal, "trapezoidal", "holds the strength for a while (`plateau`), then straight"},
+}};
+
+/// S(ξ) of a shape.
+struct Fall {
+  static constexpr double kDecay = 7;  ///< of the exponential, which is 1/1097 of its start at the end
+  Softening shape = Softening::triangular;
+  double plateau = 0;  ///< share of the way, below 1
+
+  double hold() const { return shape == Softening::trapezoidal ? plateau : 0; }
+  double at(double way) const {
+    if (shape != Softening::exponential) return way < hold() ? 1 : (1 - way) / (1 - hold());
+    const double end = std::exp(-kDecay);
+    return (std::exp(-kDecay * way) - end) / (1 - end);
+  }
+  /// ∫ S from 0 to ξ.
+  double integral(double way) const {
+    if (shape != Softening::exponential) {
+      if (way <= hold()) return way;
+      const double left = 1 - way, most = 1 - hold();
+      return hold() + 0.5 * (most - left * (left / most));
+    }
+    const double end = std::exp(-kDecay);
+    return (-std::expm1(-kDecay * way) / kDecay - way * end) / (1 - end);
+  }
+  /// ξ at which S/λ is a share ω of (0, 1), λ = 1 + length ξ.
+  double way_to(double integrity, double length) const {
+    if (shape != Softening::exponential) {
+      const double held = (1 / integrity - 1) / length;
+      if (held <= hold()) return held;
+      return (1 - integrity * (1 - hold())) / (1 + integrity * length * (1 - hold()));
+    }
+    // S is convex, so that Newton from the left never passes the root of S − ωλ.
+    const double end = std::exp(-kDecay);
+    double way = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double left = std::exp(-kDecay * way);
+      const double excess = (left - end) / (1 - end) - integrity * (1 + length * way);
+      const double step = excess / (kDecay * left / (1 - end) + integrity * length);
+      way += step;
+      if (!(step > 1e-16)) break;
+    }
+    return std::min(1.0, way);
+  }
+};
+
+struct Cohesive {
+  static constexpr const char *kWord = "cohesive",
+                              *kSays = "bonded by springs that soften and break, then coulomb";
+  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr bool uses_area = true;
+  double friction = 0, static_friction = 0;          ///< once it is broken
+  double normal_strength = 1, shear_strength = 1;    ///< Pa
+  double normal_toughness = 1, shear_toughness = 1;  ///< J/m²
+  Softening shape = Softening::triangular;
+  double plateau = 0.5, mode_exponent = 1;
+  double initial_stiffness = 0, compression_stiffness = 0;  ///< Pa/m
+  Pressed compression = Pressed::spring;
+
+  template <class Keys>
+  void describe(Keys& map) {
+    constexpr Number kStrength{Measure::pressure, kPositive}, kToughness{Measure::surface_energy, kPositive},
+        kStiffness{Measure::interface_stiffness, kNotNegative};
+    constexpr Limit kShare{"in [0, 1)", 0, 1, false, true}, kOne{"1 or more", 1};
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.need("normal_strength", "Tension at which a bond breaks.", normal_strength, kStrength);
+    map.need("shear_strength", "Shear at which a bond breaks.", shear_strength, kStrength);
+    map.need("normal_toughness", "Energy that opening takes to break a bond, G_Ic.", normal_toughness,
+             kToughness);
+    map.need("shear_toughness", "Energy that sliding takes to break a bond, G_IIc.", shear_toughness,
+             kToughness);
+    map.key("shape", "How the traction falls from the strength.", shape, kSoftenings);
+    map.key("plateau", "trapezoidal: share of the way to nothing on which it holds the strength.", plateau,
+            Number{Measure::number, kShare});
+    map.key("mode_exponent", "Breaks where (G_I/G_Ic)^x + (G_II/G_IIc)^x = 1.", mode_exponent,
+            Number{Measure::number, kOne});
+    map.key("initial_stiffness", "Traction by jump before the strength; 0: ten times what a cell has.",
+            initial_stiffness, kStiffness);
+    map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
+    map.key("compression", kPressedSays, compression, kPressed);
+  }
+  double pressed_stiffness() const {
+    if (compression == Pressed::contact) return 0;
+    return compression_stiffness > 0 ? compression_stiffness : initial_stiffness;
+  }
+  /// The least initial stiffness for which a bond that has its strength has no more energy than it may take.
+  double least_stiffness() const {
+    return 0.5 * std::max(normal_strength * (normal_strength / normal_toughness),
+                          shear_strength * (shear_strength / shear_toughness));
+  }
+  double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
+  /// What is left of it where it is broken.
+  Coulomb contact() const;
+
+  // Of opening p = ⟨δ_n⟩ and slip s, m.
+
+  Fall fall() const { return {shape, plateau}; }
+  /// λ².
+  double measure(double opening, double slip_squared) const {
+    const double n = opening * initial_stiffness / normal_strength, t = initial_stiffness / shear_strength;
+    return n * n + slip_squared * t * t;
+  }
+  /// λ_f − 1 where this share of λ² is of the opening.
+  double length(double opening_share) const {
+    const double n = opening_share * normal_strength * (normal_strength / normal_toughness),
+                 t = (1 - opening_share) * shear_strength * (shear_strength / shear_toughness);
+    const double sum = mode_exponent == 1 ? n + t
+                                          : std::pow(std::pow(n, mode_exponent) + std::pow(t, mode_exponent),
+                                                     1 / mode_exponent);
+    return (initial_stiffness / sum - 0.5) / fall().integral(1);
+  }
+  /// ω at λ for a bond that was never beyond.
+  double integrity(double lambda, double length) const {
+    if (lambda <= 1) return 1;
+    const double way = (lambda - 1) / length;
+    return way >= 1 ? 0 : fall().at(way) / lambda;
+  }
+  /// ∫ of ω over λ² from 0 to λ.
+  double work(double lambda, double length) const {
+    if (lambda <= 1) return lambda * lambda;
+    return 1 + 2 * length * fall().integral(std::min(1.0, (lambda - 1) / length));
+  }
+  /// λ at which ω is this, in (0, 1].
+  double lambda_of(double integrity, double length) const {
+    return integrity < 1 ? 1 + length * fall().way_to(integrity, length) : 1;
+  }
+  /// What of ω lasts is kept as the way that opening alone would have gone to it, which moves with the bodies
+  /// without a loss: of a triangular law it is the share of the toughness that is spent.
+  double way_to(double integrity) const {
+    return integrity >= 1 ? 0 : integrity <= 0 ? 1 : fall().way_to(integrity, length(1));
+  }
+  double integrity_of(double way) const { return way >= 1 ? 0 : integrity(1 + length(1) * way, length(1)); }
+};
+
+}  // namespace mpmfast
