@@ -62,7 +62,7 @@ class Contact {
   const ContactList<Dim>& list() const { return list_; }
   /// Which of the node's fields an entry meets: the other one, of a lump the rigid or the largest one.
   int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
-  /// Where the law of an entry acts, and how its surfaces conduct heat.
+  /// By what corrections act on an entry, and how its surfaces conduct heat.
   LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
                     const ContactEntry<Dim>& entry) const;
   const ConductanceSpec& conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
@@ -128,8 +128,6 @@ class Contact {
                                      const ContactEntry<Dim>& entry, int place) const;
   void carry_bonds(const State<Dim>& state, double dt);
   bool is_joined(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
-  LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                    const ContactEntry<Dim>& entry) const;
   /// f(law), or f(the contact) of surfaces whose bond is broken or that contact holds apart.
   template <class Law, class F>
   void as_it_is(const ContactEntry<Dim>& entry, const Law& law, F f) const {

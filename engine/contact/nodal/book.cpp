@@ -165,13 +165,6 @@ int Contact<Dim>::pair_of(const State<Dim>& state, const ContactNode<Dim>& node,
 }
 
 template <int Dim>
-LawScope Contact<Dim>::scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                                const ContactEntry<Dim>& entry) const {
-  return std::visit([](const auto& law) { return law.scope; },
-                    laws_[static_cast<std::size_t>(pair_of(state, node, entry) + 1)]);
-}
-
-template <int Dim>
 const ConductanceSpec& Contact<Dim>::conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
                                                     const ContactEntry<Dim>& entry) const {
   const int pair = pair_of(state, node, entry);

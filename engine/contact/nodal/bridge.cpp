@@ -52,7 +52,6 @@ bool Contact<Dim>::is_joined(const State<Dim>& state, const ContactNode<Dim>& no
          (std::holds_alternative<Cohesive>(law) && !is_broken(entry));
 }
 
-/// By what corrections act on an entry.
 template <int Dim>
 LawScope Contact<Dim>::scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
                                 const ContactEntry<Dim>& entry) const {
