@@ -67,7 +67,7 @@ std::vector<std::string> small_scenes() {
                     joint = "law: interface, normal_stiffness: 1, shear_stiffness: 1",
                     glue =
                         "law: cohesive, normal_strength: 1, shear_strength: 1, normal_toughness: 1, "
-                        "shear_toughness: 1, crack: {from: [0, 0], to: [1, 1]}",
+                        "shear_toughness: 1",
                     two = replaced(plain, "material: b}\n",
                                    "material: b}\n  - {name: two, material: b, box: {from: [6 mm, 1 mm], "
                                    "to: [9 mm, 4 mm]}}\n");
@@ -84,7 +84,8 @@ std::vector<std::string> small_scenes() {
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
           plain + "contact: {" + joint + "}\n",
-          plain + "contact: {" + glue + "}\n",
+          plain + "contact: {" + glue + ", crack: {from: [0, 0], to: [1, 1]}}\n",
+          two + "contact: {pairs: [{between: [one, two], " + glue + "}]}\n",
           two + "contact: {pairs: [{between: [one, two], " + joint + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
           two + "contact: {family: penalty}\n",
