@@ -130,7 +130,7 @@ class SchemaWriter {
   Json object(const std::string& map) {
     Json out{{"type", "object"}, {"properties", Json::object()}};
     const Known& known = known_at(map);
-    for (const KnownKey& key : all_keys(map)) add_property(key, out);
+    for (const KnownKey& key : all_keys(map)) add_property(map, key, out);
     out.update(required_of(plain_keys(map)));
     if (known.closed) out["additionalProperties"] = false;
     Json rules = Json::array();
@@ -142,9 +142,10 @@ class SchemaWriter {
   }
 
   /// A key, or what stands for keys that users choose: faces by name, others as further properties.
-  void add_property(const KnownKey& key, Json& out) {
+  void add_property(const std::string& map, const KnownKey& key, Json& out) {
     if (key.name == "FACE") {
-      const Json face_schema = definitions_.reference("face", property(key));
+      const std::string name = map == "boundaries" ? "face" : map.substr(0, map.find('.')) + "_face";
+      const Json face_schema = definitions_.reference(name, property(key));
       for (const FaceName& face : kFaces) out["properties"][face.name] = face_schema;
     } else if (key.name == "NAME") {
       out["additionalProperties"] = property(key);
