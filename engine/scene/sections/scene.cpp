@@ -86,6 +86,17 @@ void check_interfaces(const Value& top, const Scene& scene) {
       stated.report(fmt::format("interfaces do not know rigid bodies that turn ('{}')", body.name));
 }
 
+/// A crack parts what is bonded.
+void check_crack(const Value& top, const Scene& scene) {
+  const auto bonds = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
+  const auto& pairs = scene.contact.pairs;
+  if (!scene.contact.cracked || bonds(scene.contact.law) ||
+      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return bonds(pair.law); }))
+    return;
+  top.find("contact")->find("crack")->report(
+      "nothing is bonded that a crack could part: law: cohesive was expected");
+}
+
 /// What follows from several sections.
 void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
   check_bodies(scene, places, grid_known);
@@ -93,6 +104,7 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
     check_penalty(top, scene);
   else if (scene.contact.active)
     check_interfaces(top, scene);
+  check_crack(top, scene);
   if (scene.method.extended) check_extension(top, scene);
   check_heat(top, scene, places);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
