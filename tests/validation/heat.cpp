@@ -74,13 +74,15 @@ double contact_error(const std::vector<Override>& sets) {
 }
 
 TEST_CASE("two half-spaces that touch have the temperature of their effusivities between them") {
-  for (const char* joint : {"20 mm", "20.1 mm", "20.25 mm", "20.4 mm"})
-    for (const char* basis : {"ugimp", "lcpdi", "bspline2"}) {
-      CAPTURE(std::string(joint));
-      CAPTURE(std::string(basis));
-      const std::vector<Override> sets{{"variables.joint", joint}, {"method.basis", basis}};
-      CHECK(contact_error(sets) < 0.01);  // measured 3e-4 to 8e-3
-    }
+  const auto check = [](const char* joint, const char* basis) {
+    CAPTURE(std::string(joint));
+    CAPTURE(std::string(basis));
+    CHECK(contact_error({{"variables.joint", joint}, {"method.basis", basis}}) <
+          0.01);  // measured 3e-4 to 8e-3
+  };
+  for (const char* joint : {"20 mm", "20.1 mm", "20.25 mm", "20.4 mm"}) check(joint, "ugimp");
+  for (const char* basis : {"lcpdi", "bspline2"})
+    for (const char* joint : {"20 mm", "20.4 mm"}) check(joint, basis);
   // The joint in the middle of a cell of either size.
   const double coarse = contact_error({{"variables.joint", "20.5 mm"}, {"grid.cell", "1 mm"}}),
                fine = contact_error({{"variables.joint", "20.25 mm"}, {"grid.cell", "0.5 mm"}});
