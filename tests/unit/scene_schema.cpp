@@ -89,6 +89,10 @@ std::vector<std::string> small_scenes() {
           two + "contact: {pairs: [{between: [one, two], " + joint + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
           two + "contact: {family: penalty}\n",
+          replaced(solid("box: {from: [1 mm, 1 mm], to: [4 mm, 4 mm]}", "plane_strain"), "shear: 1}",
+                   "shear: 1, heat_capacity: 1}") +
+              "  - {name: two, box: {from: [4 mm, 1 mm], to: [8 mm, 4 mm]}, material: a}\n"
+              "heat: {}\ncontact: {pairs: [{between: [one, two]}]}\n",
           solid("ellipse: {centre: [5 mm, 5 mm], radii: [2 mm, 3 mm]}", "plane_strain"),
           solid("ellipsoid: {centre: [5 mm, 5 mm, 5 mm], radii: [2 mm, 3 mm, 3 mm]}", "3d"),
           replaced(solid("stl: {file: ball.stl, scale: 1 mm}", "3d"), "grid: {",

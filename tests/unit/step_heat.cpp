@@ -400,7 +400,7 @@ boundaries: {left: wall, bottom: wall, top: wall}
     text.replace(text.find("MODEL"), 5, model);
     const Scene scene = scene_from(text);
     Step<2> step(scene);
-    advance(step, kSanitized ? 20 : 80);
+    advance(step, 80);
     const double warmed = contents(step).back(), worked = step.dissipated_energy();
     CHECK(worked > 0);
     CHECK(warmed == doctest::Approx(share * worked).epsilon(1e-10).scale(0));

@@ -46,7 +46,7 @@ const LawChoice& law_of(Keys& map, const MaterialKind& kind, const MaterialModel
 /// What heat asks of any material.
 void describe_heat_of(Keys& map, MaterialSpec& material) {
   const auto key = [&](const char* name, const char* says, double& member, const Number& form) {
-    if (!map.writes() || member != 0) map.key(name, says, member, form);
+    if (!map.writes() || member != 0) map.derived(name, says, member, form);
   };
   struct Knows {
     bool temperature = false, expansion = false;
@@ -59,12 +59,12 @@ void describe_heat_of(Keys& map, MaterialSpec& material) {
       },
       material.model);
   if (!own.temperature)
-    key("heat_capacity", "Heat per mass and temperature.", material.heat_capacity,
+    key("heat_capacity", "Heat per mass and temperature; scenes with `heat` need it.", material.heat_capacity,
         Number{Measure::heat_capacity, kPositive});
-  key("conductivity", "Of heat, in scenes with `heat`.", material.conductivity,
+  key("conductivity", "Of heat, in scenes with `heat`; none if not given.", material.conductivity,
       Number{Measure::conductivity, kNotNegative});
   if (!own.expansion)  // an equation of state has its gamma, and nothing stretches what is rigid
-    key("thermal_expansion", "Of a length, in scenes with `heat`.", material.expansion,
+    key("thermal_expansion", "Of a length, in scenes with `heat`; none if not given.", material.expansion,
         Number{Measure::expansion, kAny});
 }
 
