@@ -19,6 +19,7 @@ except ImportError as missing:
 BEYOND_A_SCHEMA = {
     "axisymmetric",  # the sign of one component, in one space
     "bitmap_is_no_png",
+    "crack_without_glue",
     "crossed_polygon",
     "duplicate_key",  # the last one wins before the schema sees it
     "leading_zero",  # 010 is 8 by then
