@@ -67,4 +67,9 @@ struct Number {
   Limit limit = kAny;
 };
 
+/// A parameter that is a curve of one quantity over another, by points.
+struct Points {
+  Measure along, value;
+};
+
 }  // namespace mpmfast

@@ -131,8 +131,10 @@ class Contact {
   /// f(law), or f(the contact) of surfaces whose bond is broken or that contact holds apart.
   template <class Law, class F>
   void as_it_is(const ContactEntry<Dim>& entry, const Law& law, F f) const {
-    if constexpr (requires { law.contact(); })
-      if (law.compression == Pressed::contact || is_broken(entry)) return f(law.contact());
+    if constexpr (requires { law.contact(); }) {
+      const bool broken = std::is_same_v<Law, Cohesive> && is_broken(entry);
+      if (broken || law.compression == Pressed::contact) return f(law.contact());
+    }
     f(law);
   }
   bool is_broken(const ContactEntry<Dim>& entry) const { return bonds_ && bond_of(entry).broken(); }
@@ -142,10 +144,11 @@ class Contact {
   void end_bridges(const State<Dim>& state, double dt);
   void bridge(State<Dim>& state, double dt, const ContactNode<Dim>& node);
   bool start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e);
-  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls,
-                   bool alone) const;
-  Vec<Dim> pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
-                   const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const;
+  Vec<Dim> pull_of(const AnyLaw& law, const ContactEntry<Dim>& entry, Bridge<Dim>& bridge,
+                   const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls, bool alone) const;
+  void rub_pressed(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt,
+                   Vec<Dim>& end) const;
+  double stored_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
   struct Total {

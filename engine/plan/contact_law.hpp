@@ -41,6 +41,11 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
       return Perfect{};
     for (double* one : all) *one = std::min(*one, kStiffest * unit);
   }
+  if (auto* curves = std::get_if<NonlinearInterface>(&law)) {
+    double& stiffness = curves->compression_stiffness;
+    stiffness = std::min(stiffness, kStiffest * stiffest_modulus(scene) / cell);
+    curves->normal_curve = curves->pressed_curve(cell);
+  }
   if (auto* bond = std::get_if<Cohesive>(&law)) {
     const double unit = stiffest_modulus(scene) / cell;
     double& stiffness = bond->initial_stiffness;

@@ -20,6 +20,10 @@ struct TimeTable {
 /// value.
 std::string table_text(const TimeTable& table, Measure measure);
 
+/// "[[0 m, 0 Pa], [0.001 m, 1000000 Pa]]".
+std::string points_text(const std::vector<double>& along, const std::vector<double>& value,
+                        const Points& form);
+
 inline double value_at(const TimeTable& table, double t) {
   const auto& x = table.time;
   const auto& y = table.value;

@@ -84,6 +84,7 @@ constexpr Topic kTopics[] = {
     {"laws", laws},
     {"areas", [] { return words_of(kAreas); }},
     {"fields", [] { return words_of(kManyFields); }},
+    {"jumps", [] { return words_of(kJumps); }},
     {"shapes", [] { return kinds_of(shape_kinds(), "bodies[]."); }},
     {"seedings", seedings},
     {"boundaries", boundaries},

@@ -58,6 +58,8 @@ enum class DetectionKind { both, velocity, separation };
 enum class AreaKind { volume_gradient, nodal_volume };
 /// Nodes of three or more fields: each against the lump of the others, pair by pair where one or two touch
 /// (N20 §3.4), or all pairs that touch at once.
+/// Where interfaces know the jump of displacements from, as their bodies move through the cells.
+enum class JumpKind { extrapolated, integrated };
 enum class ManyFields { lump, pairs, simultaneous };
 
 /// What becomes of a particle a cell beyond the grid: the run stops as failed, or goes on without it; or
@@ -235,6 +237,7 @@ struct ContactSpec {
   /// never see v′ they keep for good, without it, the approach that the grid is relieved of every step.
   double first_correction_share = 0;
   static constexpr double kDrained = 0.03;  ///< that share with strain first, last and average
+  JumpKind jumps = JumpKind::extrapolated;  ///< of interfaces
   double hysteresis = 0;                    ///< cells; a node in contact stays so up to this gap
   /// Pairs with m_a/m_tot outside (s, 1 − s) are skipped. NN Eq. 4.1 has 1e-5; but a field of that little
   /// mass, left alone between pressed bodies, is thrown by its force and strains its particles: screen

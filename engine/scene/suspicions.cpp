@@ -260,6 +260,10 @@ class Suspicions {
       stiff(springs->normal_stiffness, path + ".normal_stiffness");
       stiff(springs->shear_stiffness, path + ".shear_stiffness");
       stiff(springs->compression_stiffness, path + ".compression_stiffness");
+    } else if (const auto* curves = std::get_if<NonlinearInterface>(&law.acts)) {
+      stiff(curves->normal_curve.steepest(), path + ".normal_curve");
+      stiff(curves->shear_curve.steepest(), path + ".shear_curve");
+      stiff(curves->compression_stiffness, path + ".compression_stiffness");
     } else if (const auto* bond = std::get_if<Cohesive>(&law.acts)) {
       stiff(bond->initial_stiffness, path + ".initial_stiffness");
       stiff(bond->compression_stiffness, path + ".compression_stiffness");

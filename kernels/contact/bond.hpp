@@ -20,6 +20,7 @@
 
 #include "kernels/contact/cohesive.hpp"
 #include "kernels/contact/interface.hpp"
+#include "kernels/contact/largest_root.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -72,60 +73,25 @@ struct BondStart {
   const Cohesive& law;
   double integrity;               ///< above 0
   double stiffness, compression;  ///< of the bond unharmed and of overlap, N/m
-  double mass;                    ///< m_red, kg
-  Vec<Dim> normal;                ///< unit
-  Vec<Dim> jump, rate, opening;   ///< δ, m; its rate, m/s; what all other forces pull it open with, N
+  PairStart<Dim> joint;
 };
 
 /// The rate of the jump at the end of the step with a mean integrity, m/s.
 template <int Dim>
 Vec<Dim> rate_with(const BondStart<Dim>& bond, double mean, double dt) {
-  const auto along = [&](const Vec<Dim>& x) { return x.dot(bond.normal); };
-  const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * bond.normal; };
   const double spring = mean * bond.stiffness;
-  Vec<Dim> end = rate_after_springs(spring, bond.compression, bond.mass, dt,
-                                    {along(bond.jump), along(bond.rate), along(bond.opening)}, false) *
-                 bond.normal;
-  const Vec<Dim> slip = across(bond.jump), rate = across(bond.rate), drawn = across(bond.opening);
-  for (int d = 0; d < Dim; ++d)
-    end[d] += rate_after_spring(spring, bond.mass, dt, {slip[d], rate[d], drawn[d]}, false);
-  return end;
+  return rate_after({spring, bond.compression, spring}, bond.joint, dt, false);
 }
 
-/// The largest root of ω̄ = M(ω̄): secants from above, where M < ω̄, and between both sides once one is below.
+/// The largest root of ω̄ = M(ω̄).
 template <int Dim>
 double mean_integrity(const BondStart<Dim>& bond, double dt) {
-  constexpr int kMost = 100;
-  constexpr double kExact = 1e-13;
-  const Parted from = parted<Dim>(bond.jump, bond.normal);
-  const auto excess = [&](double mean) {
-    const Vec<Dim> jump = bond.jump + 0.5 * dt * (bond.rate + rate_with(bond, mean, dt));
-    return integrity_over(bond.law, bond.integrity, from, parted<Dim>(jump, bond.normal)).mean - mean;
-  };
-  double high = bond.integrity, high_excess = excess(high), low = -1, low_excess = 0;
-  if (!(high_excess < 0)) return high;
-  double mean = high + high_excess;
-  int side = 0;  // that was moved last
-  for (int k = 0; k < kMost; ++k) {
-    const double here = excess(mean);
-    if (std::abs(here) <= kExact * mean) break;
-    if (here < 0 && low < 0) {  // still above all roots
-      const double slope = (high_excess - here) / (high - mean);
-      high = mean, high_excess = here;
-      mean = std::max(0.0, std::min(mean + here, slope < 0 ? mean - here / slope : mean));
-      continue;
-    }
-    if (here > 0) {
-      if (side > 0) high_excess *= 0.5;  // Illinois: no side stays for good
-      low = mean, low_excess = here, side = 1;
-    } else {
-      if (side < 0) low_excess *= 0.5;
-      high = mean, high_excess = here, side = -1;
-    }
-    if (!(high - low > kExact * high)) break;
-    mean = (low * high_excess - high * low_excess) / (high_excess - low_excess);
-  }
-  return mean;
+  const PairStart<Dim>& joint = bond.joint;
+  const Parted from = parted<Dim>(joint.jump, joint.normal);
+  return largest_root(bond.integrity, [&](double mean) {
+    const Parted to = parted<Dim>(joint.jump_with(rate_with(bond, mean, dt), dt), joint.normal);
+    return integrity_over(bond.law, bond.integrity, from, to).mean - mean;
+  });
 }
 
 /// The rate of the jump at the end of a step, m/s.

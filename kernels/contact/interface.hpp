@@ -39,13 +39,18 @@ struct JumpStart {
 };
 
 /// Its rate at the end of the step with a spring of one stiffness (N/m), m/s.
+/// @param inertia  m_e/Δt, kg/s
+inline double rate_with_spring(double stiffness, double inertia, double dt, const JumpStart& start) {
+  const double give = 0.25 * stiffness * dt;
+  return ((inertia - give) * start.rate + start.opening - stiffness * start.jump) / (inertia + give);
+}
+
 /// @param alone  no other spring acts on the two fields; else m_e = m, with which springs that are solved
 ///               together keep energy
 inline double rate_after_spring(double stiffness, double mass, double dt, const JumpStart& start,
                                 bool alone = true) {
-  const double inertia = (alone ? oscillator_mass(stiffness, mass, dt) : 1) * mass / dt,
-               give = 0.25 * stiffness * dt;
-  return ((inertia - give) * start.rate + start.opening - stiffness * start.jump) / (inertia + give);
+  const double share = alone ? oscillator_mass(stiffness, mass, dt) : 1;
+  return rate_with_spring(stiffness, share * mass / dt, dt, start);
 }
 
 /// The same with one stiffness where the surfaces are apart and another where they overlap (NN §5.5). Where
@@ -73,6 +78,86 @@ inline double rate_after_springs(double tension, double compression, double mass
   const double first = 0.5 * twice / a, second = twice != 0 ? 2 * c / twice : 0;
   const double way = opens ? std::max(first, second) : std::min(first, second);
   return 2 * way / dt - start.rate;
+}
+
+/// Two fields of a node at the start of a step, as what joins them sees them.
+template <int Dim>
+struct PairStart {
+  double mass;                   ///< m_red, kg
+  Vec<Dim> normal;               ///< unit
+  Vec<Dim> jump, rate, opening;  ///< δ, m; its rate, m/s; what all other forces pull it open with, N
+
+  JumpStart along() const { return {jump.dot(normal), rate.dot(normal), opening.dot(normal)}; }
+  Vec<Dim> across(const Vec<Dim>& x) const { return x - x.dot(normal) * normal; }
+  /// The jump of the end, if its rate is this then.
+  Vec<Dim> jump_with(const Vec<Dim>& end, double dt) const { return jump + 0.5 * dt * (rate + end); }
+};
+
+/// The rate of the slip at the end of the step with a spring of one stiffness (N/m) along the surface, m/s.
+/// @param inertia  m_e/Δt, kg/s
+template <int Dim>
+Vec<Dim> slip_rate_with(double stiffness, double inertia, const PairStart<Dim>& joint, double dt) {
+  const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
+                 drawn = joint.across(joint.opening);
+  Vec<Dim> end;
+  for (int d = 0; d < Dim; ++d)
+    end[d] = rate_with_spring(stiffness, inertia, dt, {slip[d], rate[d], drawn[d]});
+  return end;
+}
+
+/// A straight spring along the surface, N/m.
+struct SlipSpring {
+  double stiffness;
+
+  template <int Dim>
+  Vec<Dim> rate_after(const PairStart<Dim>& joint, double dt, bool alone) const {
+    const double share = alone ? oscillator_mass(stiffness, joint.mass, dt) : 1;
+    return slip_rate_with(stiffness, share * joint.mass / dt, joint, dt);
+  }
+  /// Its mean force between two slips, N.
+  template <int Dim>
+  Vec<Dim> mean_force(const Vec<Dim>& from, const Vec<Dim>& to) const {
+    return 0.5 * stiffness * (from + to);
+  }
+};
+
+/// Straight springs of two fields, N/m.
+struct Springs {
+  double tension, compression, shear;
+};
+
+/// The rate of the jump at the end of the step, m/s.
+template <int Dim>
+Vec<Dim> rate_after(const Springs& springs, const PairStart<Dim>& joint, double dt, bool alone) {
+  return rate_after_springs(springs.tension, springs.compression, joint.mass, dt, joint.along(), alone) *
+             joint.normal +
+         SlipSpring{springs.shear}.rate_after(joint, dt, alone);
+}
+
+/// What friction makes of a slip.
+template <int Dim>
+struct Rubbed {
+  Vec<Dim> rate;     ///< of the slip at the end of the step, m/s
+  Vec<Dim> impulse;  ///< of friction on the first field, N s
+};
+
+/// Friction of surfaces that springs press (NN §5.7), beside a spring along them: they rest, or what law
+/// there is says how much of the momentum that rest would take is taken.
+/// @param law      of Sliding (sliding.hpp)
+/// @param pressed  the impulse of the normal springs, N s, positive in compression
+template <int Dim, class Law, class Spring>
+Rubbed<Dim> rub(const Law& law, double pressed, const Spring& spring, const PairStart<Dim>& joint,
+                double dt) {
+  const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
+                 drawn = joint.across(joint.opening);
+  const Vec<Dim> held = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
+  const Vec<Dim> stick = joint.mass * rate + dt * (drawn - held);
+  const double needed = stick.norm(), limit = law({pressed, needed, joint.mass});
+  if (needed <= limit) return {Vec<Dim>::Zero(), stick};
+  const Vec<Dim> impulse = limit / needed * stick;
+  PairStart<Dim> rubbed = joint;
+  rubbed.opening -= impulse / dt;
+  return {spring.rate_after(rubbed, dt, false), impulse};
 }
 
 }  // namespace mpmfast

@@ -15,6 +15,7 @@
 
 #include "kernels/contact/cohesive.hpp"
 #include "kernels/contact/sliding.hpp"
+#include "kernels/contact/traction_curve.hpp"
 
 namespace mpmfast {
 
@@ -197,10 +198,56 @@ struct Interface {
   Coulomb contact() const { return {friction, static_friction}; }
 };
 
+/// As Interface, where tractions are curves of the jump (NN §5.4): what is above 0 in the normal one is
+/// opening. It has overlap too where its first point lies below 0. See curved_springs.hpp.
+struct NonlinearInterface {
+  static constexpr const char *kWord = "nonlinear_interface",
+                              *kSays = "joined by springs whose tractions are curves of the jump";
+  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr bool uses_area = true;
+  TractionCurve normal_curve{{0}, {0}}, shear_curve{{0}, {0}};  ///< of the opening and of the slip
+  double compression_stiffness = 0;                             ///< Pa/m
+  Pressed compression = Pressed::spring;
+  double friction = 0, static_friction = 0;  ///< where contact holds them apart
+
+  template <class Keys>
+  void describe(Keys& map) {
+    constexpr Points kCurve{Measure::length, Measure::pressure};
+    map.need("normal_curve", "Traction by opening: points from [0, 0] on, or from an overlap on.",
+             normal_curve, kCurve);
+    map.need("shear_curve", "Traction by slip: points from [0, 0] on; [[0, 0]]: they slide freely.",
+             shear_curve, kCurve);
+    map.key("compression_stiffness", kCompressionSays, compression_stiffness,
+            Number{Measure::interface_stiffness, kNotNegative});
+    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+  }
+  bool has_overlap() const { return normal_curve.jump.front() < 0; }
+  /// The normal curve with what holds apart surfaces that press: a point where they overlap by so much.
+  TractionCurve pressed_curve(double overlap) const {
+    TractionCurve whole = normal_curve;
+    if (has_overlap()) return whole;
+    const double stiffness = compression == Pressed::contact ? 0
+                             : compression_stiffness > 0     ? compression_stiffness
+                                                         : normal_curve.slope(normal_curve.piece_of(0, true));
+    whole.jump.insert(whole.jump.begin(), -overlap);
+    whole.traction.insert(whole.traction.begin(), -stiffness * overlap);
+    return whole;
+  }
+  double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
+  Coulomb contact() const { return {friction, static_friction}; }
+};
+
 inline Coulomb Cohesive::contact() const { return {friction, static_friction}; }
 
 /// In the order in which they are listed.
 using AnyLaw = std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction,
-                            Viscous, Interface, Cohesive>;
+                            Viscous, Interface, NonlinearInterface, Cohesive>;
+
+/// Does it join surfaces by springs or a bond?
+inline bool joins(const AnyLaw& law) {
+  return std::visit([](const auto& one) { return one.scope == LawScope::bridged; }, law);
+}
 
 }  // namespace mpmfast

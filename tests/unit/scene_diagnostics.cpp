@@ -20,6 +20,7 @@ TEST_CASE("a misspelt key, word or material name suggests the right one") {
   CHECK(fault(plain_scene() + "contact: {law: columb}\n") ==
         "scene.yaml:8:16: contact.law: not known here (one of coulomb, frictionless, stick, perfect, "
         "ignore, adhesion, velocity_friction, viscous, interface, "
+        "nonlinear_interface, "
         "cohesive), got 'columb'. "
         "Did you mean 'coulomb'?");
   CHECK(fault(replaced(plain_scene(), "material: steel", "material: stele")) ==

@@ -72,6 +72,28 @@ TEST_CASE("a cohesive law has its keys, and its initial stiffness from the cells
   CHECK(std::get<Cohesive>(on_grid).compression_stiffness == 0);
 }
 
+TEST_CASE("curves of tractions are read, written and handed down to pairs") {
+  const Scene scene = parse(
+      three_bodies("contact: {law: nonlinear_interface, normal_curve: [[0, 0], [1 mm, 2 MPa], [3 mm, 0]], "
+                   "shear_curve: [[0, 0], [2 um, 1 kPa]], pairs: [{between: [a, b], normal_curve: "
+                   "[[-1 mm, -5 MPa], [0, 0]]}]}\n"));
+  const auto& all = std::get<NonlinearInterface>(scene.contact.law.acts);
+  CHECK(all.normal_curve.jump == std::vector<double>{0, 1e-3, 3e-3});
+  CHECK(all.normal_curve.traction == std::vector<double>{0, 2e6, 0});
+  const auto& pair = std::get<NonlinearInterface>(scene.contact.pairs[0].law.acts);
+  CHECK(pair.normal_curve.traction == std::vector<double>{-5e6, 0});
+  CHECK(pair.shear_curve.jump == std::vector<double>{0, 2e-6});
+  CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
+  // What holds surfaces apart that press: by the first slope, by a stiffness of its own, or contact.
+  CHECK(all.pressed_curve(0.5e-3).at(-1e-4) == doctest::Approx(-0.2e6));
+  auto other = all;
+  other.compression_stiffness = 7e9;
+  CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == doctest::Approx(-0.7e6));
+  other.compression = Pressed::contact;
+  CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == 0);
+  CHECK(pair.pressed_curve(0.5e-3).at(-2e-3) == doctest::Approx(-10e6));
+}
+
 TEST_CASE("faults of laws and pairs are found where they stand") {
   const auto contact = [](const std::string& text) { return fault(three_bodies("contact: " + text + "\n")); };
   CHECK(holds(contact("{law: stick, viscosity: 1 Pa*s}"),
@@ -103,6 +125,25 @@ TEST_CASE("faults of laws and pairs are found where they stand") {
   CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, plateau: 1}"), "must be in [0, 1)"));
   CHECK(holds(contact(glue + ", normal_toughness: 8 N/m, compression: glue}"),
               "not known here (one of spring, contact), got 'glue'"));
+  CHECK(holds(contact("{law: nonlinear_interface, shear_curve: [[0, 0]]}"),
+              "contact.normal_curve: missing (a list of points [length, pressure])"));
+  const auto curve = [&](const std::string& points, const std::string& more = "") {
+    return contact("{law: nonlinear_interface, shear_curve: [[0, 0]], normal_curve: " + points + more + "}");
+  };
+  CHECK(holds(curve("3 MPa"), "not a curve (one or more pairs [length, pressure]), got '3 MPa'"));
+  CHECK(holds(curve("[]"), "not a curve"));
+  CHECK(holds(curve("[[0, 0], [1 mm, 2 MPa, 3]]"), "contact.normal_curve.1: not a pair [length, pressure]"));
+  CHECK(holds(curve("[[0, 0], [1 mm, 2 mm]]"), "'mm' is a length"));
+  CHECK(holds(curve("[[0, 0], [1 mm, 2 MPa], [1 mm, 3 MPa]]"),
+              "lengths must increase, but 0.001 m follows 0.001 m"));
+  CHECK(holds(curve("[[0, 1 MPa], [1 mm, 2 MPa]]"), "a point [0, 0] was expected"));
+  CHECK(holds(curve("[[1 mm, 2 MPa]]"), "a point [0, 0] was expected"));
+  CHECK(holds(curve("[[-1 mm, 2 MPa], [0, 0]]"), "contact.normal_curve.0: a traction against the jump"));
+  CHECK(holds(curve("[[-1 mm, -2 MPa], [0, 0]]", ", compression: contact"),
+              "contact.compression: normal_curve says already what overlap does"));
+  CHECK(holds(
+      contact("{law: nonlinear_interface, normal_curve: [[0, 0]], shear_curve: [[-1 mm, -1 Pa], [0, 0]]}"),
+      "contact.shear_curve: the first point must be [0, 0]"));
   CHECK(holds(contact("{corrections: 3}"), "not a whole number from 1 to 2"));
   CHECK(holds(contact("{fields: pairs, normal: average_gradient}"), "explicit pairs are found from"));
   const auto pair = [&](const std::string& text) { return contact("{pairs: [" + text + "]}"); };

@@ -65,6 +65,8 @@ std::vector<std::string> small_scenes() {
   const std::string plain = material("model: rigid"),
                     bond = "law: adhesion, normal_strength: 1, shear_strength: 1",
                     joint = "law: interface, normal_stiffness: 1, shear_stiffness: 1",
+                    curves =
+                        "law: nonlinear_interface, normal_curve: [[0, 0], [1, 1]], shear_curve: [[0, 0]]",
                     glue =
                         "law: cohesive, normal_strength: 1, shear_strength: 1, normal_toughness: 1, "
                         "shear_toughness: 1",
@@ -84,6 +86,8 @@ std::vector<std::string> small_scenes() {
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
           plain + "contact: {" + joint + "}\n",
+          plain + "contact: {" + curves + "}\n",
+          two + "contact: {pairs: [{between: [one, two], " + curves + "}]}\n",
           plain + "contact: {" + glue + ", crack: {from: [0, 0], to: [1, 1]}}\n",
           two + "contact: {pairs: [{between: [one, two], " + glue + "}]}\n",
           two + "contact: {pairs: [{between: [one, two], " + joint + "}]}\n",

@@ -12,8 +12,8 @@ template <int Dim>
 void let_go(const Cohesive& law, const Bridge<Dim>& bridge, Bond<Dim>& bond) {
   const double along = bridge.jump.dot(bridge.normal);
   bond.lost =
-      0.5 * law.integrity_of(bond.way) * bridge.tension * parted<Dim>(bridge.jump, bridge.normal).squared();
-  if (along < 0) bond.lost += 0.5 * bridge.compression * along * along;
+      0.5 * law.integrity_of(bond.way) * bridge.springs.tension * parted<Dim>(bridge.jump, bridge.normal).squared();
+  if (along < 0) bond.lost += 0.5 * bridge.springs.compression * along * along;
   bond.way = 1;
 }
 
@@ -22,10 +22,10 @@ void let_go(const Cohesive& law, const Bridge<Dim>& bridge, Bond<Dim>& bond) {
 template <int Dim>
 void wear(const Cohesive& law, double before, Bridge<Dim>& bridge, Bond<Dim>& bond) {
   const double worn = before - law.integrity_of(bond.way);
-  bond.lost += 0.5 * worn * bridge.tension * parted<Dim>(bridge.jump, bridge.normal).squared();
+  bond.lost += 0.5 * worn * bridge.springs.tension * parted<Dim>(bridge.jump, bridge.normal).squared();
   if (!bond.broken()) return;
   const double overlap = std::min(0.0, bridge.jump.dot(bridge.normal));
-  bond.lost += 0.5 * bridge.compression * overlap * overlap;
+  bond.lost += 0.5 * bridge.springs.compression * overlap * overlap;
   bridge.acts = false;
 }
 
@@ -35,7 +35,7 @@ void end_bond(const Cohesive& law, const Vec<Dim>& from, Bridge<Dim>& bridge, Bo
   const Parted start = parted<Dim>(from, bridge.normal), end = parted<Dim>(bridge.jump, bridge.normal);
   const double before = law.integrity_of(bond.way);
   const Integrity integrity = integrity_over(law, before, start, end);
-  bond.lost = lost_over(bridge.tension, before, integrity, start, end);
+  bond.lost = lost_over(bridge.springs.tension, before, integrity, start, end);
   if (integrity.end < before) bond.way = std::max(bond.way, law.way_to(integrity.end));
   if (bond.broken()) wear(law, 0, bridge, bond);
 }

@@ -110,14 +110,16 @@ void Contact<Dim>::book_friction(const State<Dim>& state) {
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      if (entry.first.isZero(0) && entry.second.isZero(0)) continue;
+      const bool springs = bridges_ && !bridge_of(entry).friction.isZero(0);
+      if (!springs && entry.first.isZero(0) && entry.second.isZero(0)) continue;
       const int law = pair_of(state, node, entry);
-      entry.friction_work = 0;
+      entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
       const LawScope scope = scope_of(state, node, entry);
-      if (scope != LawScope::contact && scope != LawScope::bonded) continue;
-      // In a lump, each touching pair is seen from both sides.
-      const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-      entry.friction_work = share * friction_work_of(entry, scope == LawScope::bonded);
+      if (scope == LawScope::contact || scope == LawScope::bonded) {
+        // In a lump, each touching pair is seen from both sides.
+        const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+        entry.friction_work += share * friction_work_of(entry, scope == LawScope::bonded);
+      }
       books_.friction_work += entry.friction_work;
       if (law >= 0) books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
     }

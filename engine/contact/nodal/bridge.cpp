@@ -11,7 +11,7 @@
 #include "engine/contact/contact.hpp"
 #include "engine/contact/nodal/bonds.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
-#include "kernels/contact/interface.hpp"
+#include "kernels/contact/curved_springs.hpp"
 
 namespace mpmfast {
 
@@ -48,8 +48,7 @@ template <int Dim>
 bool Contact<Dim>::is_joined(const State<Dim>& state, const ContactNode<Dim>& node,
                              const ContactEntry<Dim>& entry) const {
   const AnyLaw& law = law_of(state, node, entry);
-  return std::holds_alternative<Interface>(law) ||
-         (std::holds_alternative<Cohesive>(law) && !is_broken(entry));
+  return joins(law) && !(std::holds_alternative<Cohesive>(law) && is_broken(entry));
 }
 
 template <int Dim>
@@ -73,9 +72,8 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
       if (entry.normal.isZero(0)) continue;
-      if (const AnyLaw& law = law_of(state, node, entry);
-          !std::holds_alternative<Interface>(law) && !std::holds_alternative<Cohesive>(law))
-        continue;
+      const AnyLaw& law = law_of(state, node, entry);
+      if (!joins(law)) continue;
       const int other = partner(state, node, entry);
       const auto slot_of = [&](int k) {
         return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
@@ -91,7 +89,8 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       if (bonds_) bond_of(entry).area = area;
       if (joined) {
         bridge.normal = entry.normal;
-        bridge.told = told_jump(state, node, slot_a, slot_b);
+        bridge.recalls = bridge.known && spec_.jumps == JumpKind::integrated;
+        bridge.told = bridge.recalls ? bridge.jump : told_jump(state, node, slot_a, slot_b);
         bridge.own_area = area;
         bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
       }
@@ -133,13 +132,9 @@ void Contact<Dim>::bridge(State<Dim>& state, double dt, const ContactNode<Dim>& 
       on_a -= bridge.impulse;
       on_b += bridge.impulse;
       const Vec<Dim> others = (bridge.inverse_b * on_b - bridge.inverse_a * on_a) / dt;
-      const auto* law =
-          bonds_ ? std::get_if<Cohesive>(&law_of(state, node, list_.entries[static_cast<std::size_t>(e)]))
-                 : nullptr;
-      const Vec<Dim> pulls = bridge.pulls + others;
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       const Vec<Dim> impulse =
-          law ? pull_of(bridge, *law, bond_of(list_.entries[static_cast<std::size_t>(e)]), node, dt, pulls)
-              : pull_of(bridge, node, dt, pulls, acting == 1);
+          pull_of(law_of(state, node, entry), entry, bridge, node, dt, bridge.pulls + others, acting == 1);
       change = std::max(change, (impulse - bridge.impulse).squaredNorm());
       largest = std::max(largest, impulse.squaredNorm());
       bridge.impulse = impulse;
@@ -181,62 +176,82 @@ bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const Contac
   const Vec<Dim> p_a = nodes.vector(Nodal::momentum, a), p_b = nodes.vector(Nodal::momentum, b);
   bridge.rate = free(p_b / mass[b] - p_a / mass[a]) - dt * bridge.pulls;
   const BridgesAround<Dim> around = bridges_around(state, node, entry);
-  const Vec<Dim> told = free(around.told) - 0.5 * dt * bridge.rate;
+  const Vec<Dim> told = free(around.told) - (around.recalls ? 0 : 0.5 * dt) * bridge.rate;
   const double moved = (p_a + p_b).norm() / (mass[a] + mass[b]) * dt / cell_;
   bridge.jump = bridge.known ? Vec<Dim>(bridge.jump + std::min(1.0, moved) * (told - bridge.jump)) : told;
+  const AnyLaw& law = law_of(state, node, entry);
   bridge.acts = bridge.jump.norm() < cell_;
   const double gap = std::abs(bridge.jump.dot(bridge.normal)) / cell_;
   const double area =
       bridge.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
-  const AnyLaw& law = law_of(state, node, entry);
+  bridge.area = area;
   if (const auto* springs = std::get_if<Interface>(&law)) {
-    bridge.tension = springs->normal_stiffness * area;
-    bridge.compression = springs->compression_stiffness * area;
-    bridge.shear = springs->shear_stiffness * area;
+    bridge.springs = {springs->normal_stiffness * area, springs->compression_stiffness * area,
+                      springs->shear_stiffness * area};
   } else if (const auto* bond = std::get_if<Cohesive>(&law)) {
-    bridge.tension = bridge.shear = bond->initial_stiffness * area;
-    bridge.compression = bond->compression_stiffness * area;
+    const double unharmed = bond->initial_stiffness * area;
+    bridge.springs = {unharmed, bond->compression_stiffness * area, unharmed};
     if (!bridge.acts) let_go(*bond, bridge, bond_of(entry));
   }
   return bridge.acts;
 }
 
-/// The impulse of an entry's springs on its field a, N s.
+/// Friction of surfaces that an entry's springs press; none where contact holds them apart.
+template <int Dim>
+void Contact<Dim>::rub_pressed(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt,
+                               Vec<Dim>& end) const {
+  bridge.friction.setZero();
+  const auto rub_with = [&](const Coulomb& friction, const auto& along) {
+    const double pressed = joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
+    if (friction.friction == 0 || !(pressed > 0)) return;
+    const Rubbed<Dim> rubbed = rub(friction, pressed, along, joint, dt);
+    end = end.dot(joint.normal) * joint.normal + rubbed.rate;
+    bridge.friction = rubbed.impulse;
+  };
+  const auto springs_press = [](const auto& springs) { return springs.compression == Pressed::spring; };
+  if (const auto* springs = std::get_if<Interface>(&law)) {
+    if (springs_press(*springs)) rub_with(springs->contact(), SlipSpring{bridge.springs.shear});
+  } else if (const auto* curves = std::get_if<NonlinearInterface>(&law)) {
+    if (springs_press(*curves)) rub_with(curves->contact(), CurvedSlip{curves->shear_curve, bridge.area});
+  }
+}
+
+/// The impulse of an entry's springs, or of its bond, on its field a, N s.
 /// @param pulls  what all others change of v_b − v_a, m/s²
 template <int Dim>
-Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const ContactNode<Dim>& node, double dt,
-                               const Vec<Dim>& pulls, bool alone) const {
+Vec<Dim> Contact<Dim>::pull_of(const AnyLaw& law, const ContactEntry<Dim>& entry, Bridge<Dim>& bridge,
+                               const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls,
+                               bool alone) const {
   const double reduced = 1 / (bridge.inverse_a + bridge.inverse_b);
-  const auto along = [&](const Vec<Dim>& x) { return x.dot(bridge.normal); };
-  const auto across = [&](const Vec<Dim>& x) -> Vec<Dim> { return x - along(x) * bridge.normal; };
-  const Vec<Dim> opening = reduced * pulls;
-  Vec<Dim> end = rate_after_springs(bridge.tension, bridge.compression, reduced, dt,
-                                    {along(bridge.jump), along(bridge.rate), along(opening)}, alone) *
-                 bridge.normal;
-  const Vec<Dim> slip = across(bridge.jump), rate = across(bridge.rate), drawn = across(opening);
-  for (int d = 0; d < Dim; ++d)
-    end[d] += rate_after_spring(bridge.shear, reduced, dt, {slip[d], rate[d], drawn[d]}, alone);
+  const PairStart<Dim> joint{reduced, bridge.normal, bridge.jump, bridge.rate, reduced * pulls};
+  Vec<Dim> end;
+  if (const auto* curves = std::get_if<NonlinearInterface>(&law)) {
+    end = rate_after_curves(curves->normal_curve, curves->shear_curve, bridge.area, joint, dt, alone);
+  } else if (const auto* glue = std::get_if<Cohesive>(&law)) {
+    const Bond<Dim>& bond = bond_of(entry);
+    const BondStart<Dim> start{*glue, glue->integrity_of(bond.way), bridge.springs.tension,
+                               bridge.springs.compression, joint};
+    end = bond.follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
+  } else {
+    end = rate_after(bridge.springs, joint, dt, alone);
+  }
+  rub_pressed(law, bridge, joint, dt, end);
   const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
   return node.constrained ? free_part(node, impulse) : impulse;
 }
 
-/// The impulse of an entry's bond on its field a, N s.
+/// What the springs of an entry hold, J.
 template <int Dim>
-Vec<Dim> Contact<Dim>::pull_of(const Bridge<Dim>& bridge, const Cohesive& law, const Bond<Dim>& bond,
-                               const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls) const {
-  const double reduced = 1 / (bridge.inverse_a + bridge.inverse_b);
-  const BondStart<Dim> start{law,
-                             law.integrity_of(bond.way),
-                             bridge.tension,
-                             bridge.compression,
-                             reduced,
-                             bridge.normal,
-                             bridge.jump,
-                             bridge.rate,
-                             reduced * pulls};
-  const Vec<Dim> end = bond.follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
-  const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
-  return node.constrained ? free_part(node, impulse) : impulse;
+double Contact<Dim>::stored_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const {
+  const Bridge<Dim>& bridge = bridge_of(entry);
+  const double gap = bridge.jump.dot(bridge.normal);
+  const double slip = (bridge.jump - gap * bridge.normal).squaredNorm();
+  if (const auto* curves = std::get_if<NonlinearInterface>(&law))
+    return bridge.area * (curves->normal_curve.energy(gap) + curves->shear_curve.energy(std::sqrt(slip)));
+  const auto* glue = std::get_if<Cohesive>(&law);
+  const double left = glue ? glue->integrity_of(bond_of(entry).way) : 1;
+  return 0.5 * ((gap > 0 ? left * bridge.springs.tension : bridge.springs.compression) * gap * gap +
+                left * bridge.springs.shear * slip);
 }
 
 /// The jumps at the end of the step, with the velocities that its strains end with, and what the springs
@@ -248,8 +263,9 @@ void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
       if (!bridge.acts) continue;
-      const Vec<Dim> from = bridge.jump;
-      bridge.jump += 0.5 * dt * (bridge.rate - slip_of(state, node, entry));
+      const Vec<Dim> from = bridge.jump, mean = 0.5 * (bridge.rate - slip_of(state, node, entry));
+      bridge.jump += dt * mean;
+      bridge.friction_work = bridge.friction.dot(mean);
       if (const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr)
         if (!bond_of(entry).follows()) end_bond(*law, from, bridge, bond_of(entry));
     }
@@ -262,12 +278,7 @@ void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
       if (bonds_) books_.lost += bond_of(entry).lost;
       bridge.known = bridge.acts;
       if (!bridge.acts) continue;
-      const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr;
-      const double left = law ? law->integrity_of(bond_of(entry).way) : 1;
-      const double gap = bridge.jump.dot(bridge.normal);
-      const double slip = (bridge.jump - gap * bridge.normal).squaredNorm();
-      books_.stored += 0.5 * ((gap > 0 ? left * bridge.tension : bridge.compression) * gap * gap +
-                              left * bridge.shear * slip);
+      books_.stored += stored_of(law_of(state, node, entry), entry);
     }
 }
 
@@ -290,7 +301,8 @@ const ContactEntry<Dim>* Contact<Dim>::same_pair(const State<Dim>& state, const 
   return nullptr;
 }
 
-/// What an interface has on the nodes around one, itself among them: areas, and the mean of the jumps.
+/// What an interface has on the nodes around one, itself among them: areas, and the mean of the jumps, of
+/// those that recall it where there are such.
 ///
 /// The node's share of the surface between the two is what the lighter side has there, whose stress ends on
 /// it (N20's area, g·n), mixed as (m_b g_a − m_a g_b)·n/(m_a + m_b). A field of hardly any mass that gets
@@ -302,17 +314,21 @@ template <int Dim>
 BridgesAround<Dim> Contact<Dim>::bridges_around(const State<Dim>& state, const ContactNode<Dim>& node,
                                                 const ContactEntry<Dim>& entry) const {
   BridgesAround<Dim> sum;
+  Vec<Dim> recalled = Vec<Dim>::Zero();
+  double recalling = 0;
   for (int m = 0; m < power(3, Dim); ++m)
     if (const auto* beside = same_pair(state, node, entry, m)) {
       const Bridge<Dim>& bridge = bridge_of(*beside);
       sum.own_area += bridge.own_area;
       sum.mean_area += bridge.mean_area;
       sum.told += bridge.own_area * bridge.told;
+      if (!bridge.recalls) continue;
+      recalling += bridge.own_area;
+      recalled += bridge.own_area * bridge.told;
     }
-  if (sum.own_area > 0)
-    sum.told /= sum.own_area;
-  else
-    sum = {bridge_of(entry).told, 1, 1};  // no surface here: no springs
+  if (!(sum.own_area > 0)) return {bridge_of(entry).told, 1, 1, bridge_of(entry).recalls};  // no springs
+  sum.recalls = recalling > 0;
+  sum.told = sum.recalls ? Vec<Dim>(recalled / recalling) : Vec<Dim>(sum.told / sum.own_area);
   return sum;
 }
 

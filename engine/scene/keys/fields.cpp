@@ -169,7 +169,7 @@ std::optional<std::size_t> Value::word_index(std::span<const std::string> known)
   return std::nullopt;
 }
 
-bool Value::read_columns(Measure kind, TimeTable& table) const {
+bool Value::read_columns(Measure kind, PointList& table) const {
   MapReader map(*this);
   bool good = true;
   const auto read_column = [&](const char* key, Measure column_kind, std::vector<double>& out) {
@@ -183,33 +183,43 @@ bool Value::read_columns(Measure kind, TimeTable& table) const {
       out.push_back(entry.value_or(0));
     }
   };
-  read_column("times", Measure::time, table.time);
+  read_column("times", Measure::time, table.along);
   read_column("values", kind, table.value);
   map.finish();
-  if (good && table.time.size() != table.value.size()) {
-    report(fmt::format("{} times but {} values", table.time.size(), table.value.size()));
+  if (good && table.along.size() != table.value.size()) {
+    report(fmt::format("{} times but {} values", table.along.size(), table.value.size()));
     return false;
   }
   return good;
 }
 
-bool Value::read_pairs(Measure kind, TimeTable& table) const {
-  bool good = size() > 0;
-  if (!good) complain("not a table (one or more pairs [time, value])");
-  for (std::size_t k = 0; k < size(); ++k) {
-    const Value pair = item(k);
-    if (!pair.is_list(2, 2)) {
-      pair.complain("not a pair [time, value]");
+bool Value::read_pairs(const Points& form, const char* list, const char* pair, PointList& out) const {
+  bool good = is_list(1);
+  if (!good) complain(fmt::format("not a {} (one or more pairs {})", list, pair));
+  for (std::size_t k = 0; good && k < size(); ++k)
+    if (!item(k).is_list(2, 2)) {
+      item(k).complain(fmt::format("not a pair {}", pair));
       good = false;
-      continue;
     }
-    const auto time = pair.item(0).quantity(Measure::time);
-    const auto value = pair.item(1).quantity(kind);
-    good = good && time && value;
-    table.time.push_back(time.value_or(0));
-    table.value.push_back(value.value_or(0));
+  for (std::size_t k = 0; good && k < size(); ++k) {
+    const auto along = item(k).item(0).quantity(form.along);
+    const auto value = item(k).item(1).quantity(form.value);
+    good = along && value;
+    out.along.push_back(along.value_or(0));
+    out.value.push_back(value.value_or(0));
   }
   return good;
+}
+
+bool Value::rises(const std::vector<double>& values, Measure kind, const char* plural) const {
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    if (values[k] > values[k - 1]) continue;
+    const char* unit = kind_of(kind).si;
+    report(fmt::format("{} must increase, but {} {} follows {} {}", plural, values[k], unit, values[k - 1],
+                       unit));
+    return false;
+  }
+  return true;
 }
 
 std::optional<TimeTable> Value::table(Measure kind) const {
@@ -217,14 +227,20 @@ std::optional<TimeTable> Value::table(Measure kind) const {
     const auto constant = quantity(kind);
     return constant ? std::optional(TimeTable{{0}, {*constant}}) : std::nullopt;
   }
-  TimeTable table;
-  if (!(is(Node::Kind::map) ? read_columns(kind, table) : read_pairs(kind, table))) return std::nullopt;
-  for (std::size_t k = 1; k < table.time.size(); ++k) {
-    if (table.time[k] > table.time[k - 1]) continue;
-    report(fmt::format("times must increase, but {} s follows {} s", table.time[k], table.time[k - 1]));
+  PointList table;
+  const bool good = is(Node::Kind::map) ? read_columns(kind, table)
+                                        : read_pairs({Measure::time, kind}, "table", "[time, value]", table);
+  if (!good || !rises(table.along, Measure::time, "times")) return std::nullopt;
+  return TimeTable{std::move(table.along), std::move(table.value)};
+}
+
+std::optional<Value::PointList> Value::points(const Points& form) const {
+  PointList out;
+  const std::string pair = fmt::format("[{}, {}]", noun_of(form.along), noun_of(form.value)),
+                    plural = plural_of(form.along);
+  if (!read_pairs(form, "curve", pair.c_str(), out) || !rises(out.along, form.along, plural.c_str()))
     return std::nullopt;
-  }
-  return table;
+  return out;
 }
 
 MapReader::MapReader(const Value& value, const std::string& expected)

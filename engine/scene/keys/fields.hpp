@@ -67,6 +67,11 @@ class Value {
   std::string vector_hint(Measure kind, int count) const;
   /// A quantity (constant in time), {times: […], values: […]}, or a list of [time, value].
   std::optional<TimeTable> table(Measure kind) const;
+  /// A list of [along, value], of which the first increase.
+  struct PointList {
+    std::vector<double> along, value;
+  };
+  std::optional<PointList> points(const Points& form) const;
 
   /// One of a fixed set of words.
   template <class E, std::size_t N>
@@ -80,8 +85,9 @@ class Value {
   std::optional<std::size_t> reference(std::span<const std::string> known) const;
 
  private:
-  bool read_columns(Measure kind, TimeTable& table) const;
-  bool read_pairs(Measure kind, TimeTable& table) const;
+  bool read_columns(Measure kind, PointList& table) const;
+  bool read_pairs(const Points& form, const char* list, const char* pair, PointList& out) const;
+  bool rises(const std::vector<double>& values, Measure kind, const char* plural) const;
 
   const Node* node_;
   std::string path_;

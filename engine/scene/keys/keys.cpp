@@ -32,6 +32,10 @@ std::string expected_of(const Vector& form) {
   return fmt::format("a list of {} {}", form.count, plural_of(form.measure));
 }
 
+std::string expected_of(const Points& form) {
+  return fmt::format("a list of points [{}, {}]", noun_of(form.along), noun_of(form.value));
+}
+
 std::string expected_of(const Table& form) { return expected_of(form.measure) + "; or a table"; }
 
 bool Slot::take(double& out, const Number& form) {
@@ -62,6 +66,18 @@ bool Slot::take(TimeTable& out, const Table& form) {
   offer({Form::Kind::table, form.measure});
   if (writes()) out_->set(table_text(out, form.measure));
   return !reads() || accept(out, value_->table(form.measure));
+}
+
+bool Slot::take(TractionCurve& out, const Points& form) {
+  Form points{Form::Kind::points, form.value};
+  points.along = form.along;
+  offer(points);
+  if (writes()) out_->set(points_text(out.jump, out.traction, form));
+  if (!reads()) return true;
+  auto read = value_->points(form);
+  if (!read) return keep(false);
+  out = {std::move(read->along), std::move(read->value)};
+  return true;
 }
 
 bool Slot::take(std::string& out, const Name&) {

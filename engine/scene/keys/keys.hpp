@@ -42,6 +42,7 @@ struct Text {};
 std::string expected_of(const Number& form);
 std::string expected_of(const Vector& form);
 std::string expected_of(const Table& form);
+std::string expected_of(const Points& form);
 template <class E, std::size_t N>
 std::string expected_of(const std::array<Word<E>, N>& words) {
   std::string out;
@@ -76,6 +77,7 @@ class Slot {
   bool take(bool& out, const Truth& form = {});
   bool take(Vec3& out, const Vector& form);
   bool take(TimeTable& out, const Table& form);
+  bool take(TractionCurve& out, const Points& form);
   bool take(std::string& out, const Name& form);
   bool take(std::string& out, const Text& form);
   template <class E, std::size_t N>

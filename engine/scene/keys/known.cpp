@@ -8,7 +8,7 @@ namespace {
 
 bool alike(const Form& a, const Form& b) {
   const bool counted = a.kind == Form::Kind::vector || a.kind == Form::Kind::list;
-  return a.kind == b.kind && a.measure == b.measure && a.limit.same(b.limit) &&
+  return a.kind == b.kind && a.measure == b.measure && a.along == b.along && a.limit.same(b.limit) &&
          (counted || (a.least == b.least && a.most == b.most));
 }
 

@@ -19,13 +19,26 @@ namespace mpmfast {
 
 /// One form that a value may have.
 struct Form {
-  enum class Kind { word, truth, whole, quantity, table, text, name, vector, list, map };  ///< as shown
+  enum class Kind {
+    word,
+    truth,
+    whole,
+    quantity,
+    table,
+    points,
+    text,
+    name,
+    vector,
+    list,
+    map
+  };  ///< as shown
   static constexpr int kNoEnd = std::numeric_limits<int>::max();
 
   Kind kind;
   Measure measure = Measure::number;  ///< of a quantity, of a vector's components, of a table's values
   Limit limit = kAny;                 ///< of a quantity and of a vector's components
   int least = 0, most = kNoEnd;       ///< a whole number; entries of a list or vector; m of words "xpic(m)"
+  Measure along = Measure::number;    ///< of a curve's points: what `measure` changes with
 };
 
 /// A word that a value may be, and what it means.

@@ -128,6 +128,11 @@ inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
      "all touching pairs of the node at once; conserves momentum (default)"},
 }};
 
+inline constexpr std::array<Word<JumpKind>, 2> kJumps{{
+    {JumpKind::extrapolated, "extrapolated", "by the displacements of the particles (default)"},
+    {JumpKind::integrated, "integrated", "by the sum of what each step adds, of the nodes around"},
+}};
+
 inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
     {AreaKind::volume_gradient, "volume_gradient", "the node's share of the surface itself (default)"},
     {AreaKind::nodal_volume, "nodal_volume", "from the nodal volumes of the two fields"},

@@ -73,6 +73,8 @@ std::string one_form(const std::string& pattern, const Form& form, bool units) {
       return fmt::format("{} {}", count_text(form.least, form.most), number(true));
     case Form::Kind::table:
       return number(false) + " or table";
+    case Form::Kind::points:
+      return fmt::format("points [{}, {}]", noun_of(form.along), noun_of(form.measure));
     case Form::Kind::list:
       return list_text(pattern, form, units);
     case Form::Kind::map:

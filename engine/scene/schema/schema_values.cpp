@@ -75,12 +75,15 @@ std::vector<Json> Definitions::quantity(Measure measure, const Limit& limit) {
                                    {"description", says}})};
 }
 
+Json Definitions::points(const Points& form) {
+  const Json along{{"anyOf", quantity(form.along, kAny)}}, value{{"anyOf", quantity(form.value, kAny)}};
+  return {{"type", "array"},
+          {"minItems", 1},
+          {"items", {{"type", "array"}, {"items", {along, value}}, {"minItems", 2}, {"maxItems", 2}}}};
+}
+
 Json Definitions::table(Measure measure) {
   const Json time{{"anyOf", quantity(Measure::time, kAny)}}, value{{"anyOf", quantity(measure, kAny)}};
-  const Json pairs{
-      {"type", "array"},
-      {"minItems", 1},
-      {"items", {{"type", "array"}, {"items", {time, value}}, {"minItems", 2}, {"maxItems", 2}}}};
   const auto column = [](const Json& entry) {
     return Json{{"type", "array"}, {"minItems", 1}, {"items", entry}};
   };
@@ -89,7 +92,7 @@ Json Definitions::table(Measure measure) {
                      {"required", {"times", "values"}},
                      {"additionalProperties", false}};
   std::vector<Json> forms = quantity(measure, kAny);
-  forms.insert(forms.end(), {pairs, columns});
+  forms.insert(forms.end(), {points({Measure::time, measure}), columns});
   return reference(definition_name(measure) + "_table",
                    {{"anyOf", forms},
                     {"description",

@@ -21,6 +21,7 @@ class Definitions {
   /// What a number with or without a unit may be: two alternatives.
   std::vector<Json> quantity(Measure measure, const Limit& limit);
   Json table(Measure measure);
+  Json points(const Points& form);
   Json words(const std::vector<KnownWord>& words, const Form& form) const;
   Json name() const;
 

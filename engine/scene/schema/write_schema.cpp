@@ -110,6 +110,8 @@ class SchemaWriter {
         return {list(form, {{"anyOf", definitions_.quantity(form.measure, form.limit)}})};
       case Form::Kind::table:
         return {definitions_.table(form.measure)};
+      case Form::Kind::points:
+        return {definitions_.points({form.along, form.measure})};
       case Form::Kind::list:
         return {list(form, value(pattern + "[]"))};
       case Form::Kind::map:

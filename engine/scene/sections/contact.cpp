@@ -110,6 +110,8 @@ void describe_corrections(Keys& map, bool strain_stated, ContactSpec& contact, S
   if (!map.writes()) contact.first_correction_share = share_of(strain, contact);
   map.key("first_correction_share", "flip: share of the first correction that particles take too.",
           contact.first_correction_share, Number{Measure::number, kWhole});
+  map.key("jumps", "How interfaces know the jump of displacements in cells that are new to them.",
+          contact.jumps, kJumps);
   map.key("area", "How the area of contact is found, for bonds and films.", contact.area, kAreas);
   map.at("fields", "What is done where three or more bodies meet.", [&](Slot& slot) {
     slot.take(contact.fields, kManyFields);

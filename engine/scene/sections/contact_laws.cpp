@@ -33,15 +33,35 @@ void for_each_parameter(AnyLaw& law, const F& f) {
   std::visit([&](auto& one) { one.describe(visitor); }, law);
 }
 
-using Values = std::map<std::string, double>;
+/// Of a parameter: a number, the place of a word, or a curve.
+using ParameterValue = std::variant<double, TractionCurve>;
+using Values = std::map<std::string, ParameterValue>;
 
-/// The parameters of a law by name, words by their place.
+ParameterValue kept(const TractionCurve& curve) { return curve; }
+template <class T>
+ParameterValue kept(T member) {
+  return static_cast<double>(member);
+}
+void restore(TractionCurve& member, const ParameterValue& value) { member = std::get<TractionCurve>(value); }
+template <class T>
+void restore(T& member, const ParameterValue& value) {
+  member = static_cast<T>(std::get<double>(value));
+}
+
+/// The parameters of a law by name.
 Values values_of(AnyLaw law) {
   Values values;
-  for_each_parameter(law, [&](const char* name, const char*, auto member, const auto&, bool) {
-    values[name] = static_cast<double>(member);
+  for_each_parameter(law, [&](const char* name, const char*, const auto& member, const auto&, bool) {
+    values[name] = kept(member);
   });
   return values;
+}
+
+/// One of them that is a number; 0 where the law has none of this name.
+double number_of(const AnyLaw& law, const std::string& name) {
+  const Values values = values_of(law);
+  const auto found = values.find(name);
+  return found == values.end() ? 0 : std::get<double>(found->second);
 }
 
 /// The keys of a law: one that has no default may be absent where another law has given it.
@@ -71,8 +91,7 @@ void refuse_others(Keys& map, const ContactLawKind& kind) {
 }
 
 void check_friction(Keys& map, const AnyLaw& law) {
-  Values values = values_of(law);
-  const double sliding = values["friction"], resting = values["static_friction"];
+  const double sliding = number_of(law, "friction"), resting = number_of(law, "static_friction");
   if (resting == 0 || resting >= sliding) return;
   const std::string fault =
       fmt::format("static friction {} is less than sliding friction {}", resting, sliding);
@@ -92,6 +111,33 @@ void check_toughness(Keys& map, const AnyLaw& law) {
                     "{:.4g} Pa/m was expected",
                     bond->least_stiffness()));
   });
+}
+
+/// A curve passes through [0, 0] and never drives: springs give back what they took.
+void check_curve(Keys& map, const char* name, const TractionCurve& curve, bool overlaps) {
+  map.check(name, [&](Slot& slot) {
+    const auto origin = std::find(curve.jump.begin(), curve.jump.end(), 0.0) - curve.jump.begin();
+    const auto n = static_cast<std::size_t>(origin);
+    if (!overlaps && curve.jump.front() != 0) return slot.report("the first point must be [0, 0]");
+    if (n == curve.jump.size() || curve.traction[n] != 0)
+      return slot.report("a point [0, 0] was expected: whole surfaces carry nothing");
+    for (std::size_t k = 0; k < curve.jump.size(); ++k)
+      if (curve.jump[k] * curve.traction[k] < 0)
+        slot.refuse_item(k,
+                         "a traction against the jump was expected: positive where surfaces are apart, "
+                         "negative where they overlap");
+  });
+}
+
+void check_curves(Keys& map, const AnyLaw& law) {
+  const auto* curves = std::get_if<NonlinearInterface>(&law);
+  if (!curves || !map.good()) return;
+  check_curve(map, "normal_curve", curves->normal_curve, true);
+  check_curve(map, "shear_curve", curves->shear_curve, false);
+  if (!curves->has_overlap()) return;
+  for (const char* name : {"compression", "compression_stiffness"})
+    if (map.stated(name))
+      map.check(name, [&](Slot& slot) { slot.report("normal_curve says already what overlap does"); });
 }
 
 /// All that any law may say.
@@ -159,15 +205,15 @@ void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
   const ContactLawKind& kind = contact_laws()[index];
   if (index != inherited) {
     Values known = values_of(law.acts);
-    known.emplace("friction", law.friction);
+    known.emplace("friction", kept(law.friction));
     law.acts = kind.standard;
     for_each_parameter(law.acts, [&](const char* name, const char*, auto& member, const auto&, bool) {
-      if (known.contains(name)) member = static_cast<std::decay_t<decltype(member)>>(known[name]);
+      if (known.contains(name)) restore(member, known[name]);
     });
   }
   describe_parameters(map, map.writes() || index == inherited, law.acts);
   if (has(kind, "friction")) {
-    law.friction = values_of(law.acts)["friction"];
+    law.friction = number_of(law.acts, "friction");
   } else {  // so that --set can choose another law
     map.key("friction", kFrictionSays, law.friction, kCoefficient);
   }
@@ -175,6 +221,7 @@ void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
   refuse_others(map, kind);
   check_friction(map, law.acts);
   check_toughness(map, law.acts);
+  check_curves(map, law.acts);
 }
 
 }  // namespace mpmfast

@@ -69,12 +69,9 @@ void check_penalty(const Value& top, const Scene& scene) {
 
 /// Springs join two bodies each, whose displacements tell how far they are apart.
 void check_interfaces(const Value& top, const Scene& scene) {
-  const auto joins = [](const SurfaceLaw& law) {
-    return std::visit([](const auto& one) { return one.scope == LawScope::bridged; }, law.acts);
-  };
   const auto& pairs = scene.contact.pairs;
-  if (!joins(scene.contact.law) &&
-      std::none_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return joins(pair.law); }))
+  if (!joins(scene.contact.law.acts) &&
+      std::none_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return joins(pair.law.acts); }))
     return;
   const Value stated = *top.find("contact");
   if (scene.contact.fields != ManyFields::simultaneous)
