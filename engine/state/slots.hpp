@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file Loops over the slots of the nodes.
+/// @file Loops over the slots of the nodes, and over blocks of anything.
 
 #include <algorithm>
 #include <cstdint>
@@ -9,14 +9,24 @@
 
 namespace mpmfast {
 
+/// Calls f(first, last) for blocks of [0, n), in parallel where there are more than a few.
+template <class F>
+void for_each_block(std::int64_t n, std::int64_t block, int threads, F f) {
+  constexpr std::int64_t few = 4;
+  const std::int64_t blocks = (n + block - 1) / block;
+  const auto visit = [&](std::int64_t b) { f(b * block, std::min(n, (b + 1) * block)); };
+  if (blocks <= few || threads == 1) {  // even of one thread a parallel region costs a thousand instructions
+    for (std::int64_t b = 0; b < blocks; ++b) visit(b);
+    return;
+  }
+#pragma omp parallel for num_threads(threads) schedule(static)
+  for (std::int64_t b = 0; b < blocks; ++b) visit(b);
+}
+
 /// Calls f(first slot, last slot) over all slots, in parallel; whole tiles.
 template <int Dim, class F>
 void for_each_slot(const State<Dim>& state, F f) {
-  constexpr std::int64_t block = 512;
-  const auto n = static_cast<std::int64_t>(state.tiling.slots());
-  const std::int64_t blocks = (n + block - 1) / block;
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (blocks > 4)
-  for (std::int64_t b = 0; b < blocks; ++b) f(b * block, std::min(n, (b + 1) * block));
+  for_each_block(static_cast<std::int64_t>(state.tiling.slots()), 512, state.threads, f);
 }
 
 /// out = factor x/m, zero where there is no mass, of slots [begin, end): tiles, so a multiple of kLanes.

@@ -1,8 +1,8 @@
 /// Stresses that no column has, because forces alone asked for them.
 
-#include <algorithm>
 #include <utility>
 
+#include "engine/state/slots.hpp"
 #include "engine/step/step.hpp"
 
 namespace mpmfast {
@@ -14,11 +14,8 @@ void Step<Dim>::find_stresses() {
   if (!std::exchange(stresses_wait_, false)) return;
   const ParticleView<Dim> view = state_.view();
   const auto& body = state_.particles.body();
-  const auto n = static_cast<std::int64_t>(state_.particles.size());
-  constexpr std::int64_t block = 1024;
-#pragma omp parallel for num_threads(state_.threads) schedule(static)
-  for (std::int64_t first = 0; first < n; first += block) {
-    const auto last = static_cast<std::size_t>(std::min(n, first + block));
+  const auto find = [&](std::int64_t first, std::int64_t end_of_block) {
+    const auto last = static_cast<std::size_t>(end_of_block);
     for (auto begin = static_cast<std::size_t>(first), end = begin; begin < last; begin = end) {
       while (end < last && body[end] == body[begin]) ++end;
       const BodyView<Dim>& of = state_.bodies[body[begin]];
@@ -32,7 +29,8 @@ void Step<Dim>::find_stresses() {
           },
           state_.materials[static_cast<std::size_t>(of.material)]);
     }
-  }
+  };
+  for_each_block(static_cast<std::int64_t>(state_.particles.size()), 1024, state_.threads, find);
 }
 
 template void Step<2>::find_stresses();

@@ -68,9 +68,10 @@ void Step<Dim>::find_moving_velocities() {
       for (int d = 0; d < Dim; ++d) {
         const double* strained = nodes.column(Nodal::re_extrapolated, d);
         double* moves = nodes.column(Nodal::velocity, d);
-        for (std::int64_t i = begin; i < end; ++i) {
-          const double share = mass[i] > 0 ? pressed[i] / mass[i] : 0;
-          moves[i] = strained[i] + share * (moves[i] - strained[i]);
+        for (std::int64_t i = begin; i < end; i += kLanes) {
+          const Lanes m = load_lanes(mass + i), v = load_lanes(strained + i);
+          const Lanes share = m > 0.0 ? load_lanes(pressed + i) / m : 0.0;
+          store_lanes(moves + i, v + share * (load_lanes(moves + i) - v));
         }
       }
     });

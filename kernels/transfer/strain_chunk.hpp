@@ -75,11 +75,13 @@ inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes 
 
 /// Stores the results of up to kLanes particles, from the k-th of a chunk that begins at `begin`; `count` of
 /// them are the caller's.
+/// (Always inline, for what deform says.)
 /// @return whether each J is a positive number
 template <int Dim>
-inline bool store_strain(const ParticleView<Dim>& p, std::uint32_t begin, int k, int count,
-                         const Lanes (&f)[Dim * Dim], const Lanes (&tau)[kSymmetric<Dim>],
-                         Lanes wave_speed_squared, Lanes jacobian, const ChunkStress<Dim>& stress) {
+[[gnu::always_inline]] inline bool store_strain(const ParticleView<Dim>& p, std::uint32_t begin, int k,
+                                                int count, const Lanes (&f)[Dim * Dim],
+                                                const Lanes (&tau)[kSymmetric<Dim>], Lanes wave_speed_squared,
+                                                Lanes jacobian, const ChunkStress<Dim>& stress) {
   const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
   for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count);
   for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(stress.component[s] + k, tau[s], count);
