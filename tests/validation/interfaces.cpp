@@ -40,6 +40,19 @@ Bars pull_bars(const char* basis, const char* joint, const char* pull, const std
   return {sum / rows / (std::stod(pull) * 1e-3 / 0.2), out.summary.energy_error};
 }
 
+/// Of the particles of a body, m/s.
+Vec<2> mean_velocity(const State<2>& state, int body) {
+  Vec<2> sum = Vec<2>::Zero();
+  double mass = 0;
+  for (std::size_t p = 0; p < state.particles.size(); ++p)
+    if (state.particles.body()[p] == body) {
+      const double own = state.particles.column(Quantity::mass)[p];
+      sum += own * state.particles.vector(Quantity::velocity, p);
+      mass += own;
+    }
+  return sum / mass;
+}
+
 TEST_CASE("two bars through an interface have the modulus of a series, wherever it lies in a cell") {
   const double series = 1 / (1 / 10e6 + 1 / (100e6 * 0.2));
   for (const char* basis : {"ugimp", "lcpdi"})
@@ -203,6 +216,126 @@ TEST_CASE("three blocks that meet at a point keep their energy on springs of any
     REQUIRE(out.failure == "");
     CHECK(std::abs(out.summary.energy_error) < 0.01);
   }
+}
+
+/// The stress is that of the bars' strain, E (0.2 mm - opening)/0.2 m, and of the curve at the opening:
+/// pulled, 2500 Pa + 100 MPa/m (opening - 50 um) gives 83.33 um and 5833.3 Pa; pressed, the first slope goes
+/// on beyond its first point, and 300 MPa/m gives -28.57 um and -8571.4 Pa.
+TEST_CASE("two bars through an interface of curves have the stress at which curve and bars meet") {
+  const std::string curves =
+      "{law: nonlinear_interface, normal_curve: [[-20 um, -6 kPa], [0, 0], [50 um, 2.5 kPa], [150 um, 12.5 "
+      "kPa]], shear_curve: [[0, 0]]}";
+  for (const char* joint : {"100 mm", "103.4 mm"})
+    for (const char* pull : {"0.2 mm", "-0.2 mm"}) {
+      CAPTURE(std::string(joint));
+      CAPTURE(std::string(pull));
+      const Bars bars = pull_bars("ugimp", joint, pull, curves);
+      const double expected = pull[0] == '-' ? 8571.4286 : 5833.3333;
+      CHECK(1e-3 * bars.modulus == doctest::Approx(expected).epsilon(1e-3).scale(0));  // measured 5e-4
+      CHECK(std::abs(bars.energy_error) < 1e-3);
+    }
+}
+
+/// What a curve has taken it gives back: pulled over its top and held, the bars keep the balance.
+TEST_CASE("an interface whose curve falls lets its bars go, and keeps the energy") {
+  const Bars bars = pull_bars("ugimp", "101.25 mm", "0.2 mm",
+                              "{law: nonlinear_interface, shear_curve: [[0, 0]], normal_curve: [[0, 0], [10 "
+                              "um, 4 kPa], [60 um, 0]]}");
+  CHECK(std::abs(1e-3 * bars.modulus) < 400);  // they swing: the mean of their stress, Pa
+  CHECK(std::abs(bars.energy_error) < 2e-3);
+}
+
+TEST_CASE("a curve without an end is a straight spring, bit for bit but for round-off") {
+  const Bars springs = pull_bars("lcpdi", "101.25 mm", "0.2 mm"),
+             curves =
+                 pull_bars("lcpdi", "101.25 mm", "0.2 mm",
+                           "{law: nonlinear_interface, normal_curve: [[0, 0], [1 m, 100 MPa]], shear_curve: "
+                           "[[0, 0], [1 m, 100 MPa]]}");
+  CHECK(curves.modulus == doctest::Approx(springs.modulus).epsilon(1e-9).scale(0));
+}
+
+/// Where nothing turns and slips little, what the steps add up to is what the displacements say.
+TEST_CASE("jumps that are integrated give the bars' modulus too") {
+  const double series = 1 / (1 / 10e6 + 1 / (100e6 * 0.2));
+  for (const char* joint : {"100 mm", "103.4 mm"}) {
+    const Bars bars =
+        pull_bars("ugimp", joint, "0.2 mm",
+                  "{law: interface, normal_stiffness: 100 MPa/m, shear_stiffness: 0, jumps: integrated}");
+    CHECK(bars.modulus == doctest::Approx(series).epsilon(1e-3).scale(0));  // measured 5e-4
+    CHECK(std::abs(bars.energy_error) < 1e-3);
+  }
+}
+
+/// A block slides on springs that its weight presses (NN section 5.7), by less than a hundredth of a cell.
+TEST_CASE("on springs that press, friction is Coulomb's, stops the block and takes what it had") {
+  for (const char* law :
+       {"{law: interface, normal_stiffness: 0, shear_stiffness: 0, compression_stiffness: 50 "
+        "GPa/m, friction: 0.3, pairs: [{between: [base, block]}]}",
+        "{law: nonlinear_interface, normal_curve: [[-1 um, -50 kPa], [0, 0]], shear_curve: [[0, "
+        "0]], friction: 0.3, pairs: [{between: [base, block]}]}"}) {
+    CAPTURE(std::string(law));
+    const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [24 mm, 10 mm], cell: 0.5 mm}
+time: {end: 1 ms}
+materials:
+  steel: {model: linear_elastic, density: 7.8 g/cm^3, young: 1 GPa, poisson: 0.3}
+  stone: {model: rigid}
+bodies:
+  - {name: base, box: {from: [1 mm, 1 mm], to: [23 mm, 3 mm]}, material: stone}
+  - {name: block, box: {from: [4 mm, 3 mm], to: [10 mm, 6 mm]}, material: steel, velocity: [30 mm/s, 0]}
+gravity: [0, -1000 m/s^2]
+)",
+                                   {{"contact", law}});
+    Step<2> step(scene);
+    const double mass = 7800 * 6e-3 * 3e-3, start = 0.5 * mass * 0.03 * 0.03;
+    const double dt = step.stable_dt();
+    while (step.state().time < 60e-6) step.advance(dt);
+    const Vec<2> pushed = step.sums().pair_impulse[0];  // on the base
+    MESSAGE("friction ", pushed[0] / -pushed[1], " speed ", mean_velocity(step.state(), 1)[0]);
+    CHECK(pushed[1] < -1e-3 * mass);
+    CHECK(pushed[0] / -pushed[1] == doctest::Approx(0.3).epsilon(0.01).scale(0));
+    // It rests, and shakes a little by its own elasticity.
+    double moved = 0;
+    while (step.state().time < 1e-3) {
+      step.advance(dt);
+      if (step.state().time > 0.3e-3) moved += dt * mean_velocity(step.state(), 1)[0] / 0.7e-3;
+    }
+    MESSAGE("taken ", step.sums().friction_work / start, " mean speed ", moved);
+    CHECK(std::abs(moved) < 0.03 * 0.03);  // measured 0.019
+    CHECK(step.sums().friction_work < start);
+    CHECK(step.sums().friction_work > 0.93 * start);  // measured 0.956
+  }
+}
+
+/// Bonds elsewhere in the scene had made springs pass for broken ones, which touch.
+TEST_CASE("springs beside bonds of another pair are those without them, to the bit") {
+  const auto speeds = [](const char* pairs) {
+    const Scene scene =
+        scene_from(R"(
+space: plane_strain
+grid: {size: [30 mm, 12 mm], cell: 0.5 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [1 mm, 1 mm], to: [6 mm, 4 mm]}, material: soft}
+  - {name: b, box: {from: [1 mm, 4 mm], to: [6 mm, 7 mm]}, material: soft, velocity: [0, -2 m/s]}
+  - {name: c, box: {from: [16 mm, 1 mm], to: [21 mm, 4 mm]}, material: soft}
+  - {name: d, box: {from: [16 mm, 4 mm], to: [21 mm, 7 mm]}, material: soft}
+)",
+                   {{"contact", std::string("{friction: 0, pairs: [{between: [a, b], law: interface, "
+                                            "normal_stiffness: 1 GPa/m, shear_stiffness: 1 GPa/m}") +
+                                    pairs + "]}"}});
+    Step<2> step(scene);
+    for (int k = 0; k < 60; ++k) step.advance(1e-6);
+    std::vector<double> out;
+    for (int body : {0, 1})
+      for (int d : {0, 1}) out.push_back(mean_velocity(step.state(), body)[d]);
+    return out;
+  };
+  CHECK(speeds("") ==
+        speeds(", {between: [c, d], law: cohesive, normal_strength: 1 MPa, shear_strength: 1 MPa, "
+               "normal_toughness: 9 J/m^2, shear_toughness: 9 J/m^2}"));
 }
 
 /// Of what a sine of this frequency is behind the interface over what it is before: 1/(1 + iωZ/2D), Z = ρc.

@@ -12,28 +12,35 @@
 
 namespace mpmfast {
 
-/// Surfaces are bonded that touch at the start of the run. Later a pair on a node has what the node had of
-/// it, or the nodes around; what meets where nobody knows of a bond is broken.
 template <int Dim>
-void Contact<Dim>::find_bonds(const State<Dim>& state) {
-  if (!bonds_) return;
-  constexpr double kTouch = 0.25;  // cells
+template <class F>
+void Contact<Dim>::for_each_bond(const State<Dim>& state, const F& f) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
   for (std::int64_t k = 0; k < n; ++k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      if (!std::holds_alternative<Cohesive>(law_of(state, node, entry))) continue;
-      Bond<Dim>& bond = bond_of(entry);
-      bond.way = bond.before, bond.offset = bond.offset_before;
-      if (bond.before >= 0) continue;
-      if (state.step == 0)
-        bond.way = entry.separation < kTouch * cell_ && !is_cracked(state, node) ? 0 : 1;
-      else
-        take_nearest(state, node, entry, bond);
+      if (const auto* law = std::get_if<Cohesive>(&law_of(state, node, entry)))
+        f(node, entry, *law, bond_of(entry));
     }
   }
+}
+
+/// Surfaces are bonded that touch at the start of the run. Later a pair on a node has what the node had of
+/// it, or the nodes around; what meets where nobody knows of a bond is broken.
+template <int Dim>
+void Contact<Dim>::find_bonds(const State<Dim>& state) {
+  if (!bonds_) return;
+  constexpr double kTouch = 0.25;  // cells
+  for_each_bond(state, [&](const auto& node, const auto& entry, const Cohesive&, Bond<Dim>& bond) {
+    bond.way = bond.before, bond.offset = bond.offset_before;
+    if (bond.before >= 0) return;
+    if (state.step == 0)
+      bond.way = entry.separation < kTouch * cell_ && !is_cracked(state, node) ? 0 : 1;
+    else
+      take_nearest(state, node, entry, bond);
+  });
 }
 
 /// Does the scene have a crack there at the start?
@@ -68,21 +75,6 @@ void Contact<Dim>::take_nearest(const State<Dim>& state, const ContactNode<Dim>&
     nearest = distance;
     bond.way = bond_of(*beside).before;
     bond.offset = offset;
-  }
-}
-
-template <int Dim>
-template <class F>
-void Contact<Dim>::for_each_bond(const State<Dim>& state, const F& f) {
-  const auto n = static_cast<std::int64_t>(list_.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      if (const auto* law = std::get_if<Cohesive>(&law_of(state, node, entry)))
-        f(node, entry, *law, bond_of(entry));
-    }
   }
 }
 
