@@ -96,6 +96,7 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
+  if (plan_.bridges && state_.step == 0) lead_displacements(dt);
   sort_if_due();
   project();           // N20 Eq. 5
   press_surfaces(dt);  // K24 §3.5, 3.6
@@ -127,6 +128,19 @@ void Step<Dim>::advance(double dt, bool stresses) {
   state_.time += dt;
   ++state_.step;
   if (stresses) find_stresses();
+}
+
+/// Positions are half a step ahead of strains by the motion of the particles, and so are the jumps that
+/// displacements tell (Contact::start_bridge): as the first step begins, half of it counts as done, or bodies
+/// that come from apart begin with springs that nothing loaded.
+template <int Dim>
+void Step<Dim>::lead_displacements(double dt) {
+  auto& particles = state_.particles;
+  for (int d = 0; d < Dim; ++d) {
+    double* place = particles.column(Quantity::reference_position, d);
+    const double* velocity = particles.column(Quantity::velocity, d);
+    for (std::size_t p = 0; p < particles.size(); ++p) place[p] -= 0.5 * dt * velocity[p];
+  }
 }
 
 /// p/m, in `to`.

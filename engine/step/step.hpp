@@ -95,6 +95,7 @@ class Step {
   double fastest() const;
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
+  void lead_displacements(double dt);
   void project();
   void press_surfaces(double dt);
   void push_surfaces(double dt);
