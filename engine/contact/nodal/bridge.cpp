@@ -95,7 +95,9 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
         bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
       }
       if (joined && touches)  // the gap is that of the jump
-        entry.separation = (bridge.known ? bridge.jump : bridge.told).dot(entry.normal);
+        entry.separation = bridge.known     ? bridge.jump.dot(entry.normal)
+                           : state.step > 0 ? bridge.told.dot(entry.normal)
+                                            : 0.0;
       // Springs reach the last node, but a field of hardly any mass is thrown by its force: see mass_screen.
       if (touches && other != node.rigid && std::min(m_a, m_b) < spec_.mass_screen * (m_a + m_b))
         entry.normal.setZero();
