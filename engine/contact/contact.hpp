@@ -64,7 +64,9 @@ class Contact {
   int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
   /// By what corrections act on an entry, and how its surfaces conduct heat.
   LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                    const ContactEntry<Dim>& entry) const;
+                    const ContactEntry<Dim>& entry) const {
+    return scope_of(law_of(state, node, entry), entry);
+  }
   const ConductanceSpec& conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
                                         const ContactEntry<Dim>& entry) const;
   /// Do springs join the surfaces of this entry?
@@ -108,6 +110,7 @@ class Contact {
   const Bridge<Dim>& bridge_of(const ContactEntry<Dim>& entry) const {
     return list_.bridges[static_cast<std::size_t>(&entry - list_.entries.data())];
   }
+  LawScope scope_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const;
   const AnyLaw& law_of(const State<Dim>& state, const ContactNode<Dim>& node,
                        const ContactEntry<Dim>& entry) const;
   /// An entry by itself: `bonds` has it.

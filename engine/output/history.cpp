@@ -60,6 +60,14 @@ bool has_bonds(const Scene& scene) {
           std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return breaks(pair.law); }));
 }
 
+/// Do springs or bonds join surfaces of the scene?
+bool has_joints(const Scene& scene) {
+  const auto& pairs = scene.contact.pairs;
+  return scene.contact.active && (joins(scene.contact.law.acts) ||
+                                  std::any_of(pairs.begin(), pairs.end(),
+                                              [](const ContactPair& pair) { return joins(pair.law.acts); }));
+}
+
 /// How much further apart than at first a piston and what it faces are, by their first distance: negative in
 /// compression. It faces the wall on the other side of the grid, or that face.
 double nominal_strain(const Scene& scene, const WallSpec& piston, double time) {
@@ -119,6 +127,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     for (const auto& body : scene.bodies) names.push_back(body.name + ".temperature_K");
   }
   if (has_bonds(scene)) names.push_back("interface_J");
+  if (has_joints(scene)) names.push_back("interface_stored_J");
   return names;
 }
 
@@ -221,6 +230,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
       numbers.add(b < row.bodies.size() ? row.bodies[b].temperature : 0.0);
   }
   if (has_bonds(scene)) numbers.add(row.interface);
+  if (has_joints(scene)) numbers.add(row.joints);
   return numbers.all;
 }
 

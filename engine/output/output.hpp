@@ -41,6 +41,7 @@ struct HistoryRow {
   double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
   double dissipated = 0;  ///< plastic work and viscous heat
   double interface = 0;   ///< J, lost by bonds that soften and break
+  double joints = 0;      ///< J, of `stored`: what springs and bonds between surfaces hold
   Vec3 momentum{};
   std::array<double, 6> mean_stress{};  ///< Pa, as Body::mean_stress, over all bodies that deform
   struct Body {

@@ -231,7 +231,7 @@ class Run {
     const auto& state = step_.state();
     if (series_) series_->append(state.particles, state.time);
     if (grid_series_ && state.step > 0) {  // before the first step nodes know nothing
-      write_grid(grid_series_->next(), step_);
+      write_grid(grid_series_->next(), step_, scene_);
       grid_series_->add(state.time);
     }
     counters_.last_frame_step = step_.state().step;

@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "engine/output/vtu.hpp"
+#include "engine/plan/contact_law.hpp"
 
 namespace mpmfast {
 
@@ -20,6 +22,8 @@ struct Meeting {
   std::array<float, 3> normal{}, impulse{};
   float separation = kUnknown;
   std::uint8_t touching = 0;
+  std::array<float, 3> jump{};  ///< of the displacements, from this field to the other
+  float damage = kUnknown;
 };
 
 /// Takes up an entry; of several the nearest gives normal and separation. @param sign  −1 on the side of b
@@ -37,6 +41,20 @@ void include(const ContactEntry<Dim>& entry, float sign, Meeting& meeting) {
     meeting.normal[static_cast<std::size_t>(d)] = sign * static_cast<float>(entry.normal[d]);
 }
 
+/// Takes up what joins the two of an entry; of several the one that is farthest apart.
+template <int Dim>
+void include(const ContactList<Dim>& list, std::size_t entry, float sign, Meeting& meeting) {
+  const Bridge<Dim>& bridge = list.bridges[entry];
+  double before = 0;
+  for (float x : meeting.jump) before += x * x;
+  if (bridge.acts && bridge.jump.squaredNorm() >= before)
+    for (int d = 0; d < Dim; ++d)
+      meeting.jump[static_cast<std::size_t>(d)] = sign * static_cast<float>(bridge.jump[d]);
+  if (list.bonds.empty() || list.bonds[entry].before < 0) return;  // no bond, at any time
+  const auto damage = static_cast<float>(list.bonds[entry].way);
+  if (!(meeting.damage > damage)) meeting.damage = damage;
+}
+
 /// By slot.
 template <int Dim>
 std::vector<Meeting> meetings_of(const Step<Dim>& step) {
@@ -47,9 +65,13 @@ std::vector<Meeting> meetings_of(const Step<Dim>& step) {
       return static_cast<std::size_t>(list.fields[static_cast<std::size_t>(node.field_begin + k)].slot);
     };
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const ContactEntry<Dim>& entry = list.entries[static_cast<std::size_t>(e)];
+      const auto k = static_cast<std::size_t>(e);
+      const ContactEntry<Dim>& entry = list.entries[k];
       include(entry, 1, out[slot(entry.a)]);
       if (entry.b >= 0) include(entry, -1, out[slot(entry.b)]);
+      if (list.bridges.empty()) continue;
+      include(list, k, 1, out[slot(entry.a)]);
+      if (entry.b >= 0) include(list, k, -1, out[slot(entry.b)]);
     }
   }
   return out;
@@ -60,7 +82,7 @@ struct GridColumns {
   std::vector<double> points;
   std::vector<std::uint16_t> field;
   std::vector<double> mass;
-  std::vector<float> velocity, normal, separation, impulse, temperature;
+  std::vector<float> velocity, normal, separation, impulse, temperature, jump, damage;
   std::vector<std::uint8_t> touching;
 };
 
@@ -76,11 +98,13 @@ void add(const Step<Dim>& step, int slot, int field, const NodeIndex<Dim>& node,
     out.velocity.push_back(real ? static_cast<float>(velocity[k]) : 0);
     out.normal.push_back(meeting.normal[static_cast<std::size_t>(d)]);
     out.impulse.push_back(meeting.impulse[static_cast<std::size_t>(d)]);
+    out.jump.push_back(meeting.jump[static_cast<std::size_t>(d)]);
   }
   out.field.push_back(static_cast<std::uint16_t>(field));
   out.mass.push_back(state.nodes.column(Nodal::mass)[slot]);
   out.separation.push_back(meeting.separation);
   out.touching.push_back(meeting.touching);
+  out.damage.push_back(meeting.damage);
   if (step.heat().active())
     out.temperature.push_back(static_cast<float>(step.heat().temperature(state, slot)));
 }
@@ -88,7 +112,7 @@ void add(const Step<Dim>& step, int slot, int field, const NodeIndex<Dim>& node,
 }  // namespace
 
 template <int Dim>
-void write_grid(const std::filesystem::path& vtu, const Step<Dim>& step) {
+void write_grid(const std::filesystem::path& vtu, const Step<Dim>& step, const Scene& scene) {
   const State<Dim>& state = step.state();
   const std::vector<Meeting> meetings = meetings_of(step);
   const double* mass = state.nodes.column(Nodal::mass);
@@ -109,11 +133,14 @@ void write_grid(const std::filesystem::path& vtu, const Step<Dim>& step) {
   file.add_point_data("contact_normal", columns.normal, kAxes);
   file.add_point_data("separation", columns.separation);
   file.add_point_data("contact_impulse", columns.impulse, kAxes);
+  if (step.plan().bridges) file.add_point_data("jump", columns.jump, kAxes);
+  if (any_law(scene, [](const auto& law) { return std::is_same_v<std::decay_t<decltype(law)>, Cohesive>; }))
+    file.add_point_data("damage", columns.damage);
   if (step.heat().active()) file.add_point_data("temperature", columns.temperature);
   file.write(vtu, state.time);
 }
 
-template void write_grid(const std::filesystem::path&, const Step<2>&);
-template void write_grid(const std::filesystem::path&, const Step<3>&);
+template void write_grid(const std::filesystem::path&, const Step<2>&, const Scene&);
+template void write_grid(const std::filesystem::path&, const Step<3>&, const Scene&);
 
 }  // namespace mpmfast

@@ -84,6 +84,8 @@ class Step {
   std::uint64_t nodes_peak() const { return nodes_peak_; }
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
+  /// Of it, what springs and bonds between surfaces hold, J.
+  double joint_energy() const { return contact_.books().stored; }
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
   /// All that lasts from one step to the next: filled from an archive, a step of the same scene goes on to

@@ -155,18 +155,18 @@ TEST_CASE("what left the grid ends a row of the history where the scene lets it 
   CHECK(lines[1].ends_with(",3,0.25,0.5,1,2"));
 }
 
-TEST_CASE("what bonds lost ends a row of the history where surfaces have some") {
+TEST_CASE("what bonds lost and hold ends a row of the history where surfaces have some") {
   const TemporaryFolder folder;
   Scene scene = small_scene(Space::plane_strain);
   scene.contact.law.acts = Cohesive{};
   HistoryFile file(folder.path(), scene);
   HistoryRow row;
-  row.dissipated = 3, row.interface = 7;
+  row.dissipated = 3, row.interface = 7, row.joints = 9;
   file.append(row);
   const auto lines = lines_of(read_text(folder.path() / "history.csv"));
   REQUIRE(lines.size() == 2);
-  CHECK(lines[0].ends_with(",dissipated_J,interface_J"));
-  CHECK(lines[1].ends_with(",3,7"));
+  CHECK(lines[0].ends_with(",dissipated_J,interface_J,interface_stored_J"));
+  CHECK(lines[1].ends_with(",3,7,9"));
 }
 
 TEST_CASE("a piston's strain is what it moved towards the wall that it faces, by their first distance") {

@@ -189,7 +189,7 @@ TEST_CASE("a condition on a node stands at the nearest node of the grid") {
 
 TEST_CASE("every law and choice of contact is listed with its keys") {
   const auto laws = catalogue("laws");
-  REQUIRE(laws.size() == 10);
+  REQUIRE(laws.size() == 11);
   CHECK(laws[0].keys == "friction = 0, static_friction = 0");
   CHECK(laws[7].keys == "viscosity, film");
   CHECK(catalogue("areas").size() == 2);

@@ -271,12 +271,12 @@ TEST_CASE("interfaces go on to the bit on any number of threads, with the energy
       "contact: {law: interface, normal_stiffness: 2 GPa/mm, compression_stiffness: 9 GPa/mm, "
       "shear_stiffness: 1 GPa/mm}\n";
   check_goes_on<2>(kPlane + springs, 12, 24);
-  check_goes_on<2>(kPlane +
+  check_goes_on<2>(std::string(kPlane) +
                        "contact: {law: interface, normal_stiffness: 0, compression_stiffness: 20 GPa/mm, "
                        "shear_stiffness: 0, friction: 0.3, jumps: integrated}\n",
                    12, 24);
   check_goes_on<2>(
-      kPlane +
+      std::string(kPlane) +
           "contact: {law: nonlinear_interface, friction: 0.3, normal_curve: [[-1 um, -9 MPa], [0, 0], "
           "[1 um, 1 MPa], [4 um, 0]], shear_curve: [[0, 0], [1 um, 2 MPa], [5 um, 1 MPa]]}\n",
       12, 24);

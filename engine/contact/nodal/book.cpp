@@ -114,7 +114,7 @@ void Contact<Dim>::book_friction(const State<Dim>& state) {
       if (!springs && entry.first.isZero(0) && entry.second.isZero(0)) continue;
       const int law = pair_of(state, node, entry);
       entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
-      const LawScope scope = scope_of(state, node, entry);
+      const LawScope scope = scope_of(laws_[static_cast<std::size_t>(law + 1)], entry);
       if (scope == LawScope::contact || scope == LawScope::bonded) {
         // In a lump, each touching pair is seen from both sides.
         const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;

@@ -52,11 +52,10 @@ bool Contact<Dim>::is_joined(const State<Dim>& state, const ContactNode<Dim>& no
 }
 
 template <int Dim>
-LawScope Contact<Dim>::scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                                const ContactEntry<Dim>& entry) const {
+LawScope Contact<Dim>::scope_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const {
   LawScope scope{};
-  std::visit([&](const auto& law) { as_it_is(entry, law, [&](const auto& now) { scope = now.scope; }); },
-             law_of(state, node, entry));
+  std::visit([&](const auto& one) { as_it_is(entry, one, [&](const auto& now) { scope = now.scope; }); },
+             law);
   return scope;
 }
 
@@ -81,8 +80,7 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       const int slot_a = slot_of(entry.a), slot_b = slot_of(other);
       const double* mass = state.nodes.column(Nodal::mass);
       const double m_a = mass[slot_a], m_b = mass[slot_b];
-      const bool joined = is_joined(state, node, entry),
-                 touches = scope_of(state, node, entry) == LawScope::contact;
+      const bool joined = is_joined(state, node, entry), touches = scope_of(law, entry) == LawScope::contact;
       const double a = state.nodes.vector(Nodal::volume_gradient, slot_a).dot(entry.normal),
                    b = -state.nodes.vector(Nodal::volume_gradient, slot_b).dot(entry.normal);
       const double area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));

@@ -193,30 +193,31 @@ bool Value::read_columns(Measure kind, PointList& table) const {
   return good;
 }
 
-bool Value::read_pairs(const Points& form, const char* list, const char* pair, PointList& out) const {
+bool Value::read_pairs(const Points& form, const std::string& no_list, const std::string& pair,
+                       PointList& out) const {
   bool good = is_list(1);
-  if (!good) complain(fmt::format("not a {} (one or more pairs {})", list, pair));
-  for (std::size_t k = 0; good && k < size(); ++k)
-    if (!item(k).is_list(2, 2)) {
-      item(k).complain(fmt::format("not a pair {}", pair));
+  if (!good) complain(no_list);
+  for (std::size_t k = 0; is(Node::Kind::list) && k < size(); ++k) {
+    const Value one = item(k);
+    if (!one.is_list(2, 2)) {
+      one.complain("not a pair " + pair);
       good = false;
+      continue;
     }
-  for (std::size_t k = 0; good && k < size(); ++k) {
-    const auto along = item(k).item(0).quantity(form.along);
-    const auto value = item(k).item(1).quantity(form.value);
-    good = along && value;
+    const auto along = one.item(0).quantity(form.along);
+    const auto value = one.item(1).quantity(form.value);
+    good = good && along && value;
     out.along.push_back(along.value_or(0));
     out.value.push_back(value.value_or(0));
   }
   return good;
 }
 
-bool Value::rises(const std::vector<double>& values, Measure kind, const char* plural) const {
+bool Value::rises(const std::vector<double>& values, Measure kind, const std::string& fault) const {
   for (std::size_t k = 1; k < values.size(); ++k) {
     if (values[k] > values[k - 1]) continue;
     const char* unit = kind_of(kind).si;
-    report(fmt::format("{} must increase, but {} {} follows {} {}", plural, values[k], unit, values[k - 1],
-                       unit));
+    report(fmt::format("{}, but {} {} follows {} {}", fault, values[k], unit, values[k - 1], unit));
     return false;
   }
   return true;
@@ -228,18 +229,20 @@ std::optional<TimeTable> Value::table(Measure kind) const {
     return constant ? std::optional(TimeTable{{0}, {*constant}}) : std::nullopt;
   }
   PointList table;
-  const bool good = is(Node::Kind::map) ? read_columns(kind, table)
-                                        : read_pairs({Measure::time, kind}, "table", "[time, value]", table);
-  if (!good || !rises(table.along, Measure::time, "times")) return std::nullopt;
+  const bool good = is(Node::Kind::map)
+                        ? read_columns(kind, table)
+                        : read_pairs({Measure::time, kind}, "not a table (one or more pairs [time, value])",
+                                     "[time, value]", table);
+  if (!good || !rises(table.along, Measure::time, "times must increase")) return std::nullopt;
   return TimeTable{std::move(table.along), std::move(table.value)};
 }
 
 std::optional<Value::PointList> Value::points(const Points& form) const {
   PointList out;
   const std::string pair = fmt::format("[{}, {}]", noun_of(form.along), noun_of(form.value)),
-                    plural = plural_of(form.along);
-  if (!read_pairs(form, "curve", pair.c_str(), out) || !rises(out.along, form.along, plural.c_str()))
-    return std::nullopt;
+                    no_list = fmt::format("not a curve (one or more pairs {})", pair),
+                    fault = plural_of(form.along) + " must increase";
+  if (!read_pairs(form, no_list, pair, out) || !rises(out.along, form.along, fault)) return std::nullopt;
   return out;
 }
 

@@ -86,8 +86,9 @@ class Value {
 
  private:
   bool read_columns(Measure kind, PointList& table) const;
-  bool read_pairs(const Points& form, const char* list, const char* pair, PointList& out) const;
-  bool rises(const std::vector<double>& values, Measure kind, const char* plural) const;
+  bool read_pairs(const Points& form, const std::string& no_list, const std::string& pair,
+                  PointList& out) const;
+  bool rises(const std::vector<double>& values, Measure kind, const std::string& fault) const;
 
   const Node* node_;
   std::string path_;

@@ -134,10 +134,12 @@ void check_curves(Keys& map, const AnyLaw& law) {
   if (!curves || !map.good()) return;
   check_curve(map, "normal_curve", curves->normal_curve, true);
   check_curve(map, "shear_curve", curves->shear_curve, false);
-  if (!curves->has_overlap()) return;
-  for (const char* name : {"compression", "compression_stiffness"})
-    if (map.stated(name))
-      map.check(name, [&](Slot& slot) { slot.report("normal_curve says already what overlap does"); });
+  const bool said_twice = curves->compression != Pressed::spring || curves->compression_stiffness > 0;
+  if (!curves->has_overlap() || !said_twice) return;
+  const char* name = curves->compression != Pressed::spring ? "compression" : "compression_stiffness";
+  map.check(map.stated(name) ? name : "normal_curve", [&](Slot& slot) {
+    slot.report(fmt::format("normal_curve says already what overlap does, {} does too", name));
+  });
 }
 
 /// All that any law may say.
