@@ -184,7 +184,9 @@ TEST_CASE(
 }
 
 /// Twice as thick and half as long as those above, whose second bending (2510 Hz) is in tune with their slip:
-/// a hundred periods hand that over, without a loss.
+/// a hundred periods hand that over, without a loss. Turned ones have domains that turn with them: the pair
+/// spins by an eighth of a radian on the way, and boxes that stay along the grid (uGIMP) make 15 % of energy
+/// then.
 TEST_CASE("slow: two stiff blocks on an interface keep their period and their energy for a hundred periods") {
   const Size size{40, 8};
   const double mass = 0.04 * 0.008 * 1000, inertia = mass * (0.04 * 0.04 + 0.008 * 0.008) / 12;
@@ -193,15 +195,16 @@ TEST_CASE("slow: two stiff blocks on an interface keep their period and their en
                          std::sqrt(0.5e9 * 0.04 * (2 / mass + 0.008 * 0.008 / (2 * inertia)));
   for (double angle : {0.0, std::numbers::pi / 6}) {
     CAPTURE(angle);
+    const std::string basis = angle > 0 ? "method: {basis: lcpdi}\n" : "";
     const Vec<2> tangent(std::cos(angle), std::sin(angle)), normal(-tangent[1], tangent[0]);
-    const Swing across = swing(blocks(angle, 0, 0.2, size), normal, 100),
-                along = swing(blocks(angle, 0.2, 0, size), tangent, 100);
+    const Swing across = swing(basis + blocks(angle, 0, 0.2, size), normal, 100),
+                along = swing(basis + blocks(angle, 0.2, 0, size), tangent, 100);
     MESSAGE("across ", across.period / opening - 1, " energy ", across.energy - 1, " along ",
             along.period / sliding - 1, " energy ", along.energy - 1);
-    CHECK(across.period == doctest::Approx(opening).epsilon(0.005).scale(0));
-    CHECK(across.energy == doctest::Approx(1).epsilon(0.005));
-    CHECK(along.period == doctest::Approx(sliding).epsilon(0.005).scale(0));
-    CHECK(along.energy == doctest::Approx(1).epsilon(0.005));
+    CHECK(across.period == doctest::Approx(opening).epsilon(0.005).scale(0));  // measured 0.2, 0.13 %
+    CHECK(across.energy == doctest::Approx(1).epsilon(0.002));                 // measured -0.08, -0.01 %
+    CHECK(along.period == doctest::Approx(sliding).epsilon(0.005).scale(0));   // measured 0.39, 0.41 %
+    CHECK(along.energy == doctest::Approx(1).epsilon(0.008));                  // measured 0.48, -0.62 %
   }
 }
 
