@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "kernels/contact/curved_springs.hpp"
+#include "kernels/contact/laws.hpp"
 
 namespace mpmfast {
 namespace {
@@ -157,6 +158,38 @@ TEST_CASE("slip in three dimensions is held along itself") {
     CHECK(end.dot(Vec<3>(0.6, 0.8, 0)) ==
           doctest::Approx(CurvedSlip{shear, 2}.rate_after(plane, dt, false)[1]).epsilon(1e-12));
   }
+}
+
+/// What friction takes on the mean slip is what motion and springs lose, to round-off: beside straight
+/// springs and curves, sticking and sliding, and in steps of any length.
+TEST_CASE("friction beside springs: rests or takes its share of the pressure, and the balance closes") {
+  const double mass = 1.3, area = 2;
+  for (double dt : {0.01, 0.4, 5.0})
+    for (double pressed : {0.0, 0.02, 0.3, 50.0}) {
+      CAPTURE(dt);
+      CAPTURE(pressed);
+      const PairStart<3> start{mass, Vec<3>::UnitZ(), {0.3, -0.4, 0.1}, {0.8, 0.5, -3}, {0.1, 0.4, 2}};
+      const auto check = [&](const auto& spring, const auto& stored) {
+        const Rubbed<3> rubbed = rub(Coulomb{0.5, 0.6}, pressed, spring, start, dt);
+        const Vec<3> from = start.across(start.jump), rate = start.across(start.rate),
+                     drawn = start.across(start.opening), mean = 0.5 * (rate + rubbed.rate),
+                     to = from + dt * mean;
+        CHECK(rubbed.rate[2] == 0);
+        CHECK(rubbed.impulse.norm() <= 0.6 * pressed + 1e-12);
+        if (!rubbed.rate.isZero(0)) {  // slides: against the slip that it leaves, or stops
+          CHECK(rubbed.impulse.norm() == doctest::Approx(0.5 * pressed));
+        }
+        const Vec<3> change =
+            mass * (rubbed.rate - rate) + rubbed.impulse - dt * drawn + dt * spring.mean_force(from, to);
+        CHECK(change.norm() < 1e-9);  // Newton's law with all forces
+        const double moved = 0.5 * mass * (rubbed.rate.squaredNorm() - rate.squaredNorm());
+        CHECK(moved + stored(to) - stored(from) + rubbed.impulse.dot(mean) - dt * drawn.dot(mean) ==
+              doctest::Approx(0).scale(1 + std::abs(moved)).epsilon(1e-9));
+      };
+      check(SlipSpring{6}, [](const Vec<3>& slip) { return 3 * slip.squaredNorm(); });
+      check(CurvedSlip{kSlip, area}, [&](const Vec<3>& slip) { return area * kSlip.energy(slip.norm()); });
+      check(CurvedSlip{kNone, area}, [](const Vec<3>&) { return 0.0; });
+    }
 }
 
 }  // namespace
