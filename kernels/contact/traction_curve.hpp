@@ -46,9 +46,9 @@ struct TractionCurve {
     for (int k = 1; k + 1 < pieces(); ++k) most = std::max(most, std::abs(slope(k)));
     return most;
   }
-  /// The largest T(δ)/δ of jumps above 0, Pa/m: it is at a point. For T(0) = 0.
+  /// The largest T(δ)/δ of jumps above 0, Pa/m: at a point, or at 0. For T(0) = 0.
   double largest_secant() const {
-    double most = 0;
+    double most = std::max(0.0, slope(piece_of(0, true)));
     for (std::size_t n = 0; n < jump.size(); ++n)
       if (jump[n] > 0) most = std::max(most, traction[n] / jump[n]);
     return most;
