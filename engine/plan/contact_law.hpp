@@ -42,9 +42,9 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
     for (double* one : all) *one = std::min(*one, kStiffest * unit);
   }
   if (auto* curves = std::get_if<NonlinearInterface>(&law)) {
-    double& stiffness = curves->compression_stiffness;
-    stiffness = std::min(stiffness, kStiffest * stiffest_modulus(scene) / cell);
-    curves->normal_curve = curves->pressed_curve(cell);
+    const double most = kStiffest * stiffest_modulus(scene) / cell;
+    curves->normal_curve = curves->pressed_curve(cell).widened(most);
+    curves->shear_curve = curves->shear_curve.widened(most);
   }
   if (auto* bond = std::get_if<Cohesive>(&law)) {
     const double unit = stiffest_modulus(scene) / cell;

@@ -58,9 +58,9 @@ enum class DetectionKind { both, velocity, separation };
 enum class AreaKind { volume_gradient, nodal_volume };
 /// Nodes of three or more fields: each against the lump of the others, pair by pair where one or two touch
 /// (N20 §3.4), or all pairs that touch at once.
+enum class ManyFields { lump, pairs, simultaneous };
 /// Where interfaces know the jump of displacements from, as their bodies move through the cells.
 enum class JumpKind { extrapolated, integrated };
-enum class ManyFields { lump, pairs, simultaneous };
 
 /// What becomes of a particle a cell beyond the grid: the run stops as failed, or goes on without it; or
 /// walls let none come there.

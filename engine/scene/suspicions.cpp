@@ -263,6 +263,8 @@ class Suspicions {
     } else if (const auto* curves = std::get_if<NonlinearInterface>(&law.acts)) {
       stiff(curves->normal_curve.steepest(), path + ".normal_curve");
       stiff(curves->shear_curve.steepest(), path + ".shear_curve");
+      reach(curves->normal_curve, path + ".normal_curve");
+      reach(curves->shear_curve, path + ".shear_curve");
       stiff(curves->compression_stiffness, path + ".compression_stiffness");
     } else if (const auto* bond = std::get_if<Cohesive>(&law.acts)) {
       stiff(bond->initial_stiffness, path + ".initial_stiffness");
@@ -283,6 +285,16 @@ class Suspicions {
                       stiffness),
           fmt::format("Up to {:.3g} Pa/m; time.cfl {:.2g}, or smaller cells, would follow this one", most,
                       scene_.time.cfl * std::sqrt(most / stiffness)));
+  }
+
+  /// Springs of surfaces that are a cell apart let go.
+  void reach(const TractionCurve& curve, const std::string& path) {
+    const double cell = scene_.grid.cell, last = curve.jump.back();
+    if (last > cell && curve.traction.back() != curve.at(cell))
+      say(path,
+          fmt::format("goes on to {:.3g} m, and surfaces that are a cell apart ({:g} m) let go before", last,
+                      cell),
+          "Larger cells, or another unit");
   }
 
   /// Ahead of a crack the bond softens over about E G/σ² (Hillerborg 1976), which cells must resolve; and it

@@ -42,8 +42,10 @@ inline double rate_after_curve(const TractionCurve& curve, double area, double m
     const double length = (opens ? curve.upper(k) : curve.lower(k)) - from;
     const double square = a + 0.5 * slope, linear = 2 * a * way - drive + traction,
                  constant = (a * way - drive) * way + stored;
-    if (!std::isfinite(length) || (square * length + linear) * length + constant >= 0) {
-      const double root = nearest_root(square, linear, constant, opens);
+    const double root = nearest_root(square, linear, constant, opens);
+    const bool inside =
+        linear * linear >= 4 * square * constant && root != 0 && std::abs(root) <= std::abs(length);
+    if (inside || !std::isfinite(length) || (square * length + linear) * length + constant >= 0) {
       way += opens ? std::min(root, length) : std::max(root, length);
       break;
     }
@@ -70,14 +72,15 @@ struct CurvedSlip {
   const TractionCurve& curve;
   double area;  ///< m²
 
+  /// m_e, kg: of the steepest stiffness whatever the mean one, since a constant inertia keeps the energy.
+  double inertia(double mass, double dt, bool alone) const {
+    return (alone ? oscillator_mass(curve.steepest() * area, mass, dt) : 1) * mass;
+  }
   /// The rate of the slip at the end of the step, m/s. Where several fit, it is the one that moves least.
   template <int Dim>
   Vec<Dim> rate_after(const PairStart<Dim>& joint, double dt, bool alone) const {
-    // Of the steepest stiffness whatever the mean one: a constant inertia keeps the energy.
-    const double share = alone ? oscillator_mass(curve.steepest() * area, joint.mass, dt) : 1;
-    const auto rate_with = [&](double secant) {
-      return slip_rate_with(secant * area, share * joint.mass / dt, joint, dt);
-    };
+    const double per_time = inertia(joint.mass, dt, alone) / dt;
+    const auto rate_with = [&](double secant) { return slip_rate_with(secant * area, per_time, joint, dt); };
     const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate);
     const double from = slip.norm();
     const double secant = largest_root(curve.largest_secant(), [&](double mean) {

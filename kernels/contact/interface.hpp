@@ -109,10 +109,13 @@ Vec<Dim> slip_rate_with(double stiffness, double inertia, const PairStart<Dim>& 
 struct SlipSpring {
   double stiffness;
 
+  /// m_e, kg.
+  double inertia(double mass, double dt, bool alone) const {
+    return (alone ? oscillator_mass(stiffness, mass, dt) : 1) * mass;
+  }
   template <int Dim>
   Vec<Dim> rate_after(const PairStart<Dim>& joint, double dt, bool alone) const {
-    const double share = alone ? oscillator_mass(stiffness, joint.mass, dt) : 1;
-    return slip_rate_with(stiffness, share * joint.mass / dt, joint, dt);
+    return slip_rate_with(stiffness, inertia(joint.mass, dt, alone) / dt, joint, dt);
   }
   /// Its mean force between two slips, N.
   template <int Dim>
@@ -142,22 +145,23 @@ struct Rubbed {
 };
 
 /// Friction of surfaces that springs press (NN §5.7), beside a spring along them: they rest, or what law
-/// there is says how much of the momentum that rest would take is taken.
+/// there is says how much of the momentum that rest would take is taken. The inertia is that of the spring
+/// without friction: one that changed as surfaces press and part would make energy.
 /// @param law      of Sliding (sliding.hpp)
 /// @param pressed  the impulse of the normal springs, N s, positive in compression
 template <int Dim, class Law, class Spring>
-Rubbed<Dim> rub(const Law& law, double pressed, const Spring& spring, const PairStart<Dim>& joint,
-                double dt) {
+Rubbed<Dim> rub(const Law& law, double pressed, const Spring& spring, const PairStart<Dim>& joint, double dt,
+                bool alone) {
   const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
                  drawn = joint.across(joint.opening);
   const Vec<Dim> held = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
-  const Vec<Dim> stick = joint.mass * rate + dt * (drawn - held);
+  const Vec<Dim> stick = spring.inertia(joint.mass, dt, alone) * rate + dt * (drawn - held);
   const double needed = stick.norm(), limit = law({pressed, needed, joint.mass});
   if (needed <= limit) return {Vec<Dim>::Zero(), stick};
   const Vec<Dim> impulse = limit / needed * stick;
   PairStart<Dim> rubbed = joint;
   rubbed.opening -= impulse / dt;
-  return {spring.rate_after(rubbed, dt, false), impulse};
+  return {spring.rate_after(rubbed, dt, alone), impulse};
 }
 
 }  // namespace mpmfast

@@ -160,6 +160,41 @@ TEST_CASE("slip in three dimensions is held along itself") {
   }
 }
 
+TEST_CASE("a curve that is widened reaches every traction, with no piece too steep, and knows its energy") {
+  const TractionCurve wide = kJoint.widened(2);
+  CHECK(wide.jump == std::vector<double>{-10, -2, 0, 1.5, 3.5, 5});
+  CHECK(wide.traction == kJoint.traction);
+  CHECK(wide.steepest() == 2);
+  TractionCurve plain{wide.jump, wide.traction};
+  for (double x : {-11.0, -3.0, -1.0, 0.0, 0.4, 1.5, 3.0, 4.0, 9.0})
+    CHECK(wide.energy(x) == doctest::Approx(plain.energy(x)));
+  CHECK(kSlip.widened(1e9).jump == kSlip.jump);
+  CHECK(kSlip.widened(1e9).largest_secant() == 2);
+  CHECK(kNone.widened(1).energy(3) == 0);
+}
+
+/// With a = 1, on the second piece, u behind its start, a s² − drive s + W is −0.9 + 2.1 u − u²: 0 at 0.6 and
+/// again at 1.5, and below at its end.
+TEST_CASE("a jump ends where it is first held, also within a piece that falls") {
+  const TractionCurve falls{{0, 1, 3}, {0, 4, -4}};
+  const double rate = rate_after_curve(falls, 1, 0.5, 1, {0, 3.9, 0}, false);
+  CHECK(0.5 * (3.9 + rate) == doctest::Approx(1.6).epsilon(1e-12));
+}
+
+/// A coefficient next to nothing does next to nothing, however stiff the springs.
+TEST_CASE("friction that vanishes leaves the springs as they are") {
+  for (double dt : {0.1, 1.0, 30.0}) {
+    const PairStart<2> start{0.7, Vec<2>::UnitX(), {-0.2, 0.3}, {-1, 0.6}, {0.1, 0.2}};
+    const SlipSpring spring{9};
+    const CurvedSlip curve{kSlip, 2};
+    CHECK((rub(Coulomb{1e-12, 0}, 1, spring, start, dt, true).rate - spring.rate_after(start, dt, true))
+              .norm() < 1e-10);
+    CHECK(
+        (rub(Coulomb{1e-12, 0}, 1, curve, start, dt, true).rate - curve.rate_after(start, dt, true)).norm() <
+        1e-10);
+  }
+}
+
 /// What friction takes on the mean slip is what motion and springs lose, to round-off: beside straight
 /// springs and curves, sticking and sliding, and in steps of any length.
 TEST_CASE("friction beside springs: rests or takes its share of the pressure, and the balance closes") {
@@ -170,7 +205,7 @@ TEST_CASE("friction beside springs: rests or takes its share of the pressure, an
       CAPTURE(pressed);
       const PairStart<3> start{mass, Vec<3>::UnitZ(), {0.3, -0.4, 0.1}, {0.8, 0.5, -3}, {0.1, 0.4, 2}};
       const auto check = [&](const auto& spring, const auto& stored) {
-        const Rubbed<3> rubbed = rub(Coulomb{0.5, 0.6}, pressed, spring, start, dt);
+        const Rubbed<3> rubbed = rub(Coulomb{0.5, 0.6}, pressed, spring, start, dt, false);
         const Vec<3> from = start.across(start.jump), rate = start.across(start.rate),
                      drawn = start.across(start.opening), mean = 0.5 * (rate + rubbed.rate),
                      to = from + dt * mean;

@@ -199,12 +199,12 @@ bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const Contac
 /// Friction of surfaces that an entry's springs press; none where contact holds them apart.
 template <int Dim>
 void Contact<Dim>::rub_pressed(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt,
-                               Vec<Dim>& end) const {
+                               bool alone, Vec<Dim>& end) const {
   bridge.friction.setZero();
   const auto rub_with = [&](const Coulomb& friction, const auto& along) {
     const double pressed = joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
     if (friction.friction == 0 || !(pressed > 0)) return;
-    const Rubbed<Dim> rubbed = rub(friction, pressed, along, joint, dt);
+    const Rubbed<Dim> rubbed = rub(friction, pressed, along, joint, dt, alone);
     end = end.dot(joint.normal) * joint.normal + rubbed.rate;
     bridge.friction = rubbed.impulse;
   };
@@ -235,7 +235,7 @@ Vec<Dim> Contact<Dim>::pull_of(const AnyLaw& law, const ContactEntry<Dim>& entry
   } else {
     end = rate_after(bridge.springs, joint, dt, alone);
   }
-  rub_pressed(law, bridge, joint, dt, end);
+  rub_pressed(law, bridge, joint, dt, alone, end);
   const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
   return node.constrained ? free_part(node, impulse) : impulse;
 }

@@ -138,7 +138,8 @@ void check_curves(Keys& map, const AnyLaw& law) {
   if (!curves->has_overlap() || !said_twice) return;
   const char* name = curves->compression != Pressed::spring ? "compression" : "compression_stiffness";
   map.check(map.stated(name) ? name : "normal_curve", [&](Slot& slot) {
-    slot.report(fmt::format("normal_curve says already what overlap does, {} does too", name));
+    slot.report(fmt::format("normal_curve says already what overlap does, {} does too", name),
+                map.stated(name) ? "" : "It is that of `contact`");
   });
 }
 
