@@ -54,18 +54,12 @@ const WallSpec* piston_of(const BoundarySpec& boundary) {
 /// Do surfaces of the scene lose energy as they part?
 bool has_bonds(const Scene& scene) {
   const auto breaks = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
-  const auto& pairs = scene.contact.pairs;
-  return scene.contact.active &&
-         (breaks(scene.contact.law) ||
-          std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return breaks(pair.law); }));
+  return scene.contact.active && scene.contact.any(breaks);
 }
 
 /// Do springs or bonds join surfaces of the scene?
 bool has_joints(const Scene& scene) {
-  const auto& pairs = scene.contact.pairs;
-  return scene.contact.active && (joins(scene.contact.law.acts) ||
-                                  std::any_of(pairs.begin(), pairs.end(),
-                                              [](const ContactPair& pair) { return joins(pair.law.acts); }));
+  return scene.contact.active && scene.contact.any([](const SurfaceLaw& law) { return joins(law.acts); });
 }
 
 /// How much further apart than at first a piston and what it faces are, by their first distance: negative in

@@ -64,11 +64,7 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
 /// Does any pair of the scene obey a law for which this holds?
 template <class F>
 bool any_law(const Scene& scene, F holds) {
-  const auto of = [&](const SurfaceLaw& law) { return std::visit(holds, law_on(law, scene)); };
-  if (of(scene.contact.law)) return true;
-  for (const ContactPair& pair : scene.contact.pairs)
-    if (of(pair.law)) return true;
-  return false;
+  return scene.contact.any([&](const SurfaceLaw& law) { return std::visit(holds, law_on(law, scene)); });
 }
 
 }  // namespace mpmfast

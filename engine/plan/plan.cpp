@@ -126,10 +126,7 @@ void plan_heat(const Scene& scene, Plan& plan) {
   const auto conducts = [](const SurfaceLaw& law) {
     return law.conductance.touching > 0 || law.conductance.gap > 0;
   };
-  const bool crossed = plan.contact && plan.contact_geometry &&
-                       (conducts(scene.contact.law) ||
-                        std::any_of(scene.contact.pairs.begin(), scene.contact.pairs.end(),
-                                    [&](const ContactPair& pair) { return conducts(pair.law); }));
+  const bool crossed = plan.contact && plan.contact_geometry && scene.contact.any(conducts);
   if (fed || crossed) need_column(Nodal::volume_gradient, plan);
   if (plan.contact) need_column(Nodal::volume, plan);  // which of several fields a lump stands for
 }

@@ -98,13 +98,13 @@ void add(const Step<Dim>& step, int slot, int field, const NodeIndex<Dim>& node,
     out.velocity.push_back(real ? static_cast<float>(velocity[k]) : 0);
     out.normal.push_back(meeting.normal[static_cast<std::size_t>(d)]);
     out.impulse.push_back(meeting.impulse[static_cast<std::size_t>(d)]);
-    out.jump.push_back(meeting.jump[static_cast<std::size_t>(d)]);
+    if (step.plan().bridges) out.jump.push_back(meeting.jump[static_cast<std::size_t>(d)]);
   }
   out.field.push_back(static_cast<std::uint16_t>(field));
   out.mass.push_back(state.nodes.column(Nodal::mass)[slot]);
   out.separation.push_back(meeting.separation);
   out.touching.push_back(meeting.touching);
-  out.damage.push_back(meeting.damage);
+  if (step.plan().bridges) out.damage.push_back(meeting.damage);
   if (step.heat().active())
     out.temperature.push_back(static_cast<float>(step.heat().temperature(state, slot)));
 }

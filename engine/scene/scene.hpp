@@ -3,6 +3,7 @@
 /// @file The scene: what a user states, resolved to SI units with every default filled in.
 /// Read by engine/scene/read_scene.hpp, consumed by engine/plan. Plain values, no behaviour.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -254,6 +255,13 @@ struct ContactSpec {
   bool decides_once() const {
     return corrections == 2 && persistent && advance_separation && detection == DetectionKind::both &&
            separation != SeparationKind::none;
+  }
+
+  /// Does this hold of the law of all pairs, or of one of `pairs`?
+  template <class F>
+  bool any(F holds) const {
+    return holds(law) ||
+           std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return holds(pair.law); });
   }
 };
 

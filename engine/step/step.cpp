@@ -423,43 +423,6 @@ void Step<Dim>::move_rigid_end(double dt) {
   travelled_ += report.fastest * dt;
 }
 
-template <int Dim>
-void Step<Dim>::book(double dt) {
-  sums_.boundary_work += conditions_.work();
-  sums_.friction_work += conditions_.friction_work();
-  for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
-    sums_.boundary_impulse[b] += dt * conditions_.force()[b];
-  if (plan_.contact) book(contact_.books());
-  if (plan_.penalty) book(penalty_.books());
-  if (plan_.gravity) sums_.body_force_work += body_force_work_;
-}
-
-template <int Dim>
-void Step<Dim>::book(const ContactBooks<Dim>& books) {
-  sums_.friction_work += books.friction_work;
-  sums_.boundary_work += books.rigid_work;
-  sums_.interface_loss += books.lost;
-  for (std::size_t f = 0; f < sums_.rigid_impulse.size(); ++f) {
-    sums_.rigid_impulse[f] += books.rigid_impulse[f];
-    sums_.rigid_moment[f] += books.rigid_moment[f];
-  }
-  for (std::size_t k = 0; k < sums_.pair_impulse.size(); ++k) {
-    sums_.pair_impulse[k] += books.pair_impulse[k];
-    sums_.pair_friction_work[k] += books.pair_friction_work[k];
-  }
-}
-
-template <int Dim>
-double Step<Dim>::stored_energy() {
-  return mpmfast::stored_energy(state_) + contact_.books().stored +
-         (state_.step > 0 ? penalty_.stored_energy(state_) : 0) - heat_.sums().stored;
-}
-
-template <int Dim>
-double Step<Dim>::dissipated_energy() {
-  return mpmfast::dissipated_energy(state_);
-}
-
 template class Step<2>;
 template class Step<3>;
 

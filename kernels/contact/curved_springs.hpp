@@ -18,7 +18,7 @@
 
 namespace mpmfast {
 
-/// The root of a u² + b u + c, c not positive times u, that is nearest to 0 on one side of it.
+/// The root of a u² + b u + c that is nearest to 0 on one side of it; 0 where there is none.
 inline double nearest_root(double a, double b, double c, bool above) {
   const double q = -0.5 * (b + std::copysign(std::sqrt(std::max(0.0, b * b - 4 * a * c)), b));
   const double first = a != 0 ? q / a : 0, second = q != 0 ? c / q : 0;

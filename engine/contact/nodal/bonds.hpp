@@ -11,8 +11,8 @@ namespace mpmfast {
 template <int Dim>
 void let_go(const Cohesive& law, const Bridge<Dim>& bridge, Bond<Dim>& bond) {
   const double along = bridge.jump.dot(bridge.normal);
-  bond.lost =
-      0.5 * law.integrity_of(bond.way) * bridge.springs.tension * parted<Dim>(bridge.jump, bridge.normal).squared();
+  bond.lost = 0.5 * law.integrity_of(bond.way) * bridge.springs.tension *
+              parted<Dim>(bridge.jump, bridge.normal).squared();
   if (along < 0) bond.lost += 0.5 * bridge.springs.compression * along * along;
   bond.way = 1;
 }

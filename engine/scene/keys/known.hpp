@@ -19,19 +19,8 @@ namespace mpmfast {
 
 /// One form that a value may have.
 struct Form {
-  enum class Kind {
-    word,
-    truth,
-    whole,
-    quantity,
-    table,
-    points,
-    text,
-    name,
-    vector,
-    list,
-    map
-  };  ///< as shown
+  /// In the order in which they are shown.
+  enum class Kind { word, truth, whole, quantity, table, points, text, name, vector, list, map };
   static constexpr int kNoEnd = std::numeric_limits<int>::max();
 
   Kind kind;

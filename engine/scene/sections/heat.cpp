@@ -183,11 +183,7 @@ void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlac
   if (scene.contact.family == ContactFamily::penalty)
     stated.report("heat does not cross surfaces that are followed (contact.family: penalty) yet");
   const auto ties = [](const SurfaceLaw& law) { return std::holds_alternative<Perfect>(law.acts); };
-  const auto& pairs = scene.contact.pairs;
-  const bool tied =
-      ties(scene.contact.law) ||
-      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return ties(pair.law); });
-  if (tied && scene.contact.active &&
+  if (scene.contact.active && scene.contact.any(ties) &&
       std::any_of(scene.bodies.begin(), scene.bodies.end(),
                   [&](const BodySpec& body) { return is_rigid(scene, body); }))
     stated.report("heat does not know bodies that are tied to rigid ones (law: perfect)", "law: stick");

@@ -57,10 +57,7 @@ void check_penalty(const Value& top, const Scene& scene) {
         },
         law.acts);
   };
-  const auto& pairs = scene.contact.pairs;
-  if (bonds(scene.contact.law) ||
-      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return bonds(pair.law); }))
-    stated.report("penalty contact only pushes: it has no bonds");
+  if (scene.contact.any(bonds)) stated.report("penalty contact only pushes: it has no bonds");
   if (scene.grid.leaving == LeavingKind::outflow)
     stated.report("surfaces are followed whole: none may flow out (grid.leaving)");
   if (scene.space == Space::axisymmetric)
@@ -69,10 +66,7 @@ void check_penalty(const Value& top, const Scene& scene) {
 
 /// Springs join two bodies each, whose displacements tell how far they are apart.
 void check_interfaces(const Value& top, const Scene& scene) {
-  const auto& pairs = scene.contact.pairs;
-  if (!joins(scene.contact.law.acts) &&
-      std::none_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return joins(pair.law.acts); }))
-    return;
+  if (!scene.contact.any([](const SurfaceLaw& law) { return joins(law.acts); })) return;
   const Value stated = *top.find("contact");
   if (scene.contact.fields != ManyFields::simultaneous)
     stated.report("interfaces join bodies in pairs: fields: simultaneous was expected");
@@ -86,10 +80,7 @@ void check_interfaces(const Value& top, const Scene& scene) {
 /// A crack parts what is bonded.
 void check_crack(const Value& top, const Scene& scene) {
   const auto bonds = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
-  const auto& pairs = scene.contact.pairs;
-  if (!scene.contact.cracked || bonds(scene.contact.law) ||
-      std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return bonds(pair.law); }))
-    return;
+  if (!scene.contact.cracked || scene.contact.any(bonds)) return;
   top.find("contact")->find("crack")->report(
       "nothing is bonded that a crack could part: law: cohesive was expected");
 }
