@@ -65,18 +65,23 @@ void Contact<Dim>::visit(Archive& archive) {
     touch = static_cast<std::uint8_t>(entry.touching | entry.stuck << 1);
     std::copy(entry.plane, entry.plane + Dim + 1, plane);
   });
-  std::vector<double> jumps(bridges_ ? Dim * keys_.size() : 0);
+  std::vector<double> jumps(bridges_ ? 2 * Dim * keys_.size() : 0);  // each with the normal it was seen on
   std::vector<std::uint8_t> known(bridges_ ? keys_.size() : 0);
   if (bridges_) list_.bridges.resize(keys_.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
     known[k] = list_.bridges[k].known;
-    for (std::size_t d = 0; d < Dim; ++d) jumps[Dim * k + d] = list_.bridges[k].jump[static_cast<int>(d)];
+    const auto& bridge = list_.bridges[k];
+    std::copy(bridge.jump.data(), bridge.jump.data() + Dim, jumps.data() + 2 * Dim * k);
+    std::copy(bridge.jump_normal.data(), bridge.jump_normal.data() + Dim, jumps.data() + (2 * k + 1) * Dim);
   }
   archive.column("contact/jumps", jumps.data(), jumps.size());
   archive.column("contact/known_jumps", known.data(), known.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
-    list_.bridges[k].known = known[k] != 0;
-    for (std::size_t d = 0; d < Dim; ++d) list_.bridges[k].jump[static_cast<int>(d)] = jumps[Dim * k + d];
+    auto& bridge = list_.bridges[k];
+    bridge.known = known[k] != 0;
+    const double* jump = jumps.data() + 2 * Dim * k;
+    std::copy(jump, jump + Dim, bridge.jump.data());
+    std::copy(jump + Dim, jump + 2 * Dim, bridge.jump_normal.data());
   }
   if (bonds_) {
     std::vector<double> bonds((Dim + 1) * keys_.size());

@@ -80,6 +80,16 @@ inline double rate_after_springs(double tension, double compression, double mass
   return 2 * way / dt - start.rate;
 }
 
+/// x turned as the least rotation turns one unit vector into another; where these are more than a right angle
+/// apart, x.
+template <int Dim>
+Vec<Dim> turned(const Vec<Dim>& from, const Vec<Dim>& to, const Vec<Dim>& x) {
+  const double cosine = from.dot(to);
+  if (!(cosine > 0)) return x;
+  const Vec<Dim> both = from + to;
+  return x - both.dot(x) / (1 + cosine) * both + 2 * from.dot(x) * to;
+}
+
 /// Two fields of a node at the start of a step, as what joins them sees them.
 template <int Dim>
 struct PairStart {

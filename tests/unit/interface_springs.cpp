@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <numbers>
 
@@ -86,6 +88,18 @@ TEST_CASE("surfaces that springs leave free in tension part with the speed they 
   Oscillator o{0.0, 50.0, 1.0, 0.1, 0.3, -1.0};
   while (!(o.jump > 0 && o.rate > 0)) o.step();
   CHECK(o.rate == doctest::Approx(1).epsilon(0.005));
+}
+
+TEST_CASE("what is turned with a normal keeps its parts along it and across, and its length") {
+  const Vec<3> from = Vec<3>(1, 2, -2) / 3, x(0.3, -0.7, 0.2);
+  for (const Vec<3>& towards : {Vec<3>(2, 2, -2), Vec<3>(1, 2, -1.9), Vec<3>(1, 2, -2)}) {
+    const Vec<3> to = towards.normalized(), y = turned<3>(from, to, x), axis = from.cross(to);
+    CHECK(y.dot(to) == doctest::Approx(x.dot(from)).epsilon(1e-14));
+    CHECK(y.norm() == doctest::Approx(x.norm()).epsilon(1e-14));
+    CHECK(y.dot(axis) == doctest::Approx(x.dot(axis)).epsilon(1e-14));  // nothing turns about the normal
+    CHECK((turned<3>(from, to, from) - to).norm() < 1e-15);
+  }
+  CHECK(turned<3>(from, Vec<3>(-from), x) == x);  // another surface
 }
 
 }  // namespace

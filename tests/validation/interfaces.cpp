@@ -339,6 +339,34 @@ gravity: [0, -1000 m/s^2]
   }
 }
 
+/// Normals that are fitted to the clouds of an oblique joint come and go by three degrees. A jump that stays
+/// as they do holds more or less on springs of two stiffnesses: 0.94 % of the energy here.
+TEST_CASE("blocks that meet on an oblique joint and rub keep the energy that friction leaves") {
+  for (const char* friction : {"0", "0.3"}) {
+    CAPTURE(std::string(friction));
+    const Outcome out = run(scene_from(R"(
+space: plane_strain
+grid: {size: [24 mm, 20 mm], cell: 0.5 mm}
+time: {end: 12 us}
+materials: {rock: {model: linear_elastic, density: 2.6 g/cm^3, young: 50 GPa, poisson: 0.2}}
+bodies:
+  - {name: a, polygon: [[2 mm, 1 mm], [16 mm, 1 mm], [16 mm, 6 mm], [2 mm, 11.25 mm]], material: rock}
+  - name: b
+    polygon: [[2 mm, 11.25 mm], [16 mm, 6 mm], [16 mm, 14 mm], [2 mm, 18 mm]]
+    material: rock
+    velocity: [0, -1 m/s]
+contact:
+  law: nonlinear_interface
+  normal_curve: [[-3 um, -9 MPa], [-1 um, -1 MPa], [0, 0]]
+  shear_curve: [[0, 0], [2 um, 1 MPa], [20 um, 0.6 MPa]]
+output: {frames: 0}
+)",
+                                       {{"contact.friction", friction}}));
+    MESSAGE("energy ", out.summary.energy_error);
+    CHECK(std::abs(out.summary.energy_error) < 2e-3);  // measured -1e-5 and 9e-4
+  }
+}
+
 /// Bonds elsewhere in the scene had made springs pass for broken ones, which touch.
 TEST_CASE("springs beside bonds of another pair are those without them, to the bit") {
   const auto speeds = [](const char* pairs) {

@@ -87,6 +87,10 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       if (bonds_) bond_of(entry).area = area;
       if (joined) {
         bridge.normal = entry.normal;
+        // Fitted normals come and go by some degrees: across or along, springs of two stiffnesses would hold
+        // more or less of a jump that stays.
+        if (bridge.known) bridge.jump = turned<Dim>(bridge.jump_normal, bridge.normal, bridge.jump);
+        bridge.jump_normal = bridge.normal;
         bridge.recalls = bridge.known && spec_.jumps == JumpKind::integrated;
         bridge.told = bridge.recalls ? bridge.jump : told_jump(state, node, slot_a, slot_b);
         bridge.own_area = area;

@@ -157,6 +157,7 @@ void Contact<Dim>::recall(const State<Dim>& state) {
         auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
         bridge.jump = before.jump;
         bridge.known = before.known;
+        bridge.jump_normal = before.jump_normal;
       }
       if (bonds_) {
         const Bond<Dim>& before = last_bonds_[static_cast<std::size_t>(last - memory_.begin())];

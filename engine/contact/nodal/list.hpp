@@ -50,20 +50,21 @@ template <int Dim>
 struct Bridge {
   Vec<Dim> jump = Vec<Dim>::Zero();  ///< u_b − u_a at the start of the step, at its end when that is done, m
   bool known = false;                ///< the jump is that of the last step's end
-  Vec<Dim> told = Vec<Dim>::Zero();      ///< what else says of it at the start, m
-  bool recalls = false;                  ///< that is the jump that the node has had
-  Vec<Dim> normal = Vec<Dim>::Zero();    ///< as ContactEntry::normal, also where walls hold a part of it
-  bool acts = false;                     ///< springs join the two here
-  Vec<Dim> rate = Vec<Dim>::Zero();      ///< v_b − v_a at the start, m/s
-  Vec<Dim> pulls = Vec<Dim>::Zero();     ///< what forces change of it, m/s²
-  int a = -1, b = -1;                    ///< which of the node's fields
-  double inverse_a = 0, inverse_b = 0;   ///< of their masses, 1/kg; a rigid one has none
-  double own_area = 0, mean_area = 0;    ///< of the surface at the node: the lighter side's, the mean, m²
-  double area = 0;                       ///< that the springs have, m²
-  Springs springs{};                     ///< there, where they are straight or a bond unharmed, N/m
-  Vec<Dim> impulse = Vec<Dim>::Zero();   ///< Δp_a, N s
-  Vec<Dim> friction = Vec<Dim>::Zero();  ///< of it: of friction where springs press
-  double friction_work = 0;              ///< J, of this step
+  Vec<Dim> jump_normal = Vec<Dim>::Zero();  ///< of the surface that a known jump was last seen on
+  Vec<Dim> told = Vec<Dim>::Zero();         ///< what else says of it at the start, m
+  bool recalls = false;                     ///< that is the jump that the node has had
+  Vec<Dim> normal = Vec<Dim>::Zero();       ///< as ContactEntry::normal, also where walls hold a part of it
+  bool acts = false;                        ///< springs join the two here
+  Vec<Dim> rate = Vec<Dim>::Zero();         ///< v_b − v_a at the start, m/s
+  Vec<Dim> pulls = Vec<Dim>::Zero();        ///< what forces change of it, m/s²
+  int a = -1, b = -1;                       ///< which of the node's fields
+  double inverse_a = 0, inverse_b = 0;      ///< of their masses, 1/kg; a rigid one has none
+  double own_area = 0, mean_area = 0;       ///< of the surface at the node: the lighter side's, the mean, m²
+  double area = 0;                          ///< that the springs have, m²
+  Springs springs{};                        ///< there, where they are straight or a bond unharmed, N/m
+  Vec<Dim> impulse = Vec<Dim>::Zero();      ///< Δp_a, N s
+  Vec<Dim> friction = Vec<Dim>::Zero();     ///< of it: of friction where springs press
+  double friction_work = 0;                 ///< J, of this step
 };
 
 /// What lasts of a bond at an entry whose law breaks (kernels/contact/cohesive.hpp): how much of it is worn,
