@@ -130,6 +130,29 @@ std::string blocks(double angle, double along, double across, const Size& size =
          "contact: {law: interface, normal_stiffness: 1 GPa/m, shear_stiffness: 0.5 GPa/m}\n";
 }
 
+/// Takes from a state at its start the turn of all that is in it: surfaces that slip have one.
+void stop_turning(State<2>& state) {
+  const auto& particles = state.particles;
+  const auto mass = [&](std::size_t p) { return particles.column(Quantity::mass)[p]; };
+  double total = 0, turn = 0, inertia = 0;
+  Vec<2> middle = Vec<2>::Zero();
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    total += mass(p);
+    middle += mass(p) * particles.vector(Quantity::position, p);
+  }
+  const auto arm = [&](std::size_t p) -> Vec<2> {
+    const Vec<2> x = particles.vector(Quantity::position, p) - middle / total;
+    return {-x[1], x[0]};
+  };
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    turn += mass(p) * particles.vector(Quantity::velocity, p).dot(arm(p));
+    inertia += mass(p) * arm(p).squaredNorm();
+  }
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    for (int d = 0; d < 2; ++d)
+      state.particles.column(Quantity::velocity, d)[p] -= turn / inertia * arm(p)[d];
+}
+
 /// Periods of the relative velocity of the two along a direction, s; and how much energy is left.
 struct Swing {
   double period, energy;
@@ -139,6 +162,7 @@ Swing swing(const std::string& yaml, const Vec<2>& direction, int periods) {
   const Scene scene = scene_from(yaml);
   Step<2> step(scene);
   auto& state = step.state();
+  stop_turning(state);
   const auto relative = [&] {
     double sum = 0;
     for (std::size_t p = 0; p < state.particles.size(); ++p)
@@ -184,9 +208,7 @@ TEST_CASE(
 }
 
 /// Twice as thick and half as long as those above, whose second bending (2510 Hz) is in tune with their slip:
-/// a hundred periods hand that over, without a loss. Turned ones have domains that turn with them: the pair
-/// spins by an eighth of a radian on the way, and boxes that stay along the grid (uGIMP) make 15 % of energy
-/// then.
+/// a hundred periods hand that over, without a loss. Turned ones have domains that turn with them.
 TEST_CASE("slow: two stiff blocks on an interface keep their period and their energy for a hundred periods") {
   const Size size{40, 8};
   const double mass = 0.04 * 0.008 * 1000, inertia = mass * (0.04 * 0.04 + 0.008 * 0.008) / 12;
@@ -203,8 +225,8 @@ TEST_CASE("slow: two stiff blocks on an interface keep their period and their en
             along.period / sliding - 1, " energy ", along.energy - 1);
     CHECK(across.period == doctest::Approx(opening).epsilon(0.005).scale(0));  // measured 0.2, 0.13 %
     CHECK(across.energy == doctest::Approx(1).epsilon(0.002));                 // measured -0.08, -0.01 %
-    CHECK(along.period == doctest::Approx(sliding).epsilon(0.005).scale(0));   // measured 0.39, 0.41 %
-    CHECK(along.energy == doctest::Approx(1).epsilon(0.008));                  // measured 0.48, -0.62 %
+    CHECK(along.period == doctest::Approx(sliding).epsilon(0.005).scale(0));   // measured 0.32, 0.41 %
+    CHECK(along.energy == doctest::Approx(1).epsilon(0.001));                  // measured -0.01, -0.03 %
   }
 }
 
