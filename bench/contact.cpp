@@ -31,7 +31,8 @@ void geometry(benchmark::State& state, Grains kind, NormalKind normal, Separatio
   scene.contact.normal = normal;
   scene.contact.separation = separation;
   const Plan plan = make_plan(scene);
-  Contact<2> contact(scene, plan);
+  const Cracks<2> cracks(scene, plan);
+  Contact<2> contact(scene, plan, cracks);
   const auto passes = make_passes<2>(plan.basis);
   for (auto _ : state) {
     contact.find_nodes(running->step.state());

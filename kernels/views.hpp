@@ -46,12 +46,18 @@ struct ParticleRun {
 };
 
 /// The particles of one velocity field whose supports begin in one tile of nodes, and the nodes they touch.
+/// Where a crack runs through, those that see the same side of it on every node: several such tiles follow
+/// each other.
 template <int Dim>
 struct ParticleTile {
   int field;
   int run_begin, run_end;   ///< into the list of runs
   int window[Dim];          ///< node coordinates of the window's first node
   int slot[kCorners<Dim>];  ///< first slot of each node tile under the window
+  int others = 0;           ///< tiles of the same place and field that follow
+  bool cracked = false;     ///< its particles reach nodes where others are behind a crack
+  /// Where nodes take the side of a crack: the slot of each under the window; −1: no particle reaches it
+  const int* node_slot = nullptr;
 };
 
 template <int Dim>

@@ -117,14 +117,16 @@ void SurfaceWalls<Dim>::list_near(const State<Dim>& state) {
         continue;
       Near near{static_cast<int>(t), static_cast<int>(w), {}, {}};
       for (int k = 0; k < kAcross; ++k) {
-        int corner = 0, local = 0, rest = k;
-        for (int d = 0, bit = 1, stride = 1; d < Dim; ++d, bit *= 2, stride *= kTileSide) {
+        int corner = 0, local = 0, rest = k, window = 0;
+        for (int d = 0, bit = 1, stride = 1, across = 1; d < Dim;
+             ++d, bit *= 2, stride *= kTileSide, across *= kWindowSide) {
           const int offset = d == wall.axis ? layer : rest % kWindowSide;
           if (d != wall.axis) rest /= kWindowSide;
           corner += offset >= kTileSide ? bit : 0;
           local += offset % kTileSide * stride;
+          window += offset * across;
         }
-        const int slot = tile.slot[corner] + local;
+        const int slot = tile.node_slot ? tile.node_slot[window] : tile.slot[corner] + local;
         const auto found = std::lower_bound(begin, end, std::pair(slot, 0));
         near.column[static_cast<std::size_t>(k)] = found != end && found->first == slot ? found->second : -1;
       }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/contact/books.hpp"
+#include "engine/contact/cracks/cracks.hpp"
 #include "engine/contact/fitter.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/plan/plan.hpp"
@@ -29,7 +30,7 @@ enum class PairOutcome { none, solved, lump };
 template <int Dim>
 class Contact {
  public:
-  Contact(const Scene& scene, const Plan& plan);
+  Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks);
 
   /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
   void find_nodes(const State<Dim>& state);
@@ -88,6 +89,8 @@ class Contact {
   void grid_normals(const State<Dim>& state);
   void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   void grid_separations(const State<Dim>& state);
+  void crack_separations(const State<Dim>& state);
+  bool parts(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   template <class Laws>
   void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
   template <class Laws>
@@ -184,6 +187,7 @@ class Contact {
               const Together& together) const;
   template <class Laws, class F>
   void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
+  int law_between(const ContactEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const;
   template <class Laws>
   bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                         const ContactNode<Dim>& node);
@@ -222,8 +226,9 @@ class Contact {
   double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
 
   ContactSpec spec_;
+  const Cracks<Dim>& cracks_;
   PairTable pairs_;
-  std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
+  std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs, then those of cracks
   const Conditions<Dim>* conditions_ = nullptr;
   double cell_, cell_volume_;
   double dt_ = 0;        ///< of the step, s

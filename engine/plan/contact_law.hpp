@@ -61,10 +61,13 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
   return law;
 }
 
-/// Does any pair of the scene obey a law for which this holds?
+/// Does any pair of the scene, or a crack, obey a law for which this holds?
 template <class F>
 bool any_law(const Scene& scene, F holds) {
-  return scene.contact.any([&](const SurfaceLaw& law) { return std::visit(holds, law_on(law, scene)); });
+  const auto on_grid = [&](const SurfaceLaw& law) { return std::visit(holds, law_on(law, scene)); };
+  return scene.contact.any(on_grid) ||
+         std::any_of(scene.cracks.begin(), scene.cracks.end(),
+                     [&](const CrackSpec& crack) { return on_grid(crack.law); });
 }
 
 }  // namespace mpmfast

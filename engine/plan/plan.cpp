@@ -57,6 +57,27 @@ void plan_fields(const Scene& scene, Plan& plan) {
   }
 }
 
+/// Fields for the sides of what is cracked, behind all others.
+void plan_sides(const Scene& scene, Plan& plan) {
+  const std::size_t bodies = plan.fields.size();
+  plan.first_side.assign(bodies, -1);
+  plan.sides.assign(bodies, 0);
+  std::vector<int> cracks(bodies, 0);
+  for (const CrackSpec& crack : scene.cracks)
+    ++cracks[static_cast<std::size_t>(plan.body_field[static_cast<std::size_t>(crack.body)])];
+  for (std::size_t f = 0; f < bodies; ++f) {
+    if (cracks[f] == 0) continue;
+    plan.first_side[f] = static_cast<int>(plan.fields.size());
+    plan.sides[f] = cracks[f] > 1 ? 3 : 1;
+    for (int side = 1; side <= plan.sides[f]; ++side) {
+      plan.fields.push_back(plan.fields[f]);
+      plan.field_rigid.push_back(false);
+      plan.field_acceleration.push_back(plan.field_acceleration[f]);
+      if (!plan.pairs.empty()) plan.pairs.group.push_back(plan.pairs.group[f]);
+    }
+  }
+}
+
 void need_column(Nodal q, Plan& plan) {
   plan.geometry = true;
   auto& columns = plan.nodal_columns;
@@ -94,8 +115,8 @@ void plan_areas(const Scene& scene, Plan& plan) {
   if (any_law(scene, [](const auto& law) { return law.uses_area; }))
     need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
   if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
-  if (!plan.bridges) return;
-  need(Nodal::volume_gradient);
+  if (!plan.displacements) return;
+  if (plan.bridges) need(Nodal::volume_gradient);
   need(Nodal::mass_offset);
   need(Nodal::mass_slope);
   if (scene.contact.separation != SeparationKind::displacement)
@@ -226,12 +247,14 @@ Plan make_plan(const Scene& scene) {
   // Rigid bodies move the others even where these share one field.
   const auto acts = [](const auto& law) { return law.scope != LawScope::nowhere; };
   const auto ties = [](const auto& law) { return law.scope == LawScope::everywhere; };
-  const bool meets = plan.fields.size() > 1 && any_law(scene, acts);
+  const auto touches = [&](const auto& law) { return acts(law) && !ties(law); };
+  const bool meets = plan.fields.size() > 1 && any_law(scene, acts), cracked = !scene.cracks.empty();
   plan.penalty = meets && scene.contact.family == ContactFamily::penalty;
-  plan.contact = meets && !plan.penalty;
-  plan.contact_geometry = any_law(scene, [&](const auto& law) { return acts(law) && !ties(law); });
+  plan.contact = (meets && !plan.penalty) || cracked;
+  plan.contact_geometry = any_law(scene, touches);
   const auto bridges = [](const auto& law) { return law.scope == LawScope::bridged; };
   plan.bridges = plan.contact && any_law(scene, bridges);
+  plan.displacements = plan.bridges || (cracked && plan.contact_geometry);
   plan.exact_fields = plan.bridges || any_law(scene, ties);
   plan.first_correction = scene.contact.corrections == 2;
   plan.one_set = plan.re_extrapolate && scene.contact.decides_once();
@@ -252,6 +275,7 @@ Plan make_plan(const Scene& scene) {
       plan.field_acceleration[static_cast<std::size_t>(plan.body_field[b])][d] = a;
       plan.gravity |= a != 0;
     }
+  plan_sides(scene, plan);
   plan_columns(scene, plan);
   list_passes(scene, plan);
   return plan;

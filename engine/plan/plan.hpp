@@ -37,6 +37,7 @@ struct Plan {
   bool one_set = false;           ///< which pairs touch is decided once a step, for both corrections and v′
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool bridges = false;           ///< some pair is joined by springs
+  bool displacements = false;     ///< are projected with their slopes: for the jumps of interfaces and cracks
   bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
   bool geometry = false;          ///< volume gradients and mean positions are projected
   bool heat = false;              ///< temperatures are conducted
@@ -47,7 +48,10 @@ struct Plan {
   std::vector<int> body_field;      ///< as Scene::bodies
   std::vector<bool> field_rigid;
   std::vector<Vec3> field_acceleration;  ///< m/s², gravity and the bodies' own; zero of rigid ones
-  PairTable pairs;                       ///< laws of their own between fields; empty: one law for all
+  /// By field: its sides behind cracks, fields of their own from this number on; −1: none crosses it.
+  std::vector<int> first_side;
+  std::vector<int> sides;  ///< how many of them: 1, or 3 where two cracks may meet on a node
+  PairTable pairs;         ///< laws of their own between fields; empty: one law for all
   std::vector<Quantity> particle_columns;
   std::vector<Nodal> nodal_columns;
   std::vector<std::string> passes;  ///< of a step, in order

@@ -197,6 +197,13 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.depth = plan.depth;
   state.body_field = plan.body_field;
   state.field_rigid = plan.field_rigid;
+  state.field_base.clear();
+  for (std::size_t f = 0; f < plan.fields.size(); ++f) state.field_base.push_back(static_cast<int>(f));
+  for (std::size_t f = 0; f < plan.first_side.size(); ++f)
+    for (int side = 0; side < plan.sides[f]; ++side)
+      state.field_base[static_cast<std::size_t>(plan.first_side[f] + side)] = static_cast<int>(f);
+  if (std::any_of(plan.sides.begin(), plan.sides.end(), [](int sides) { return sides > 0; }))
+    state.tiling.set_sides(plan.first_side);
   for (const auto& m : scene.materials)
     state.materials.push_back(make_material(m, scene.grid.cell, plan.heat));
 

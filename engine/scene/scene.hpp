@@ -265,6 +265,15 @@ struct ContactSpec {
   }
 };
 
+/// A surface inside a body, closed at the start, whose sides touch by a law.
+struct CrackSpec {
+  std::string name;
+  int body = -1;
+  std::vector<std::array<double, 2>> points;  ///< m; its corners, or those of an arc
+  double spacing = 0;                         ///< of the points that follow it, m
+  SurfaceLaw law;                             ///< between its sides
+};
+
 /// When a run writes its state down, beside at a signal and at its end.
 struct CheckpointSpec {
   bool active = true;  ///< false: never
@@ -294,6 +303,7 @@ struct Scene {
   std::vector<BoundarySpec> boundaries;
   GravitySpec gravity;
   ContactSpec contact;
+  std::vector<CrackSpec> cracks;
   HeatSpec heat;
   OutputSpec output;
   std::string resolved_yaml;  ///< the scene with every default written out; reading it gives this scene again

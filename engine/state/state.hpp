@@ -22,6 +22,7 @@ struct State {
   std::vector<BodyView<Dim>> bodies;
   std::vector<int> body_field;  ///< velocity field of each body
   std::vector<bool> field_rigid;
+  std::vector<int> field_base;  ///< of sides of cracks the field of the body; of others themselves
   Depth depth = Depth::held;
   std::vector<Material> materials;  ///< as Scene::materials; rigid ones hold a default
   int threads = 1;                  ///< that the passes use

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 #include <utility>
 
 namespace mpmfast {
@@ -56,20 +57,20 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
 
 /// Puts the column in order, by way of the spare keys: a column of its own to swap with would cost as much
 /// memory again.
+/// @param begin, end  beyond these all stay where they are
 template <class T>
-void permute(Column<T>& column, SortBuffers& buffers) {
+void permute(Column<T>& column, std::int64_t begin, std::int64_t end, SortBuffers& buffers) {
   static_assert(sizeof(T) <= sizeof(std::uint64_t));
-  const auto n = static_cast<std::int64_t>(buffers.order.size());
   T* values = column.data();
-#pragma omp parallel if (buffers.order.size() > kFewest)
+#pragma omp parallel if (end - begin > static_cast <std::int64_t>(kFewest))
   {
 #pragma omp for schedule(static)
-    for (std::int64_t i = 0; i < n; ++i) {
+    for (std::int64_t i = begin; i < end; ++i) {
       const auto at = static_cast<std::size_t>(i);
       std::memcpy(&buffers.spare[at], values + buffers.order[at], sizeof(T));
     }
 #pragma omp for schedule(static)
-    for (std::int64_t i = 0; i < n; ++i)
+    for (std::int64_t i = begin; i < end; ++i)
       std::memcpy(values + i, &buffers.spare[static_cast<std::size_t>(i)], sizeof(T));
   }
 }
@@ -107,11 +108,26 @@ NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
 template <int Dim>
 void Tiling<Dim>::start_keys(std::size_t n, std::size_t bodies) {
   bodies_ = kinds_ * static_cast<int>(bodies);
+  groups_ = first_side_.empty() ? 1 : kMostGroups;
   buffers_.key.resize(n);
+  mapped_.clear();
+  maps_.clear();
+}
+
+template <int Dim>
+void Tiling<Dim>::set_groups(int field, const NodeIndex<Dim>& tile, const std::vector<SideMap<Dim>>& maps) {
+  const auto key =
+      (static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile))) *
+      static_cast<std::uint64_t>(groups_);
+  for (std::size_t group = 0; group < maps.size(); ++group) {
+    mapped_.push_back(key + group + 1);
+    maps_.push_back(maps[group]);
+  }
 }
 
 template <int Dim>
 void Tiling<Dim>::build(Particles<Dim>& particles, const std::vector<int>& body_field) {
+  order_maps();
   sort(particles);
   cut_runs(particles, body_field);
   number_slots();
@@ -122,6 +138,13 @@ template <int Dim>
 void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field) {
   archive.list("tiling/keys", buffers_.key);
   archive.number("tiling/bodies", bodies_);
+  if (!first_side_.empty()) {
+    groups_ = kMostGroups;
+    archive.list("tiling/mapped", mapped_);
+    maps_.resize(mapped_.size());
+    archive.column("tiling/sides", reinterpret_cast<std::uint8_t*>(maps_.data()),
+                   maps_.size() * sizeof(SideMap<Dim>));
+  }
   if (archive.reading() && !buffers_.key.empty()) build(particles, body_field);
 }
 
@@ -169,16 +192,23 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
     largest = std::max(largest, buffers_.key[p]);
   }
   radix_sort(buffers_, largest);
+  std::size_t begin = 0, end = n;
+  while (begin < n && buffers_.order[begin] == begin) ++begin;
+  while (end > begin && buffers_.order[end - 1] == end - 1) --end;
+  const auto in_order = [&](auto& column) {
+    permute(column, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end), buffers_);
+  };
   for (Quantity q : particles.quantities())
-    for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.raw(q, k), buffers_);
-  permute(particles.id(), buffers_);
-  permute(particles.body(), buffers_);
+    for (int k = 0; k < Particles<Dim>::components(q); ++k) in_order(particles.raw(q, k));
+  in_order(particles.id());
+  in_order(particles.body());
 }
 
 template <int Dim>
 void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field) {
   tiles.clear();
   runs.clear();
+  tile_keys_.clear();
   const auto n = static_cast<std::uint32_t>(particles.size());
   const auto cells = static_cast<std::uint64_t>(kTileNodes<Dim>);
   std::uint64_t last_tile = ~std::uint64_t{0};
@@ -197,17 +227,25 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
     if (tile_key != last_tile) {
       ParticleTile<Dim> tile{};
       tile.field = body_field[static_cast<std::size_t>(run.body)];
-      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key % all_places()));
+      const auto groups = static_cast<std::uint64_t>(groups_);
+      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key / groups % all_places()));
       for (int d = 0; d < Dim; ++d) tile.window[d] = at[d] * kTileSide;
       tile.run_begin = tile.run_end = static_cast<int>(runs.size());
       tiles.push_back(tile);
+      if (groups_ > 1) tile_keys_.push_back(tile_key);
       last_tile = tile_key;
     }
     runs.push_back(run);
     tiles.back().run_end = static_cast<int>(runs.size());
   }
+  // Groups of a place write to the same nodes: they follow their first, which alone has a colour.
+  for (std::size_t t = tile_keys_.size(), others = 0; t-- > 0;) {
+    tiles[t].others = static_cast<int>(others);
+    const auto place_key = [&](std::size_t k) { return tile_keys_[k] / static_cast<std::uint64_t>(groups_); };
+    others = t > 0 && place_key(t) == place_key(t - 1) ? others + 1 : 0;
+  }
   for (auto& colour : colours) colour.clear();
-  for (std::size_t t = 0; t < tiles.size(); ++t) {
+  for (std::size_t t = 0; t < tiles.size(); t += 1 + static_cast<std::size_t>(tiles[t].others)) {
     unsigned colour = 0;
     for (int d = 0; d < Dim; ++d) colour |= static_cast<unsigned>((tiles[t].window[d] / kTileSide) & 1) << d;
     colours[colour].push_back(static_cast<int>(t));
@@ -246,30 +284,99 @@ int Tiling<Dim>::slot(const NodeIndex<Dim>& node, int field) const {
 }
 
 template <int Dim>
-void Tiling<Dim>::number_slots() {
-  const auto corner_place = [&](const ParticleTile<Dim>& tile, int corner) {
+void Tiling<Dim>::order_maps() {
+  if (std::is_sorted(mapped_.begin(), mapped_.end())) return;
+  std::vector<std::size_t> order(mapped_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return mapped_[a] < mapped_[b]; });
+  std::vector<std::uint64_t> keys;
+  std::vector<SideMap<Dim>> maps;
+  for (const std::size_t k : order) {
+    keys.push_back(mapped_[k]);
+    maps.push_back(maps_[k]);
+  }
+  mapped_.swap(keys);
+  maps_.swap(maps);
+}
+
+template <int Dim>
+const SideMap<Dim>* Tiling<Dim>::sides_of(std::size_t tile) const {
+  if (tile_keys_.empty()) return nullptr;
+  const auto found = std::lower_bound(mapped_.begin(), mapped_.end(), tile_keys_[tile]);
+  const bool mapped = found != mapped_.end() && *found == tile_keys_[tile];
+  return mapped ? &maps_[static_cast<std::size_t>(found - mapped_.begin())] : nullptr;
+}
+
+/// Calls f(corner, place, field) for each node tile under the window of a tile.
+template <int Dim>
+template <class F>
+void Tiling<Dim>::for_each_node_tile(std::size_t t, const F& f) const {
+  const auto& tile = tiles[t];
+  const SideMap<Dim>* sides = sides_of(t);
+  for (int c = 0; c < kCorners<Dim>; ++c) {
     NodeIndex<Dim> at;
-    for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide + (corner >> d & 1);
-    return place(at);
-  };
+    for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide + (c >> d & 1);
+    f(c, place(at), tile.field);
+    if (!sides) continue;
+    unsigned seen = 0;
+    for (int w = 0; w < kWindowNodes<Dim>; ++w) {
+      int corner = 0;
+      for (int d = 0, rest = w; d < Dim; ++d, rest /= kWindowSide)
+        corner |= static_cast<int>(rest % kWindowSide >= kTileSide) << d;
+      const int side = sides->side[static_cast<std::size_t>(w)];
+      if (corner == c && side > 0) seen |= 1u << side;
+    }
+    for (int side = 1; side < 4; ++side)
+      if (seen >> side & 1) f(c, place(at), first_side_[static_cast<std::size_t>(tile.field)] + side - 1);
+  }
+}
+
+/// The slot of each node under the windows where nodes take sides.
+template <int Dim>
+void Tiling<Dim>::number_sides() {
+  std::size_t mapped = 0;
+  for (std::size_t t = 0; t < tiles.size(); ++t) mapped += sides_of(t) != nullptr;
+  node_slots_.assign(mapped * kWindowNodes<Dim>, -1);
+  int* next = node_slots_.data();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    const SideMap<Dim>* sides = sides_of(t);
+    tiles[t].node_slot = sides ? next : nullptr;
+    if (!sides) continue;
+    for (int w = 0; w < kWindowNodes<Dim>; ++w) {
+      const int side = sides->side[static_cast<std::size_t>(w)];
+      if (side < 0) continue;
+      NodeIndex<Dim> node;
+      for (int d = 0, rest = w; d < Dim; ++d, rest /= kWindowSide)
+        node[d] = tiles[t].window[d] + rest % kWindowSide;
+      const int field = tiles[t].field;
+      next[w] = slot(node, side == 0 ? field : first_side_[static_cast<std::size_t>(field)] + side - 1);
+    }
+    next += kWindowNodes<Dim>;
+  }
+}
+
+template <int Dim>
+void Tiling<Dim>::number_slots() {
   node_tiles.clear();
-  for (const auto& tile : tiles)
-    for (int c = 0; c < kCorners<Dim>; ++c) {
-      NodeTile<Dim> node_tile{corner_place(tile, c), tile.field, {}};
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+    for_each_node_tile(t, [&](int, std::int64_t at, int field) {
+      NodeTile<Dim> node_tile{at, field, {}};
       for (int& p : node_tile.particle_tile) p = -1;
       node_tiles.push_back(node_tile);
-    }
+    });
   std::sort(node_tiles.begin(), node_tiles.end(), [](const auto& a, const auto& b) {
     return a.place != b.place ? a.place < b.place : a.field < b.field;
   });
   const auto same = [](const auto& a, const auto& b) { return a.place == b.place && a.field == b.field; };
   node_tiles.erase(std::unique(node_tiles.begin(), node_tiles.end(), same), node_tiles.end());
   for (std::size_t t = 0; t < tiles.size(); ++t)
-    for (int c = 0; c < kCorners<Dim>; ++c) {
-      const int found = find(corner_place(tiles[t], c), tiles[t].field);
-      tiles[t].slot[c] = found * kTileNodes<Dim>;
-      node_tiles[static_cast<std::size_t>(found)].particle_tile[c] = static_cast<int>(t);
-    }
+    for_each_node_tile(t, [&](int c, std::int64_t at, int field) {
+      const int found = find(at, field);
+      if (field == tiles[t].field) tiles[t].slot[c] = found * kTileNodes<Dim>;
+      int& first = node_tiles[static_cast<std::size_t>(found)].particle_tile[c];
+      if (first < 0) first = static_cast<int>(t);
+    });
+  number_sides();
 }
 
 template <int Dim>
@@ -310,7 +417,8 @@ template <int Dim>
 std::size_t Tiling<Dim>::bytes() const {
   return tiles.capacity() * sizeof(ParticleTile<Dim>) + runs.capacity() * sizeof(ParticleRun<Dim>) +
          node_tiles.capacity() * sizeof(NodeTile<Dim>) + stacks.capacity() * sizeof(Stack<Dim>) +
-         buffers_.bytes();
+         (mapped_.capacity() + tile_keys_.capacity()) * sizeof(std::uint64_t) +
+         maps_.capacity() * sizeof(SideMap<Dim>) + node_slots_.capacity() * sizeof(int) + buffers_.bytes();
 }
 
 template class Tiling<2>;

@@ -19,6 +19,13 @@
 
 namespace mpmfast {
 
+/// What sides of cracks the particles of a group see at the nodes of their window (engine/cracks).
+template <int Dim>
+struct SideMap {
+  static constexpr std::int8_t kNone = -1;  ///< no particle of the group reaches the node
+  std::array<std::int8_t, kWindowNodes<Dim>> side;
+};
+
 /// A tile of nodes of one field.
 template <int Dim>
 struct NodeTile {
@@ -58,12 +65,21 @@ class Tiling {
   /// Boundary points lie in runs of their own, behind those of the particles inside.
   void part_surfaces() { kinds_ = 2; }
 
-  /// Makes room for the keys of n particles of some bodies.
+  /// Fields that are the sides of another behind cracks: the first of each, −1 where it has none.
+  void set_sides(const std::vector<int>& first_side) { first_side_ = first_side; }
+
+  /// Makes room for the keys of n particles of some bodies, and forgets the groups of the last sort.
   void start_keys(std::size_t n, std::size_t bodies);
+  /// The sides that the groups of a place of a field see, from group 1 on; 0 sees no other than 0. Before
+  /// set_key.
+  void set_groups(int field, const NodeIndex<Dim>& tile, const std::vector<SideMap<Dim>>& maps);
+  static constexpr int kMostGroups = 256;  ///< of one place
   /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: field,
-  /// place of the particle tile, body, whether it is a boundary point, cell within the tile. Different
+  /// place of the particle tile, group, body, whether it is a boundary point, cell within the tile. Different
   /// particles may have theirs set at once.
-  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface) {
+  /// @param group  of those that see the same sides of cracks
+  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface,
+               int group = 0) {
     NodeIndex<Dim> tile;
     int cell = 0;
     for (int d = Dim - 1; d >= 0; --d) {
@@ -72,6 +88,7 @@ class Tiling {
       cell = cell * kTileSide + (b - tile[d] * kTileSide);
     }
     auto key = static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile));
+    key = key * static_cast<std::uint64_t>(groups_) + static_cast<std::uint64_t>(group);
     key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(kinds_ * body + on_surface);
     buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
   }
@@ -89,6 +106,9 @@ class Tiling {
       if (!leaves(p)) buffers_.order.push_back(static_cast<std::uint32_t>(p));
     keep_ordered(particles);
   }
+
+  /// The sides that the particles of a tile see; null: of no crack.
+  const SideMap<Dim>* sides_of(std::size_t tile) const;
 
   /// The first support node that particle p had when last sorted, to within a node on each side: by its index
   /// now; that of no node where it was not sorted yet.
@@ -135,12 +155,22 @@ class Tiling {
   void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
   void number_slots();
+  void number_sides();
+  void order_maps();
+  template <class F>
+  void for_each_node_tile(std::size_t tile, const F& f) const;
   void stack_up();
 
   std::array<int, 3> span_{1, 1, 1};  ///< tiles along each axis, with a margin
   SortBuffers buffers_;
   int kinds_ = 1;   ///< of runs that a body may have in a tile
   int bodies_ = 1;  ///< times kinds_
+  int groups_ = 1;
+  std::vector<int> first_side_;           ///< by field; empty: no cracks
+  std::vector<std::uint64_t> mapped_;     ///< keys of the tiles with maps (field, place, group), rising
+  std::vector<SideMap<Dim>> maps_;        ///< likewise
+  std::vector<std::uint64_t> tile_keys_;  ///< as `tiles`, in scenes with cracks
+  std::vector<int> node_slots_;           ///< of the windows with maps
 };
 
 extern template class Tiling<2>;

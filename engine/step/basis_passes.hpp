@@ -42,7 +42,7 @@ class BasisPasses final : public Passes<Dim> {
     }
   }
 
-  void sort(State<Dim>& state) override {
+  void sort(State<Dim>& state, Cracks<Dim>* cracks) override {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     state.tiling.start_keys(static_cast<std::size_t>(n), state.bodies.size());
@@ -50,17 +50,31 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleRun<Dim> any{};  // first_node() asks for nothing that differs between bodies
     const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
     const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(n));
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
-    for (std::int64_t p = 0; p < n; ++p) {
+    const auto sorted_node = [&](std::size_t p) {
       NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
+      return first;
+    };
+    if (cracks) cracks->group(state, supports(state), sorted_node);
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
+    for (std::int64_t p = 0; p < n; ++p) {
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
-      state.tiling.set_key(at, first, state.body_field[static_cast<std::size_t>(body)], body,
-                           state.surfaces.holds(body, state.particles.id()[at]));
+      state.tiling.set_key(at, sorted_node(at), state.body_field[static_cast<std::size_t>(body)], body,
+                           state.surfaces.holds(body, state.particles.id()[at]),
+                           cracks ? cracks->group_of(at) : 0);
     }
     state.tiling.build(state.particles, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
+  }
+
+  Supports<Dim> supports(const State<Dim>& state) const override {
+    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
+    const ParticleTile<Dim> nowhere{};
+    const ParticleRun<Dim> any{};
+    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
+    const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
+    return {[all](std::size_t p) { return Basis::first_node(all, static_cast<int>(p)); }, Basis::kMaxSupport};
   }
 
   bool project(State<Dim>& state, bool with_force) override {
@@ -83,20 +97,23 @@ class BasisPasses final : public Passes<Dim> {
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
   }
 
-  void project_geometry(State<Dim>& state) override {
+  void project_geometry(State<Dim>& state, bool cracks_alone) override {
     auto& nodes = state.nodes;
     const GeometryColumns<Dim> out{nodes.columns(Nodal::volume_gradient), nodes.columns(Nodal::mass_position),
                                    nodes.columns(Nodal::mass_displacement),
                                    nodes.template columns<1>(Nodal::volume)};
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      project_geometry_tile<Dim, Basis>(c, room.project, out);
-    });
+    const bool any = out.volume_gradient.column[0] || out.mass_position.column[0] ||
+                     out.mass_displacement.column[0] || out.volume.column[0];
+    if (any)
+      scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+        project_geometry_tile<Dim, Basis>(c, room.project, out);
+      });
     if (!nodes.has(Nodal::mass_slope)) return;
     NodeColumns<Dim + Dim * Dim> displaced;
     for (int k = 0; k < Dim; ++k) displaced.column[k] = nodes.column(Nodal::mass_offset, k);
     for (int k = 0; k < Dim * Dim; ++k) displaced.column[Dim + k] = nodes.column(Nodal::mass_slope, k);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      project_displaced_tile<Dim, Basis>(c, room.project, displaced);
+      if (!cracks_alone || c.tile->cracked) project_displaced_tile<Dim, Basis>(c, room.project, displaced);
     });
   }
 
@@ -257,9 +274,11 @@ class BasisPasses final : public Passes<Dim> {
         const auto n = static_cast<std::int64_t>(colour.size());
 #pragma omp for schedule(dynamic, 4)
         for (std::int64_t k = 0; k < n; ++k) {
-          const int tile = colour[static_cast<std::size_t>(k)];
-          const int field = state.tiling.tiles[static_cast<std::size_t>(tile)].field;
-          f(context(state, view, tile), room, state.field_rigid[static_cast<std::size_t>(field)]);
+          const int first = colour[static_cast<std::size_t>(k)];
+          const auto& of = state.tiling.tiles[static_cast<std::size_t>(first)];
+          const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
+          for (int tile = first; tile <= first + of.others; ++tile)
+            f(context(state, view, tile), room, rigid);
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/contact/cracks/cracks.hpp"
 #include "engine/contact/fitter.hpp"
 #include "engine/heat/carrier.hpp"
 #include "engine/scene/scene.hpp"
@@ -20,7 +21,10 @@ class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
   /// First support node of every particle, and the sort that follows from it.
-  virtual void sort(State<Dim>& state) = 0;
+  /// @param cracks  whose sides the particles are grouped by; none: they have not looked yet
+  virtual void sort(State<Dim>& state, Cracks<Dim>* cracks = nullptr) = 0;
+  /// The nodes that particles reach; valid until the next sort.
+  virtual Supports<Dim> supports(const State<Dim>& state) const = 0;
   /// Mass and momentum of every slot (N20 Eq. 5), and the internal force from stresses as they are if it is
   /// wanted (not of particles with slopes, nor about an axis); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again

@@ -22,7 +22,8 @@ Step<Dim>::Step(const Scene& scene)
       passes_(make_passes<Dim>(scene.method.basis)),
       extension_(scene, plan_),
       conditions_(scene),
-      contact_(scene, plan_),
+      cracks_(scene, plan_),
+      contact_(scene, plan_, cracks_),
       rigid_(scene, plan_, seeded(scene)),
       penalty_(scene, plan_, state_),
       heat_(scene, plan_) {
@@ -96,7 +97,7 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   rigid_.begin(state_, dt);
-  if (plan_.bridges && state_.step == 0) lead_displacements(dt);
+  if (plan_.displacements && state_.step == 0) lead_displacements(dt);
   sort_if_due();
   project();           // N20 Eq. 5
   press_surfaces(dt);  // K24 §3.5, 3.6
@@ -123,6 +124,7 @@ void Step<Dim>::advance(double dt, bool stresses) {
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
   move_rigid_end(dt);
+  if (cracks_.active()) cracks_.move(state_, dt);
   let_leave();
   book(dt);
   state_.time += dt;
@@ -168,8 +170,19 @@ void Step<Dim>::keep_own_velocities() {
 /// date; half a cell is kept for the growth of CPDI domains.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
-  if (!sort_due_ && travelled_ < 0.5 * state_.grid.cell) return;
-  clock_.time(Pass::sort, [&] { passes_->sort(state_); });
+  const bool due = sort_due_ || travelled_ >= 0.5 * state_.grid.cell;
+  if (due) sort(nullptr);
+  if (!cracks_.active()) return;
+  const bool parted =
+      clock_.time(Pass::contact_nodes, [&] { return cracks_.look(state_, passes_->supports(state_)); });
+  if (parted) sort(&cracks_);
+  if (parted || due) cracks_.mark(state_);
+}
+
+/// @param cracks  whose sides are known
+template <int Dim>
+void Step<Dim>::sort(Cracks<Dim>* cracks) {
+  clock_.time(Pass::sort, [&] { passes_->sort(state_, cracks); });
   conditions_.forget_nodes();
   extension_.forget_nodes();
   penalty_.forget_tiles();
@@ -199,7 +212,7 @@ void Step<Dim>::project() {
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
       });
       const bool all_inside = passes_->project(state_, plan_.force_with_mass);
-      if (all_inside && plan_.geometry) passes_->project_geometry(state_);
+      if (all_inside && plan_.geometry) passes_->project_geometry(state_, !plan_.bridges);
       if (all_inside && extension_.active()) passes_->occupy(state_);
       return all_inside;
     });

@@ -81,6 +81,7 @@ class Step {
   const Heat<Dim>& heat() const { return heat_; }
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
+  const Cracks<Dim>& cracks() const { return cracks_; }
   std::uint64_t nodes_peak() const { return nodes_peak_; }
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
@@ -97,6 +98,7 @@ class Step {
   double fastest() const;
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
+  void sort(Cracks<Dim>* cracks);
   void lead_displacements(double dt);
   void project();
   void press_surfaces(double dt);
@@ -141,6 +143,7 @@ class Step {
   std::unique_ptr<Passes<Dim>> passes_;
   Extension<Dim> extension_;
   Conditions<Dim> conditions_;
+  Cracks<Dim> cracks_;
   Contact<Dim> contact_;
   RigidBodies<Dim> rigid_;
   Penalty<Dim> penalty_;

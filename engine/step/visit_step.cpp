@@ -120,6 +120,7 @@ void Step<Dim>::visit(Archive& archive) {
   archive.number("step/nodes_peak", nodes_peak_);
   archive.column("step/seconds", clock_.seconds().data(), clock_.seconds().size());
   visit_sums(archive, "sums", sums_);
+  if (cracks_.active()) cracks_.visit(archive);
   contact_.visit(archive);
   penalty_.visit(archive);
   heat_.visit(archive);

@@ -95,7 +95,7 @@ bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumn
           scatter_linear(w, k, at_first, slope, room.mass_momentum.at[0]);
         }
       });
-  if (inside) flush_window(room.mass_momentum, c.tile->slot, out);
+  if (inside) flush_window(room.mass_momentum, *c.tile, out);
   return inside;
 }
 

@@ -36,7 +36,7 @@ void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const F
           scatter_values(w, k, f, window.at[0]);
         }
       });
-  flush_window(window, c.tile->slot, out);
+  flush_window(window, *c.tile, out);
 }
 
 /// V ← S v of boundary points, P = M (V − S v) beside: momentum −= Σ_p S_pi P_p, and
@@ -50,7 +50,7 @@ void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
   const ParticleView<Dim>& particles = *c.particles;
   auto& grid = room.mass_position;
   Given& given = room.given;
-  load_window(velocity, c.tile->slot, grid);
+  load_window(velocity, *c.tile, grid);
   clear(given);
   for_each_boundary_chunk<Dim, Basis>(
       c, room, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
@@ -71,7 +71,7 @@ void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
           for (int r = 0; r < Given::kRecords; ++r) scatter_values(w, k, gives[r], given.at[r]);
         }
       });
-  flush_window(given, c.tile->slot, out);
+  flush_window(given, *c.tile, out);
 }
 
 }  // namespace mpmfast

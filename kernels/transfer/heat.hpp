@@ -99,8 +99,8 @@ void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, He
                                  scatter_gradients(w, k, along, room.flow.at[0]);
                                }
                              });
-  flush_window(room.content, c.tile->slot, content);
-  flush_window(room.flow, c.tile->slot, flow);
+  flush_window(room.content, *c.tile, content);
+  flush_window(room.flow, *c.tile, flow);
 }
 
 /// One tile of what B makes of nodal temperatures T: Σ_p S_pi C_p (S T + (G T)·(x_i − X_p)), to be divided by
@@ -110,7 +110,7 @@ template <int Dim, class Basis>
 void filter_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, const NodeColumns<1>& in,
                       const NodeColumns<Dim + 1>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  load_window(in, c.tile->slot, room.temperature);
+  load_window(in, *c.tile, room.temperature);
   clear(room.filtered);
   for_each_chunk<Dim, Basis>(c, room.weights, Wanted::both,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
@@ -126,7 +126,7 @@ void filter_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, con
                                  detail::scatter_entries<Dim>(w, k, entries, room.filtered);
                                }
                              });
-  flush_window(room.filtered, c.tile->slot, out);
+  flush_window(room.filtered, *c.tile, out);
 }
 
 /// What heat did to the particles of a tile, J.
@@ -145,7 +145,7 @@ HeatReport update_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& roo
                             bool filtered, const NodeColumns<3>& in) {
   const ParticleView<Dim>& p = *c.particles;
   HeatReport report;
-  load_window(in, c.tile->slot, room.update);
+  load_window(in, *c.tile, room.update);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {

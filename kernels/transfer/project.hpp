@@ -57,7 +57,7 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
         detail::stack_inertia(*c.particles, begin, count, room.record);
         for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
       });
-  if (inside) flush_window(room.mass_momentum, c.tile->slot, out);
+  if (inside) flush_window(room.mass_momentum, *c.tile, out);
   return inside;
 }
 
@@ -88,7 +88,7 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
           }
         }
       });
-  if (inside) flush_window(room.load, c.tile->slot, out);
+  if (inside) flush_window(room.load, *c.tile, out);
   return inside;
 }
 
@@ -143,7 +143,7 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
         }
       });
   const auto flush = [&](auto& window, const auto& columns) {
-    if (columns.column[0]) flush_window(window, c.tile->slot, columns);
+    if (columns.column[0]) flush_window(window, *c.tile, columns);
   };
   flush(room.gradient_volume, out.volume_gradient);
   flush(room.mass_position, out.mass_position);
@@ -197,7 +197,7 @@ void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& 
           }
         }
       });
-  flush_window(window, c.tile->slot, out);
+  flush_window(window, *c.tile, out);
 }
 
 /// The volume of the particles of each cell of the basis, at the first node of their supports: what share of
@@ -211,7 +211,7 @@ void occupy_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
           room.volume.at[0][w.first[k]][0] +=
               static_cast<Real>(section_volume<Dim>(*c.particles, begin + static_cast<std::uint32_t>(k)));
       });
-  flush_window(room.volume, c.tile->slot, out);
+  flush_window(room.volume, *c.tile, out);
 }
 
 }  // namespace mpmfast

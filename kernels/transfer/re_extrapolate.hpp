@@ -51,7 +51,7 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
                          const NodeColumns<Dim + 1>& out) {
   const ParticleView<Dim>& p = *c.particles;
   const bool weighs_pressed = out.column[Dim] != nullptr;
-  load_window(in, c.tile->slot, room.in);
+  load_window(in, *c.tile, room.in);
   clear(room.out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values,
@@ -74,7 +74,7 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
           scatter_values(w, k, m * v, room.out.at[0]);
         }
       });
-  flush_window(room.out, c.tile->slot, out);
+  flush_window(room.out, *c.tile, out);
 }
 
 }  // namespace mpmfast

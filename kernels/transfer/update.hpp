@@ -161,8 +161,8 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
       return room.three;
   }
   ();
-  load_window(entry_columns<Dim, NV>(nodes, strain), c.tile->slot, from.window);
-  if (apart) load_window(for_gradients(strain), c.tile->slot, room.velocity);
+  load_window(entry_columns<Dim, NV>(nodes, strain), *c.tile, from.window);
+  if (apart) load_window(for_gradients(strain), *c.tile, room.velocity);
   for_each_chunk<Dim, Basis>(
       c, room.weights, strains ? Wanted::both : Wanted::values,
       [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {

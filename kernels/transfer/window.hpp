@@ -74,8 +74,8 @@ inline void clear(Window<Dim, NC>& window) {
 
 /// Fills the window from the columns. @param tile_slot first slot of each tile under the window
 template <int Dim, int NC>
-inline void load_window(const NodeColumns<NC>& columns, const int (&tile_slot)[kCorners<Dim>],
-                        Window<Dim, NC>& window) {
+inline void load_rows(const NodeColumns<NC>& columns, const int (&tile_slot)[kCorners<Dim>],
+                      Window<Dim, NC>& window) {
   detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
 #pragma GCC unroll 4
     for (int q = 0; q < window.kQuads; ++q) {
@@ -91,8 +91,8 @@ inline void load_window(const NodeColumns<NC>& columns, const int (&tile_slot)[k
 
 /// Adds the window to the columns. Tiles whose windows overlap must not run at the same time.
 template <int Dim, int NC>
-inline void flush_window(Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
-                         const NodeColumns<NC>& columns) {
+inline void flush_rows(Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
+                       const NodeColumns<NC>& columns) {
   detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
 #pragma GCC unroll 4
     for (int q = 0; 4 * q < NC; ++q) {
@@ -106,6 +106,38 @@ inline void flush_window(Window<Dim, NC>& window, const int (&tile_slot)[kCorner
       }
     }
   });
+}
+
+/// The same node by node, for tiles whose nodes take sides.
+template <int Dim, int NC>
+[[gnu::noinline, gnu::cold]] void load_nodes(const NodeColumns<NC>& columns, const int* node_slot,
+                                             Window<Dim, NC>& window) {
+  for (int at = 0; at < kWindowNodes<Dim>; ++at)
+    for (int c = 0; c < 4 * window.kQuads; ++c)
+      window.quad(c / 4, at)[c % 4] =
+          c < NC && node_slot[at] >= 0 ? static_cast<Real>(columns.column[c][node_slot[at]]) : Real{0};
+}
+template <int Dim, int NC>
+[[gnu::noinline, gnu::cold]] void flush_nodes(Window<Dim, NC>& window, const int* node_slot,
+                                              const NodeColumns<NC>& columns) {
+  for (int c = 0; c < NC; ++c)
+    for (int at = 0; columns.column[c] && at < kWindowNodes<Dim>; ++at)
+      if (node_slot[at] >= 0)
+        columns.column[c][node_slot[at]] += static_cast<double>(window.quad(c / 4, at)[c % 4]);
+}
+
+/// Fills the window of a tile (ParticleTile), and adds it to the columns.
+template <int Dim, int NC, class Tile>
+inline void load_window(const NodeColumns<NC>& columns, const Tile& tile, Window<Dim, NC>& window) {
+  if (tile.node_slot) [[unlikely]]
+    return load_nodes<Dim>(columns, tile.node_slot, window);
+  load_rows(columns, tile.slot, window);
+}
+template <int Dim, int NC, class Tile>
+inline void flush_window(Window<Dim, NC>& window, const Tile& tile, const NodeColumns<NC>& columns) {
+  if (tile.node_slot) [[unlikely]]
+    return flush_nodes<Dim>(window, tile.node_slot, columns);
+  flush_rows(window, tile.slot, columns);
 }
 
 /// Records of a chunk from what is known by component: entry c < N of record k is lane 0 of value(c, k), that

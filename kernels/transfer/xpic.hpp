@@ -20,7 +20,7 @@ template <int Dim, class Basis, int NC>
 void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const NodeColumns<NC>& in,
                const NodeColumns<NC>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  load_window(in, c.tile->slot, room.in);
+  load_window(in, *c.tile, room.in);
   clear(room.out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
@@ -31,7 +31,7 @@ void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const 
                            room.out.at[r]);
           }
       });
-  flush_window(room.out, c.tile->slot, out);
+  flush_window(room.out, *c.tile, out);
 }
 
 }  // namespace mpmfast

@@ -292,6 +292,17 @@ bodies:
                    7, 12);
 }
 
+/// Two that cross in one body, while another strikes it where they end.
+TEST_CASE("cracks go on to the bit on any number of threads, where two cross and another body touches") {
+  const char* cracks =
+      "cracks:\n  - {body: a, line: [[0 mm, 4 mm], [4 mm, 4.2 mm], [5.5 mm, 4.1 mm]]}\n"
+      "  - {body: a, arc: {centre: [4.2 mm, 2.6 mm], radius: 2.3 mm, from: 60 deg, to: 130 deg}, law: "
+      "frictionless}\n";
+  check_goes_on<2>(std::string(kPlane) + kContact + cracks, 13, 30);
+  check_goes_on<2>(std::string(kPlane) + kContact + cracks + "method: {basis: lcpdi, update: xpic(3)}\n", 13,
+                   30);
+}
+
 /// Kept from breaking at once: beside whole ones there are bonds that soften, are broken, move to new nodes.
 TEST_CASE(
     "bonds that soften and break go on to the bit on any number of threads, as they move through the grid") {

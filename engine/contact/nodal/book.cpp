@@ -10,7 +10,7 @@ namespace mpmfast {
 template <int Dim>
 void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
   pivots_ = pivots;
-  books_.open(pivots.size(), spec_.pairs.size());
+  books_.open(pivots.size(), laws_.size() - 1);
 }
 
 /// Adds up, in a fixed order, what the particles will keep of a correction.
@@ -159,25 +159,27 @@ std::size_t Contact<Dim>::place_of_pair(const State<Dim>& state, const ContactNo
   return pairs_.at(field_of(entry.a), field_of(partner(state, node, entry)));
 }
 
-/// Which of ContactSpec::pairs an entry is; −1: of none.
+/// Which of ContactSpec::pairs an entry is, behind them of cracks; −1: of none.
 template <int Dim>
 int Contact<Dim>::pair_of(const State<Dim>& state, const ContactNode<Dim>& node,
                           const ContactEntry<Dim>& entry) const {
-  return pairs_.empty() ? -1 : pairs_.pair[place_of_pair(state, node, entry)];
+  if (pairs_.empty() && entry.crack < 0) return -1;
+  return law_between(entry, node, partner(state, node, entry));
 }
 
 template <int Dim>
 const ConductanceSpec& Contact<Dim>::conductance_of(const State<Dim>& state, const ContactNode<Dim>& node,
                                                     const ContactEntry<Dim>& entry) const {
   const int pair = pair_of(state, node, entry);
-  return (pair < 0 ? spec_.law : spec_.pairs[static_cast<std::size_t>(pair)].law).conductance;
+  return (pair < 0 || entry.crack >= 0 ? spec_.law : spec_.pairs[static_cast<std::size_t>(pair)].law)
+      .conductance;
 }
 
 template <int Dim>
 void Contact<Dim>::book_pair(const State<Dim>& state, const ContactNode<Dim>& node,
                              const ContactEntry<Dim>& entry, double share) {
   const int pair = pair_of(state, node, entry);
-  if (pair < 0) return;
+  if (pair < 0 || entry.crack >= 0) return;
   const auto k = static_cast<std::size_t>(pair);
   const bool forward = pairs_.forward[place_of_pair(state, node, entry)];
   books_.pair_impulse[k] += (forward ? share : -share) * kept_of(entry);

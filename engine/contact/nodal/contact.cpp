@@ -69,6 +69,20 @@ bool Contact<Dim>::is_screened(const State<Dim>& state, const ContactNode<Dim>& 
   return volume < spec_.volume_screen * cell_volume_;
 }
 
+/// Are the two fields of an entry, sides of one body, parted by one crack? It then has its normal.
+template <int Dim>
+bool Contact<Dim>::parts(const State<Dim>& state, const ContactNode<Dim>& node,
+                         ContactEntry<Dim>& entry) const {
+  const auto field = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  const auto parting = cracks_.parting(state, node.node, field(entry.a), field(entry.b));
+  entry.crack = parting.crack;
+  entry.normal = parting.normal;
+  entry.settled = true;
+  return parting.crack >= 0;
+}
+
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
 /// rest, or every other one by itself. Of several rigid bodies on a node, the one with the most mass counts.
 template <int Dim>
@@ -93,14 +107,29 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   }
   ContactEntry<Dim> entry;
   entry.normal = entry.impulse = Vec<Dim>::Zero();
+  if (fields == 2 && cracks_.same_body(state, field_of(0).field, field_of(1).field)) {
+    entry.a = 0;
+    entry.b = 1;
+    entry.alone = true;
+    const bool screened = std::min(mass_of(0), mass_of(1)) < screen * total;
+    list_.counters.screened += screened;
+    if (!screened && parts(state, node, entry)) list_.entries.push_back(entry);
+    return;
+  }
   const bool together = spec_.fields == ManyFields::simultaneous && fields > 2 && !own_normals;
   bool dropped = false;
   for (int k = 0; k < fields; ++k) {
     if (is_rigid(k)) continue;
     if (together) {
       entry.a = k;
-      for (entry.b = 0; entry.b < fields; ++entry.b)
-        if (entry.b == node.rigid || (entry.b > k && !is_rigid(entry.b))) list_.entries.push_back(entry);
+      for (entry.b = 0; entry.b < fields; ++entry.b) {
+        if (!(entry.b == node.rigid || (entry.b > k && !is_rigid(entry.b)))) continue;
+        if (!cracks_.same_body(state, field_of(k).field, field_of(entry.b).field)) {
+          list_.entries.push_back(entry);
+        } else if (ContactEntry<Dim> sides = entry; parts(state, node, sides)) {
+          list_.entries.push_back(sides);
+        }
+      }
       continue;
     }
     if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) {

@@ -64,6 +64,7 @@ class ContactFit {
   void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
     const FitChoice choice(spec);
     if (!choice.regress && !choice.separate) return;
+    bases_ = &state.field_base;
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     for (auto& room : rooms_) {
       room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
@@ -241,9 +242,12 @@ class ContactFit {
     for (int n = stack.begin; n < stack.end; ++n)
       for (int t : tiling.node_tiles[static_cast<std::size_t>(n)].particle_tile) {
         if (t < 0) continue;
-        const TileContext<Dim> c{&view, &tiling.tiles[static_cast<std::size_t>(t)], tiling.runs.data(),
-                                 state.bodies.data(), &state.grid};
-        add_candidates<Dim, Basis>(c, box, room.candidates);
+        const auto first = tiling.tiles.begin() + t;
+        if (first->field != tiling.node_tiles[static_cast<std::size_t>(n)].field) continue;  // once a body
+        for (auto tile = first; tile <= first + first->others; ++tile) {
+          const TileContext<Dim> c{&view, &*tile, tiling.runs.data(), state.bodies.data(), &state.grid};
+          add_candidates<Dim, Basis>(c, box, room.candidates);
+        }
       }
   }
 
@@ -253,8 +257,12 @@ class ContactFit {
     clouds.count = 0;
     auto piece = candidates.pieces.begin();
     const auto end = candidates.pieces.end();
+    int before = -1;
     for (int f = node.field_begin; f < node.field_end; ++f) {
-      const int field = contact.fields[static_cast<std::size_t>(f)].field;
+      const int own = contact.fields[static_cast<std::size_t>(f)].field,
+                field = (*bases_)[static_cast<std::size_t>(own)];  // of a side of a crack: all of its body
+      if (field <= before) piece = candidates.pieces.begin();
+      before = field;
       while (piece != end && piece->field < field) ++piece;
       first_[static_cast<std::size_t>(f)] = clouds.count;
       for (; piece != end && piece->field == field; ++piece)
@@ -342,6 +350,7 @@ class ContactFit {
     }
   }
 
+  const std::vector<int>* bases_ = nullptr;  ///< State::field_base
   std::vector<Room> rooms_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;

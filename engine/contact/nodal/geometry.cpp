@@ -1,5 +1,6 @@
 /// Normals and separations that come from the grid (theory §4, NN §3.2 to 3.6).
 
+#include <algorithm>
 #include <limits>
 
 #include "engine/contact/contact.hpp"
@@ -10,14 +11,32 @@ namespace mpmfast {
 template <int Dim>
 void Contact<Dim>::find_geometry(State<Dim>& state, ContactFitter<Dim>& basis) {
   if (list_.nodes.empty() || !geometry_) return;
-  grid_normals(state);
-  basis.fit_contact(state, spec_, list_);
-  grid_separations(state);
+  const auto is_crack = [](const auto& entry) { return entry.crack >= 0; };
+  if (!std::all_of(list_.entries.begin(), list_.entries.end(), is_crack)) {
+    grid_normals(state);
+    basis.fit_contact(state, spec_, list_);
+    grid_separations(state);
+  }
+  if (cracks_.active()) crack_separations(state);
   find_bonds(state);
   find_bridges(state);
   weigh_bonds(state);
   if (spec_.detection == DetectionKind::velocity || spec_.separation == SeparationKind::none)
     for (auto& entry : list_.entries) entry.separation = -std::numeric_limits<double>::infinity();
+}
+
+/// How far the sides of cracks are apart: u_b − u_a along the normal, led to the node along their slopes.
+template <int Dim>
+void Contact<Dim>::crack_separations(const State<Dim>& state) {
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      if (entry.crack < 0) continue;
+      const auto slot = [&](int k) {
+        return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
+      };
+      entry.separation = told_jump(state, node, slot(entry.a), slot(entry.b)).dot(entry.normal);
+    }
 }
 
 template <int Dim>
@@ -27,6 +46,7 @@ void Contact<Dim>::grid_normals(const State<Dim>& state) {
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      if (entry.crack >= 0) continue;
       if (!specified) {
         gradient_normal(state, node, entry);
         continue;

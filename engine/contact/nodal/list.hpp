@@ -26,6 +26,7 @@ struct ContactEntry {
   double advanced = 0;        ///< the separation that a correction judges by, m
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
   bool settled = false;       ///< the normal is found: no regression
+  int crack = -1;             ///< whose sides they are
   bool touched = false;       ///< in contact at the end of the last step
   bool held = false;          ///< by the first correction
   bool touching = false;      ///< in contact at the second correction

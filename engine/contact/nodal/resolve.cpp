@@ -19,27 +19,27 @@ struct OneLaw {
   const Law& law;
   static constexpr bool by_pair = false;
   template <class F>
-  void with(int, int, F f) const {
+  void with(int, F f) const {
     f(law);
   }
 };
 
-/// The law of each pair from the table.
+/// The law of each pair, or of a crack, from the list.
 struct LawsByPair {
-  const PairTable& table;
   const std::vector<AnyLaw>& laws;
   static constexpr bool by_pair = true;
   template <class F>
-  void with(int field_a, int field_b, F f) const {
-    std::visit(f, laws[static_cast<std::size_t>(table.pair[table.at(field_a, field_b)] + 1)]);
+  void with(int law, F f) const {
+    std::visit(f, laws[static_cast<std::size_t>(law + 1)]);
   }
 };
 
 }  // namespace
 
 template <int Dim>
-Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
+Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks)
     : spec_(scene.contact),
+      cracks_(cracks),
       pairs_(plan.pairs),
       cell_(scene.grid.cell),
       cell_volume_(cell_volume(scene)),
@@ -55,6 +55,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   laws_.push_back(law_on(spec_.law, scene));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
+  for (const CrackSpec& crack : scene.cracks) laws_.push_back(law_on(crack.law, scene));
   bonds_ = bridges_ && std::any_of(laws_.begin(), laws_.end(),
                                    [](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); });
 }
@@ -62,14 +63,14 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan)
 template <int Dim>
 void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
   dt_ = dt;
-  if (pairs_.empty())
+  if (pairs_.empty() && !cracks_.active())
     std::visit(
         [&](const auto& law) {
           resolve_all(state, OneLaw<std::decay_t<decltype(law)>>{law}, correction, dt);
         },
         laws_.front());
   else
-    resolve_all(state, LawsByPair{pairs_, laws_}, correction, dt);
+    resolve_all(state, LawsByPair{laws_}, correction, dt);
 }
 
 template <int Dim>
@@ -114,9 +115,6 @@ template <int Dim>
 template <class Laws>
 void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                                 const ContactNode<Dim>& node) {
-  const auto field_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
-  };
   const Total all = together(state, node);
   for (int e = node.entry_begin; e < node.pair_begin; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
@@ -132,10 +130,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       pass_on(entry, correction, Law::scope);
     };
     const auto act = [&](const auto& law) { as_it_is(entry, law, act_by); };
-    if constexpr (Laws::by_pair)
-      laws.with(field_of(entry.a), field_of(partner(state, node, entry)), act);
-    else
-      laws.with(0, 0, act);
+    laws.with(Laws::by_pair ? law_between(entry, node, partner(state, node, entry)) : -1, act);
   }
   rest(node.pair_begin, node.entry_end);
 }
@@ -288,17 +283,25 @@ void Contact<Dim>::finish(const Laws& laws, Correction correction, const Contact
   }
 }
 
+/// Which law acts between field a of an entry and another: of ContactSpec::pairs, behind them of cracks; −1:
+/// the default.
+template <int Dim>
+int Contact<Dim>::law_between(const ContactEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const {
+  if (entry.crack >= 0) return static_cast<int>(spec_.pairs.size()) + entry.crack;
+  if (pairs_.empty()) return -1;
+  const auto field = [&](int k) {
+    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  };
+  return pairs_.pair[pairs_.at(field(entry.a), field(other))];
+}
+
 /// Calls f(law of the entry's two fields).
 template <int Dim>
 template <class Laws, class F>
 void Contact<Dim>::with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                             F f) const {
   const auto act = [&](const auto& law) { as_it_is(entry, law, f); };
-  if constexpr (Laws::by_pair)
-    laws.with(list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field,
-              list_.fields[static_cast<std::size_t>(node.field_begin + entry.b)].field, act);
-  else
-    laws.with(0, 0, act);
+  laws.with(Laws::by_pair ? law_between(entry, node, entry.b) : -1, act);
 }
 
 /// FLIP's particles take a share of what surfaces that touch change in the first correction.

@@ -38,6 +38,8 @@ void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law);
 /// `contact.pairs`. Needs the bodies.
 /// @param top  the scene, where bodies stand that could not be read
 void describe_pairs(Keys& contact, Keys& top, Scene& scene);
+/// `cracks`. Needs the grid, the bodies and the contact.
+void describe_cracks(Keys& top, Scene& scene);
 /// Every name appears in the scene, also when its model is wrong, so that bodies may refer to it.
 void describe_materials(Keys& top, std::vector<MaterialSpec>& materials);
 /// Needs grid and materials.
@@ -63,6 +65,8 @@ void check_walls(const Value& top, const Scene& scene);
 void close_faces(const Value& top, Scene& scene);
 /// Refuses laws that plane stress cannot have.
 void check_plane_stress(const Value& top, const Scene& scene);
+/// Refuses what cracks do not know, and cracks outside of their bodies.
+void check_cracks(const Value& top, const Scene& scene);
 /// Refuses what heat does not know, and materials that it knows too little of.
 void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlace>& places);
 /// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.

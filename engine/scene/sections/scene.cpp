@@ -95,6 +95,7 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
   check_crack(top, scene);
   if (scene.method.extended) check_extension(top, scene);
   check_heat(top, scene, places);
+  if (!scene.cracks.empty()) check_cracks(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
@@ -115,6 +116,7 @@ std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene) {
   describe_boundaries(top, grid_known, scene);
   describe_gravity(top, scene.dimension(), scene.gravity);
   describe_contact(top, strain_stated, scene);
+  describe_cracks(top, scene);
   describe_output(top, scene.dimension(), scene.output);
   if (top.reads()) check_scene(top.reader().value(), grid_known, places, scene);
   top.close();

@@ -1,0 +1,143 @@
+#pragma once
+
+/// @file Cracks: surfaces inside of bodies, as lines of points that move with them. On the nodes near, the
+/// particles of one body that lie on different sides of a crack have velocity fields of their own (NN §1.1).
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <unordered_map>
+#include <vector>
+
+#include "engine/plan/plan.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/state/archive.hpp"
+#include "engine/state/state.hpp"
+
+namespace mpmfast {
+
+/// A crack: its points, from one end to the other.
+template <int Dim>
+struct CrackLine {
+  int field;                     ///< of the body that it is in
+  std::vector<Vec<Dim>> points;  ///< m
+};
+
+/// What the particles around a node see of cracks there.
+template <int Dim>
+struct CrackedNode {
+  static constexpr int kMost = 2;  ///< cracks that a node tells apart
+  std::array<int, kMost> crack{-1, -1};
+  std::array<int, kMost> ways{0, 0};  ///< from particles to the node that come out on the left, less others
+  /// Sums of the unit normals of what they cross, to the left.
+  std::array<Vec<Dim>, kMost> normal{Vec<Dim>::Zero(), Vec<Dim>::Zero()};
+
+  bool is_left(int k) const { return ways[static_cast<std::size_t>(k)] >= 0; }
+};
+
+/// The nodes on which particles have weight: from the first on, so many along each axis.
+template <int Dim>
+struct Supports {
+  std::function<NodeIndex<Dim>(std::size_t)> first;
+  int nodes = 0;
+};
+
+struct CrackCounters {
+  std::uint64_t sorts = 0;  ///< because of sides that changed
+  std::uint64_t third = 0;  ///< times that a particle saw a node behind a third crack
+};
+
+/// Sides are those of the material, not of the node (NN §1.1 calls what no crack hides from a node field
+/// [0]): 0 is the left of the first crack of a node and the left of the second, 1 the right of the first, 2
+/// of the second, 3 of both; and 0 everywhere else. A node that a crack passes by keeps its fields.
+template <int Dim>
+class Cracks {
+ public:
+  Cracks(const Scene& scene, const Plan& plan);
+
+  bool active() const { return !lines_.empty(); }
+  const std::vector<CrackLine<Dim>>& lines() const { return lines_; }
+  const CrackCounters& counters() const { return counters_; }
+
+  /// Finds what sides the particles see.
+  /// @return whether the tiles tell otherwise: they must be sorted anew
+  bool look(State<Dim>& state, const Supports<Dim>& supports);
+
+  /// Groups the particles that see the same sides, for the next sort.
+  /// @param sorted_node  of a particle: as Tiling::set_key has it
+  void group(State<Dim>& state, const Supports<Dim>& supports,
+             const std::function<NodeIndex<Dim>(std::size_t)>& sorted_node);
+  int group_of(std::size_t particle) const { return group_[particle]; }
+
+  /// Marks the tiles that reach nodes which cracks part (ParticleTile::cracked), as `look` does, after a
+  /// sort.
+  void mark(State<Dim>& state) const;
+
+  /// Which crack parts two fields of a node, and its unit normal from the first to the second.
+  struct Parting {
+    int crack = -1;
+    Vec<Dim> normal = Vec<Dim>::Zero();
+  };
+  /// Are both fields sides of one body?
+  bool same_body(const State<Dim>& state, int a, int b) const {
+    return active() &&
+           state.field_base[static_cast<std::size_t>(a)] == state.field_base[static_cast<std::size_t>(b)];
+  }
+  /// None where they meet in a point only, across two cracks. For the fields of same_body, a < b.
+  Parting parting(const State<Dim>& state, const NodeIndex<Dim>& node, int a, int b) const;
+
+  /// Moves the points with the bodies: the mean velocity of all sides, that nodes move particles with.
+  void move(const State<Dim>& state, double dt);
+
+  void visit(Archive& archive);
+
+ private:
+  struct Segment {
+    int crack;
+    Vec<Dim> from, to, low, high, normal;  ///< unit, to the left
+  };
+  /// The particle's way to a node that crosses a crack.
+  struct Crossed {
+    std::uint32_t particle;
+    NodeIndex<Dim> node;
+    int crack, way;  ///< +1: to its left
+    Vec<Dim> normal;
+  };
+  /// The sides that a particle sees, of nodes from the first of its support on.
+  struct Sides {
+    std::uint32_t particle;
+    NodeIndex<Dim> first;
+    std::array<std::int8_t, 36> side;
+  };
+  using WindowNodes = std::array<const CrackedNode<Dim>*, kWindowNodes<Dim>>;
+
+  static std::uint64_t key_of(int field, const NodeIndex<Dim>& place);
+  static int place_in_block(const NodeIndex<Dim>& node, NodeIndex<Dim>& block);
+  const CrackedNode<Dim>* find(int field, const NodeIndex<Dim>& node) const;
+  bool find_under(const ParticleTile<Dim>& tile, WindowNodes& seen) const;
+  int side_of(const State<Dim>& state, int field) const;
+  void list_segments();
+  void list_crossed(const State<Dim>& state, const Supports<Dim>& supports);
+  void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
+             std::vector<Crossed>& out) const;
+  void list_nodes(const State<Dim>& state);
+  bool see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
+  bool list_sides(State<Dim>& state, const Supports<Dim>& supports);
+
+  std::vector<CrackLine<Dim>> lines_;
+  std::vector<int> first_side_;  ///< as Plan
+  std::vector<Segment> segments_;
+  std::vector<std::array<Vec<Dim>, 2>> blocks_;  ///< boxes around every so many of them
+  std::vector<std::vector<Crossed>> crossed_;    ///< by tile
+  std::vector<CrackedNode<Dim>> nodes_;
+  std::unordered_map<std::uint64_t, std::array<int, kTileNodes<Dim>>> blocks_of_nodes_;  ///< −1: not cracked
+  std::vector<std::vector<Sides>> sides_;  ///< by tile, of the particles that see another than 0
+  std::vector<std::uint8_t> group_;
+  std::vector<Vec<Dim>> velocity_;
+  CrackCounters counters_;
+};
+
+extern template class Cracks<2>;
+extern template class Cracks<3>;
+
+}  // namespace mpmfast

@@ -1,0 +1,142 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/geometry/crossing.hpp"
+#include "engine/geometry/shapes.hpp"
+#include "engine/scene/sections/describe.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+using Points = std::vector<std::array<double, 2>>;
+
+/// The corners of a crack, from one end to the other.
+void describe_line(Slot& slot, Points& points) {
+  Points read;
+  std::size_t count = points.size();
+  slot.list("a list of two or more points [x, y]", 2, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
+    Vec3 point = item.writes() ? Vec3{points[k][0], points[k][1], 0} : Vec3{};
+    item.take(point, Vector{Measure::length, 2});
+    if (item.reads()) read.push_back({point[0], point[1]});
+  });
+  if (!slot.reads() || !slot.good()) return;
+  points = std::move(read);
+  for (std::size_t k = 1; k < points.size(); ++k)
+    if (points[k] == points[k - 1])
+      return slot.refuse_item(k, "a point apart from the one before was expected");
+  if (crosses_itself(points)) slot.report("a crack must not cross or touch itself");
+}
+
+/// Does any part of a line lie in a shape?
+bool runs_through(const Shape& shape, const Points& points) {
+  constexpr int kPlaces = 100;  // along each segment
+  for (std::size_t k = 1; k < points.size(); ++k)
+    for (int place = 0; place <= kPlaces; ++place) {
+      const double share = static_cast<double>(place) / kPlaces;
+      const auto at = [&](std::size_t d) { return (1 - share) * points[k - 1][d] + share * points[k][d]; };
+      if (contains(shape, {at(0), at(1), 0})) return true;
+    }
+  return false;
+}
+
+/// As corners, in steps of at most five degrees.
+void describe_arc(Slot& slot, Points& points) {
+  constexpr double kStep = std::numbers::pi / 36;
+  Vec3 centre{};
+  double radius = 0, from = 0, to = 0;
+  slot.map("a map {centre, radius, from, to}", [&](Keys& map) {
+    map.need("centre", "Its middle.", centre, Vector{Measure::length, 2});
+    map.need("radius", "Its radius.", radius, Number{Measure::length, kPositive});
+    map.need("from", "Angle of its first end, from x towards y.", from, Number{Measure::angle});
+    map.need("to", "Angle of the other end.", to, Number{Measure::angle});
+  });
+  if (!slot.reads() || !slot.good()) return;
+  if (from == to || std::abs(to - from) >= 2 * std::numbers::pi)
+    return slot.report("an arc of more than nothing and less than a full turn was expected");
+  const int steps = static_cast<int>(std::ceil(std::abs(to - from) / kStep));
+  points.clear();
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = from + (to - from) * k / steps;
+    points.push_back({centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)});
+  }
+}
+
+void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
+  slot.map("a map {body, line: [[x, y], …], law, …}", [&](Keys& map) {
+    map.derived("name", "Heads its columns; crack1, crack2, … if not given.", crack.name, Name{});
+    map.need_at("body", "Which body it is in.", "the name of a body",
+                [&](Slot& body) { body.reference(crack.body, names_of(scene.bodies)); });
+    const auto choice = map.one_of({{"line"}, {"arc"}}, 0);
+    if (choice.none()) map.report("a crack is a line or an arc");
+    if (choice.takes(0))
+      map.need_at("line", "Its corners, from one end to the other.", "a list of points [x, y]",
+                  [&](Slot& line) { describe_line(line, crack.points); });
+    if (choice.takes(1))
+      map.need_at("arc", "Part of a circle.", "a map {centre, radius, from, to}",
+                  [&](Slot& arc) { describe_arc(arc, crack.points); });
+    map.derived("spacing", "Of the points that follow it; half a cell if not given.", crack.spacing,
+                Number{Measure::length, kPositive});
+    describe_law(map, "What its sides do that touch; what it leaves out is that of `contact`.",
+                 scene.heat.active, crack.law);
+  });
+}
+
+}  // namespace
+
+void describe_cracks(Keys& top, Scene& scene) {
+  top.at("cracks", "Surfaces inside of bodies, closed at the start, whose sides come apart, touch and slide.",
+         [&](Slot& slot) {
+           std::size_t count = scene.cracks.size();
+           if (slot.writes() && count == 0) return;
+           if (slot.reads() && slot.is_word("none", false)) return;
+           slot.list("a list of maps {body, line | arc, law, …}", 0, Form::kNoEnd, count,
+                     [&](Slot& entry, std::size_t k) {
+                       CrackSpec crack;
+                       if (entry.writes()) crack = scene.cracks[k];
+                       if (entry.reads()) {
+                         crack.name = fmt::format("crack{}", k + 1);
+                         crack.spacing = 0.5 * scene.grid.cell;
+                         crack.law = scene.contact.law;
+                       }
+                       describe_crack(entry, scene, crack);
+                       if (entry.reads() && entry.good()) scene.cracks.push_back(crack);
+                     });
+         });
+}
+
+void check_cracks(const Value& top, const Scene& scene) {
+  const Value stated = *top.find("cracks");
+  const auto refuse = [&](bool wrong, const char* what) {
+    if (wrong) stated.report(fmt::format("cracks do not know {} yet", what));
+  };
+  refuse(scene.dimension() == 3, "space: 3d");
+  refuse(scene.space == Space::axisymmetric, "space: axisymmetric");
+  refuse(scene.heat.active, "heat");
+  refuse(scene.method.extended, "extended splines (method.extension)");
+  refuse(scene.contact.family == ContactFamily::penalty,
+         "surfaces that are followed (contact.family: penalty)");
+  refuse(scene.grid.leaving == LeavingKind::outflow, "bodies that flow out (grid.leaving)");
+  if (scene.contact.fields != ManyFields::simultaneous)
+    stated.report("the sides of cracks meet in pairs: contact.fields: simultaneous was expected");
+  for (std::size_t k = 0; k < scene.cracks.size(); ++k) {
+    const CrackSpec& crack = scene.cracks[k];
+    const Value entry = stated.item(k);
+    const BodySpec& body = scene.bodies[static_cast<std::size_t>(crack.body)];
+    if (is_rigid(scene, body)) entry.report(fmt::format("'{}' is rigid: nothing in it opens", body.name));
+    if (joins(crack.law.acts)) entry.report("interfaces and bonds along cracks are not known yet");
+    if (crack.spacing > scene.grid.cell)
+      entry.report(fmt::format("a spacing of at most a cell ({} m) was expected", scene.grid.cell));
+    if (!runs_through(body.shape, crack.points))
+      entry.report(fmt::format("no part of it lies in '{}'", body.name));
+    for (std::size_t other = 0; other < k; ++other)
+      if (scene.cracks[other].name == crack.name)
+        entry.report(fmt::format("a crack is called '{}' already", crack.name));
+  }
+}
+
+}  // namespace mpmfast
