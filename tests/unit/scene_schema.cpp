@@ -73,6 +73,9 @@ std::vector<std::string> small_scenes() {
                     two = replaced(plain, "material: b}\n",
                                    "material: b}\n  - {name: two, material: b, box: {from: [6 mm, 1 mm], "
                                    "to: [9 mm, 4 mm]}}\n");
+  const auto cracked = [&](const std::string& law) {
+    return plain + "cracks: [{body: one, line: [[0, 2 mm], [3 mm, 2 mm]]" + law + "}]\n";
+  };
   return {plain,
           plain + "boundaries: {left: {wall: sliding, at: surface}}\n",
           material("model: mie_gruneisen, density: 8, bulk: 1, " + heat + state),
@@ -93,6 +96,11 @@ std::vector<std::string> small_scenes() {
           two + "contact: {pairs: [{between: [one, two], " + joint + "}]}\n",
           two + "contact: {pairs: [{between: [one, two]}]}\n",
           two + "contact: {family: penalty}\n",
+          cracked(""),
+          cracked(", " + bond),
+          cracked(", " + joint),
+          cracked(", " + curves),
+          cracked(", " + glue),
           replaced(solid("box: {from: [1 mm, 1 mm], to: [4 mm, 4 mm]}", "plane_strain"), "shear: 1}",
                    "shear: 1, heat_capacity: 1}") +
               "  - {name: two, box: {from: [4 mm, 1 mm], to: [8 mm, 4 mm]}, material: a}\n"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -131,6 +133,48 @@ TEST_CASE("a wave that presses passes a closed crack, wherever that lies in a ce
                                  " mm, 0 mm], [" + place + " mm, 12 mm]]}]\n");
     CHECK(passed == doctest::Approx(whole).epsilon(1e-6).scale(0));  // measured 6e-9
   }
+}
+
+/// Where a scene has two bodies and a law between them, one with that law along a crack.
+std::string joined(const std::string& name, const std::string& body, const std::string& line) {
+  std::ifstream file(source_folder() / "configs" / name);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::size_t bodies = text.find("bodies:"), boundaries = text.find("boundaries:");
+  return text.substr(0, bodies) + "bodies: [" + body + "]\ncracks: [" + line + "]\n" +
+         text.substr(boundaries);
+}
+
+TEST_CASE("springs along a crack are those between two bodies") {
+  for (const char* joint : {"100 mm", "101.25 mm", "103.4 mm"}) {
+    CAPTURE(std::string(joint));
+    const Outcome out =
+        run(scene_from(joined("interface_bars.yaml",
+                              "{name: bar, box: {from: [0 mm, 0 mm], to: [200 mm, 10 mm]}, material: rubber}",
+                              R"({body: bar, line: [["${joint}", -5 mm], ["${joint}", 20 mm]]})"),
+                       {{"variables.joint", joint}, {"output.frames", "0"}}));
+    REQUIRE(out.failure.empty());
+    const auto &time = out.history.at("time_s"), &stress = out.history.at("all.mean_stress_xx_Pa");
+    double sum = 0;
+    int rows = 0;
+    for (std::size_t k = 0; k < time.size(); ++k)
+      if (time[k] > 60e-3) sum += stress[k], ++rows;
+    CHECK(sum / rows / 1e-3 == doctest::Approx(20e6 / 3).epsilon(1e-3).scale(0));  // measured 5e-4
+  }
+}
+
+TEST_CASE("slow: glue along a crack breaks as between two bodies") {
+  const std::vector<Override> sets{{"output.frames", "0"}};
+  const Outcome two = run(scene_file("dcb_cohesive.yaml", sets)),
+                one = run(
+                    scene_from(joined("dcb_cohesive.yaml",
+                                      "{name: beam, box: {from: [0.5 mm, 3.25 mm], to: [35.5 mm, 9.25 mm]}, "
+                                      "material: polymer}",
+                                      R"({body: beam, line: [[0 mm, "${middle}"], [40 mm, "${middle}"]]})"),
+                               sets));
+  REQUIRE(one.failure.empty());
+  CHECK(relative_difference(one.history.at("up.force_y_N"), two.history.at("up.force_y_N")) < 1e-3);
+  CHECK(one.history.at("interface_J").back() ==
+        doctest::Approx(two.history.at("interface_J").back()).epsilon(1e-3).scale(0));
 }
 
 /// A plate that is pressed along y, with a crack at 45 degrees in its middle.

@@ -201,6 +201,10 @@ void describe_conductance(Keys& map, bool heat, ConductanceSpec& conductance) {
 
 void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
   describe_conductance(map, heat, law.conductance);
+  describe_tractions(map, says, law);
+}
+
+void describe_tractions(Keys& map, const char* says, SurfaceLaw& law) {
   const std::size_t inherited = law.acts.index();
   std::size_t index = inherited;
   map.at("law", says, [&](Slot& slot) { slot.choose(index, contact_laws()); });

@@ -81,8 +81,8 @@ void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
                   [&](Slot& arc) { describe_arc(arc, crack.points); });
     map.derived("spacing", "Of the points that follow it; half a cell if not given.", crack.spacing,
                 Number{Measure::length, kPositive});
-    describe_law(map, "What its sides do that touch; what it leaves out is that of `contact`.",
-                 scene.heat.active, crack.law);
+    describe_tractions(map, "What its sides do that touch; what it leaves out is that of `contact`.",
+                       crack.law);
   });
 }
 
@@ -128,7 +128,6 @@ void check_cracks(const Value& top, const Scene& scene) {
     const Value entry = stated.item(k);
     const BodySpec& body = scene.bodies[static_cast<std::size_t>(crack.body)];
     if (is_rigid(scene, body)) entry.report(fmt::format("'{}' is rigid: nothing in it opens", body.name));
-    if (joins(crack.law.acts)) entry.report("interfaces and bonds along cracks are not known yet");
     if (crack.spacing > scene.grid.cell)
       entry.report(fmt::format("a spacing of at most a cell ({} m) was expected", scene.grid.cell));
     if (!runs_through(body.shape, crack.points))

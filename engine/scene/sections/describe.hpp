@@ -35,6 +35,8 @@ void describe_contact(Keys& top, bool strain_stated, Scene& scene);
 /// `law` and its parameters; what is absent keeps its value, also where another law has it.
 /// @param heat  the scene has temperatures
 void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law);
+/// The same without heat.
+void describe_tractions(Keys& map, const char* says, SurfaceLaw& law);
 /// `contact.pairs`. Needs the bodies.
 /// @param top  the scene, where bodies stand that could not be read
 void describe_pairs(Keys& contact, Keys& top, Scene& scene);

@@ -80,7 +80,9 @@ void check_interfaces(const Value& top, const Scene& scene) {
 /// A crack parts what is bonded.
 void check_crack(const Value& top, const Scene& scene) {
   const auto bonds = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
-  if (!scene.contact.cracked || scene.contact.any(bonds)) return;
+  const bool glued = std::any_of(scene.cracks.begin(), scene.cracks.end(),
+                                 [&](const CrackSpec& crack) { return bonds(crack.law); });
+  if (!scene.contact.cracked || glued || scene.contact.any(bonds)) return;
   top.find("contact")->find("crack")->report(
       "nothing is bonded that a crack could part: law: cohesive was expected");
 }
