@@ -9,6 +9,7 @@
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/quantities/time_table.hpp"
+#include "engine/scene/crack_tips.hpp"
 
 namespace mpmfast {
 namespace {
@@ -54,12 +55,17 @@ const WallSpec* piston_of(const BoundarySpec& boundary) {
 /// Do surfaces of the scene lose energy as they part?
 bool has_bonds(const Scene& scene) {
   const auto breaks = [](const SurfaceLaw& law) { return std::holds_alternative<Cohesive>(law.acts); };
-  return scene.contact.active && scene.contact.any(breaks);
+  return (scene.contact.active && scene.contact.any(breaks)) ||
+         std::any_of(scene.cracks.begin(), scene.cracks.end(),
+                     [&](const CrackSpec& crack) { return breaks(crack.law); });
 }
 
 /// Do springs or bonds join surfaces of the scene?
 bool has_joints(const Scene& scene) {
-  return scene.contact.active && scene.contact.any([](const SurfaceLaw& law) { return joins(law.acts); });
+  const auto joint = [](const SurfaceLaw& law) { return joins(law.acts); };
+  return (scene.contact.active && scene.contact.any(joint)) ||
+         std::any_of(scene.cracks.begin(), scene.cracks.end(),
+                     [&](const CrackSpec& crack) { return joint(crack.law); });
 }
 
 /// How much further apart than at first a piston and what it faces are, by their first distance: negative in
@@ -122,6 +128,9 @@ std::vector<std::string> column_names(const Scene& scene) {
   }
   if (has_bonds(scene)) names.push_back("interface_J");
   if (has_joints(scene)) names.push_back("interface_stored_J");
+  for (const CrackTip& tip : crack_tips(scene))
+    for (const char* column : {".x_m", ".y_m", ".J_J_per_m2", ".KI_Pa_sqrt_m", ".KII_Pa_sqrt_m"})
+      names.push_back(tip.name + column);
   return names;
 }
 
@@ -225,6 +234,8 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
   }
   if (has_bonds(scene)) numbers.add(row.interface);
   if (has_joints(scene)) numbers.add(row.joints);
+  for (std::size_t k = 0; k < crack_tips(scene).size(); ++k)
+    numbers.add(k < row.tips.size() ? row.tips[k] : std::array<double, 5>{}, 5);
   return numbers.all;
 }
 

@@ -58,7 +58,8 @@ struct HistoryRow {
   std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
   std::vector<double> pair_area;      ///< m², of surfaces that press, at the time of the row; likewise
   std::optional<Overlap> overlap;     ///< with output.overlap
-  std::optional<Outflow> outflow;     ///< with grid.leaving: outflow; up to now
+  std::vector<std::array<double, 5>> tips;  ///< of cracks: place, m, J, J/m², K_I, K_II, Pa √m; as crack_tips
+  std::optional<Outflow> outflow;           ///< with grid.leaving: outflow; up to now
   struct Heat {
     double content = 0;              ///< J, of the bodies that deform above the temperature of the scene
     double in = 0;                   ///< J, that came in from faces, given nodes and rigid bodies

@@ -1,5 +1,8 @@
 #include "engine/run/make_row.hpp"
 
+#include "engine/contact/cracks/tip_load.hpp"
+#include "engine/scene/crack_tips.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -57,6 +60,18 @@ std::optional<Overlap> overlap_of(const State<Dim>& state, const Scene& scene) {
   return std::nullopt;
 }
 
+/// Stresses must be those of the moment.
+template <int Dim>
+void fill_tips(Step<Dim>& step, const Scene& scene, HistoryRow& row) {
+  if constexpr (Dim == 2)
+    for (const CrackTip& tip : crack_tips(scene)) {
+      const auto crack = static_cast<std::size_t>(tip.crack);
+      const TipLoad load = tip_load(step.state(), step.cracks().lines()[crack], tip.end,
+                                    scene.cracks[crack].contour * scene.grid.cell, scene.thickness);
+      row.tips.push_back({load.place[0], load.place[1], load.release, load.opening, load.sliding});
+    }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -82,6 +97,7 @@ HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<
   if (spacing.cells > counters.spacing.cells) counters.spacing = spacing;
   row.outflow = outflow_of(step, scene);
   row.heat = heat_of(step, row, scene);
+  fill_tips(step, scene, row);
   counters.last_sums = sums;
   counters.last_row_time = state.time;
   counters.last_row_step = state.step;

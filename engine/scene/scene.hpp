@@ -271,6 +271,7 @@ struct CrackSpec {
   int body = -1;
   std::vector<std::array<double, 2>> points;  ///< m; its corners, or those of an arc
   double spacing = 0;                         ///< of the points that follow it, m
+  double contour = 6;                         ///< cells about an end, where J is found
   SurfaceLaw law;                             ///< between its sides
 };
 

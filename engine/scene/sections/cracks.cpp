@@ -7,6 +7,7 @@
 
 #include "engine/geometry/crossing.hpp"
 #include "engine/geometry/shapes.hpp"
+#include "engine/scene/crack_tips.hpp"
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -81,6 +82,8 @@ void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
                   [&](Slot& arc) { describe_arc(arc, crack.points); });
     map.derived("spacing", "Of the points that follow it; half a cell if not given.", crack.spacing,
                 Number{Measure::length, kPositive});
+    map.key("contour", "Radius about its ends in which J and stress intensities are found, in cells.",
+            crack.contour, Number{Measure::number, kPositive});
     describe_tractions(map, "What its sides do that touch; what it leaves out is that of `contact`.",
                        crack.law);
   });
@@ -107,6 +110,24 @@ void describe_cracks(Keys& top, Scene& scene) {
                        if (entry.reads() && entry.good()) scene.cracks.push_back(crack);
                      });
          });
+}
+
+std::vector<CrackTip> crack_tips(const Scene& scene) {
+  std::vector<CrackTip> tips;
+  for (std::size_t c = 0; c < scene.cracks.size(); ++c) {
+    const CrackSpec& crack = scene.cracks[c];
+    const auto& points = crack.points;
+    for (const bool end : {false, true}) {
+      const auto& at = end ? points.back() : points.front();
+      const auto& before = end ? points[points.size() - 2] : points[1];
+      const double dx = at[0] - before[0], dy = at[1] - before[1],
+                   ahead = 0.5 * scene.grid.cell / std::hypot(dx, dy);
+      if (contains(scene.bodies[static_cast<std::size_t>(crack.body)].shape,
+                   {at[0] + ahead * dx, at[1] + ahead * dy, 0}))
+        tips.push_back({static_cast<int>(c), end, crack.name + (end ? ".end" : ".start")});
+    }
+  }
+  return tips;
 }
 
 void check_cracks(const Value& top, const Scene& scene) {
