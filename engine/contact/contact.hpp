@@ -78,6 +78,7 @@ class Contact {
  private:
   void list_stack(const State<Dim>& state, int stack);
   void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
+  double screen_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, int other) const;
   void add_pairs(const ContactNode<Dim>& node);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
@@ -99,6 +100,7 @@ class Contact {
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
+    std::size_t entry;  ///< which of the last step's entries
     bool touching, stuck;
     double spring;
     double plane[Dim + 1];
@@ -242,7 +244,6 @@ class Contact {
   bool geometry_;                ///< some law asks for normals and separations
   bool bridges_;                 ///< some law joins surfaces by springs
   bool bonds_;                   ///< some law joins them by bonds that break
-  bool exact_fields_;            ///< no node is screened out by its masses
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;        ///< of the entries
   std::vector<Together> together_;         ///< of each thread

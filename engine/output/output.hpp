@@ -196,6 +196,7 @@ struct RunSummary {
   bool averaged_strain = false;    ///< method.strain: average
   double spacing = 0;              ///< cells; the widest of the history's rows
   double most_spacing = 1;         ///< cells that the basis bridges
+  std::uint64_t third_cracks = 0;  ///< times that a node was seen behind a third crack
   std::string spacing_body;        ///< where it was
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::optional<Outflow> outflow;  ///< with grid.leaving: outflow

@@ -54,6 +54,11 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
              "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
              "contact.volume_screen or contact.mass_screen",
              100 * part, 100 * kMostScreened)});
+  if (summary.third_cracks > 0)
+    out.push_back(
+        {"cracks", fmt::format("{} times a particle saw a node behind a third crack, which does not part "
+                               "it: nodes tell two cracks apart; smaller cells keep them further apart",
+                               summary.third_cracks)});
   if (summary.spacing > kPartedBy * summary.most_spacing)
     out.push_back(
         {"spacing",

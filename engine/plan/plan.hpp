@@ -38,7 +38,7 @@ struct Plan {
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool bridges = false;           ///< some pair is joined by springs
   bool displacements = false;     ///< are projected with their slopes: for the jumps of interfaces and cracks
-  bool exact_fields = false;      ///< some pair is tied for good: no node is screened out by its masses
+  bool exact_fields = false;      ///< some pair is tied for good, or by springs
   bool geometry = false;          ///< volume gradients and mean positions are projected
   bool heat = false;              ///< temperatures are conducted
   bool gravity = false;           ///< or an acceleration of some body

@@ -308,6 +308,7 @@ class Run {
     s.dt_max = counters_.dt_max;
     s.wall = seconds_since(start_);
     s.particle_steps_per_second = throughput();
+    s.third_cracks = step_.cracks().counters().third;
     const ContactCounters& c = step_.contact_counters();
     const double mean_iterations =
         c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;

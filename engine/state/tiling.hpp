@@ -19,7 +19,7 @@
 
 namespace mpmfast {
 
-/// What sides of cracks the particles of a group see at the nodes of their window (engine/cracks).
+/// What sides of cracks the particles of a group see at the nodes of their window (engine/contact/cracks).
 template <int Dim>
 struct SideMap {
   static constexpr std::int8_t kNone = -1;  ///< no particle of the group reaches the node

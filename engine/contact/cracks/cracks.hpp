@@ -77,14 +77,16 @@ class Cracks {
   struct Parting {
     int crack = -1;
     Vec<Dim> normal = Vec<Dim>::Zero();
+    int beyond = 0;  ///< are both on the right of the node's other crack?
   };
   /// Are both fields sides of one body?
   bool same_body(const State<Dim>& state, int a, int b) const {
     return active() &&
            state.field_base[static_cast<std::size_t>(a)] == state.field_base[static_cast<std::size_t>(b)];
   }
-  /// None where they meet in a point only, across two cracks. For the fields of same_body, a < b.
-  Parting parting(const State<Dim>& state, const NodeIndex<Dim>& node, int a, int b) const;
+  /// Across two cracks fields meet in a point only, and there is none; but where they are alone on the node,
+  /// so that the cracks lie on each other, it is the first. For the fields of same_body, a < b.
+  Parting parting(const State<Dim>& state, const NodeIndex<Dim>& node, int a, int b, bool alone) const;
 
   /// Moves the points with the bodies: the mean velocity of all sides, that nodes move particles with.
   void move(const State<Dim>& state, double dt);

@@ -298,9 +298,12 @@ const ContactEntry<Dim>* Contact<Dim>::same_pair(const State<Dim>& state, const 
   const auto& other = list_.nodes[static_cast<std::size_t>(k)];
   for (int e = other.entry_begin; e < other.entry_end; ++e) {
     const auto& beside = list_.entries[static_cast<std::size_t>(e)];
-    if (field(other, beside.a) == field(node, entry.a) &&
-        field(other, partner(state, other, beside)) == field(node, partner(state, node, entry)))
-      return &beside;
+    if (beside.crack != entry.crack) continue;
+    const bool same = entry.crack >= 0 ? beside.beyond == entry.beyond
+                                       : field(other, beside.a) == field(node, entry.a) &&
+                                             field(other, partner(state, other, beside)) ==
+                                                 field(node, partner(state, node, entry));
+    if (same) return &beside;
   }
   return nullptr;
 }

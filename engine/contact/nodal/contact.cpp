@@ -76,11 +76,23 @@ bool Contact<Dim>::parts(const State<Dim>& state, const ContactNode<Dim>& node,
   const auto field = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
-  const auto parting = cracks_.parting(state, node.node, field(entry.a), field(entry.b));
+  const auto parting = cracks_.parting(state, node.node, field(entry.a), field(entry.b),
+                                       node.field_end - node.field_begin == 2);
   entry.crack = parting.crack;
+  entry.beyond = parting.beyond;
   entry.normal = parting.normal;
   entry.settled = true;
   return parting.crack >= 0;
+}
+
+/// The least share of a node's mass that a field must have for contact: tied ones must move as one to the
+/// last node (the perfect interface is exact), and springs know what to do with little.
+template <int Dim>
+double Contact<Dim>::screen_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                               int other) const {
+  const AnyLaw& law = laws_[static_cast<std::size_t>(law_between(entry, node, other) + 1)];
+  const LawScope scope = std::visit([](const auto& one) { return one.scope; }, law);
+  return scope == LawScope::everywhere || scope == LawScope::bridged ? 0 : spec_.mass_screen;
 }
 
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
@@ -92,8 +104,6 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
   const auto field_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
   const auto mass_of = [&](int k) { return mass[field_of(k).slot]; };
   const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
-  // Tied fields must move as one to the last node (the perfect interface is exact).
-  const double screen = exact_fields_ ? 0 : spec_.mass_screen;
   const bool own_normals = spec_.normal == NormalKind::own_gradient;
   ++list_.counters.meetings;
   if (is_screened(state, node)) {
@@ -111,9 +121,10 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
     entry.a = 0;
     entry.b = 1;
     entry.alone = true;
-    const bool screened = std::min(mass_of(0), mass_of(1)) < screen * total;
+    if (!parts(state, node, entry)) return;
+    const bool screened = std::min(mass_of(0), mass_of(1)) < screen_of(node, entry, 1) * total;
     list_.counters.screened += screened;
-    if (!screened && parts(state, node, entry)) list_.entries.push_back(entry);
+    if (!screened) list_.entries.push_back(entry);
     return;
   }
   const bool together = spec_.fields == ManyFields::simultaneous && fields > 2 && !own_normals;
@@ -132,13 +143,14 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
       }
       continue;
     }
+    entry.a = k;
+    entry.b = fields == 2 && !own_normals ? 1 - k : -1;
+    entry.alone = fields == 2;
+    const double screen = screen_of(node, entry, pairs_.empty() ? -1 : partner(state, node, entry));
     if (node.rigid < 0 && (mass_of(k) < screen * total || mass_of(k) > (1 - screen) * total)) {
       dropped = true;
       continue;
     }
-    entry.a = k;
-    entry.b = fields == 2 && !own_normals ? 1 - k : -1;
-    entry.alone = fields == 2;
     list_.entries.push_back(entry);
     if (entry.b >= 0) return;
   }
@@ -152,11 +164,11 @@ void Contact<Dim>::remember() {
   memory_.reserve(list_.entries.size());
   for (std::size_t k = 0; k < list_.entries.size(); ++k) {
     const auto& entry = list_.entries[k];
-    Memory m{keys_[k], entry.touching, entry.stuck, entry.spring, {}};
+    Memory m{keys_[k], k, entry.touching, entry.stuck, entry.spring, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
     memory_.push_back(m);
   }
-  if (spec_.fields == ManyFields::pairs)  // lumps come before the pairs of a node
+  if (spec_.fields == ManyFields::pairs || cracks_.active())  // lumps come before the pairs of a node
     std::sort(memory_.begin(), memory_.end(), [](const Memory& m, const Memory& n) { return m.key < n.key; });
 }
 
@@ -178,18 +190,19 @@ void Contact<Dim>::recall(const State<Dim>& state) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
       const std::uint64_t key = entry_key(state, list_, node, entry);
       if (!keys_.empty() && key < keys_.back()) last = std::lower_bound(memory_.begin(), last, key, less);
+      if (entry.crack >= 0) last = std::lower_bound(memory_.begin(), memory_.end(), key, less);
       keys_.push_back(key);
       while (last != memory_.end() && last->key < key) ++last;
       if (last == memory_.end() || last->key != key) continue;
       if (bridges_) {
-        const Bridge<Dim>& before = last_bridges_[static_cast<std::size_t>(last - memory_.begin())];
+        const Bridge<Dim>& before = last_bridges_[last->entry];
         auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
         bridge.jump = before.jump;
         bridge.known = before.known;
         bridge.jump_normal = before.jump_normal;
       }
       if (bonds_) {
-        const Bond<Dim>& before = last_bonds_[static_cast<std::size_t>(last - memory_.begin())];
+        const Bond<Dim>& before = last_bonds_[last->entry];
         auto& bond = list_.bonds[static_cast<std::size_t>(e)];
         bond.before = before.way;
         bond.offset_before = before.offset;

@@ -27,6 +27,7 @@ struct ContactEntry {
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
   bool settled = false;       ///< the normal is found: no regression
   int crack = -1;             ///< whose sides they are
+  int beyond = 0;             ///< are they both on the right of another crack of the node? 0 or 1
   bool touched = false;       ///< in contact at the end of the last step
   bool held = false;          ///< by the first correction
   bool touching = false;      ///< in contact at the second correction
@@ -126,10 +127,12 @@ struct ContactList {
   ContactCounters counters;
 };
 
-/// Names an entry from step to step: its node, then its field a, then b (first of all the lump).
+/// Names an entry from step to step: its node, then its field a, then b (first of all the lump); of sides of
+/// a crack that crack, since the fields that it parts depend on what else is near.
 template <int Dim>
 std::uint64_t entry_key(const State<Dim>& state, const ContactList<Dim>& list, const ContactNode<Dim>& node,
                         const ContactEntry<Dim>& entry) {
+  constexpr std::uint64_t kCrack = std::uint64_t{1} << 63;
   const auto& stack = state.tiling.stacks[static_cast<std::size_t>(node.stack)];
   const auto place =
       static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(stack.begin)].place);
@@ -137,8 +140,10 @@ std::uint64_t entry_key(const State<Dim>& state, const ContactList<Dim>& list, c
     return static_cast<std::uint64_t>(list.fields[static_cast<std::size_t>(node.field_begin + k)].field);
   };
   const auto fields = static_cast<std::uint64_t>(state.fields());
-  const std::uint64_t other = entry.b >= 0 ? field(entry.b) + 1 : 0;
   const std::uint64_t at = place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local);
+  if (entry.crack >= 0)
+    return kCrack | (at << 16 | static_cast<std::uint64_t>(2 * entry.crack + entry.beyond));
+  const std::uint64_t other = entry.b >= 0 ? field(entry.b) + 1 : 0;
   return (at * fields + field(entry.a)) * (fields + 1) + other;
 }
 

@@ -50,8 +50,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& c
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
       geometry_(plan.contact_geometry),
-      bridges_(plan.bridges),
-      exact_fields_(plan.exact_fields) {
+      bridges_(plan.bridges) {
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   laws_.push_back(law_on(spec_.law, scene));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));

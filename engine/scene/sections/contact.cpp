@@ -79,6 +79,9 @@ void describe_touching(Keys& map, ContactSpec& contact) {
 }
 
 void check_fields(Slot& fields, const ContactSpec& contact) {
+  if (fields.reads() && contact.fields == ManyFields::simultaneous &&
+      contact.normal == NormalKind::own_gradient)
+    fields.report("pairs that are solved together want one normal for both (not normal: own_gradient)");
   const bool of_particles = !is_gradient(contact.normal) && contact.normal != NormalKind::specified &&
                             !is_of_grid(contact.separation);
   if (fields.reads() && contact.fields == ManyFields::pairs && !of_particles)

@@ -33,14 +33,54 @@ void describe_line(Slot& slot, Points& points) {
   if (crosses_itself(points)) slot.report("a crack must not cross or touch itself");
 }
 
-/// Does any part of a line lie in a shape?
+/// Does any part of a line lie in a shape? It is looked at where it passes through the box around that.
 bool runs_through(const Shape& shape, const Points& points) {
-  constexpr int kPlaces = 100;  // along each segment
-  for (std::size_t k = 1; k < points.size(); ++k)
-    for (int place = 0; place <= kPlaces; ++place) {
-      const double share = static_cast<double>(place) / kPlaces;
+  constexpr int kPlaces = 400;  // along each segment
+  const Bounds box = bounds(shape);
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    double first = 0, last = 1;
+    for (std::size_t d = 0; d < 2; ++d) {
+      const double from = points[k - 1][d], way = points[k][d] - from;
+      if (way == 0 && (from < box.lower[d] || from > box.upper[d])) last = -1;
+      if (way == 0) continue;
+      const double low = (box.lower[d] - from) / way, high = (box.upper[d] - from) / way;
+      first = std::max(first, std::min(low, high));
+      last = std::min(last, std::max(low, high));
+    }
+    for (int place = 0; first <= last && place <= kPlaces; ++place) {
+      const double share = first + (last - first) * place / kPlaces;
       const auto at = [&](std::size_t d) { return (1 - share) * points[k - 1][d] + share * points[k][d]; };
       if (contains(shape, {at(0), at(1), 0})) return true;
+    }
+  }
+  return false;
+}
+
+double length_of(const Points& points) {
+  double sum = 0;
+  for (std::size_t k = 1; k < points.size(); ++k)
+    sum += std::hypot(points[k][0] - points[k - 1][0], points[k][1] - points[k - 1][1]);
+  return sum;
+}
+
+/// Does one crack go on where another ends, or lie on it?
+bool go_on(const Points& one, const Points& other, double cell) {
+  const double near = 1e-3 * cell;
+  const auto apart = [](const Point2& a, const Point2& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); };
+  for (const Point2& a : {one.front(), one.back()})
+    for (const Point2& b : {other.front(), other.back()})
+      if (apart(a, b) < near) return true;
+  const auto on = [&](const Point2& a, const Point2& b, const Point2& x) {
+    const double length = apart(a, b),
+                 along = ((x[0] - a[0]) * (b[0] - a[0]) + (x[1] - a[1]) * (b[1] - a[1])) / length;
+    return std::abs(turn(a, b, x)) < near * length && along > near && along < length - near;
+  };
+  for (std::size_t k = 1; k < one.size(); ++k)
+    for (std::size_t m = 1; m < other.size(); ++m) {
+      const Point2 &a = one[k - 1], &b = one[k], &c = other[m - 1], &d = other[m];
+      const bool parallel =
+          std::abs(turn(a, b, c)) < near * apart(a, b) && std::abs(turn(a, b, d)) < near * apart(a, b);
+      if (parallel && (on(a, b, c) || on(a, b, d) || on(c, d, a) || on(c, d, b))) return true;
     }
   return false;
 }
@@ -64,6 +104,33 @@ void describe_arc(Slot& slot, Points& points) {
   for (int k = 0; k <= steps; ++k) {
     const double angle = from + (to - from) * k / steps;
     points.push_back({centre[0] + radius * std::cos(angle), centre[1] + radius * std::sin(angle)});
+  }
+}
+
+/// What a crack must be by itself and in its body.
+void check_crack(Slot& slot, const Scene& scene, const CrackSpec& crack) {
+  constexpr double kFinest = 0.01;  // cells
+  constexpr double kMost = 1e6;     // points
+  const BodySpec& body = scene.bodies[static_cast<std::size_t>(crack.body)];
+  const auto shares = [&](const BodySpec& other) {
+    return &other != &body && !is_rigid(scene, other) && (!scene.contact.active || other.field == body.field);
+  };
+  if (is_rigid(scene, body)) slot.report(fmt::format("'{}' is rigid: nothing in it opens", body.name));
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(), shares))
+    slot.report(
+        fmt::format("'{}' shares its velocity field with other bodies, which it would part too", body.name));
+  if (crack.spacing > scene.grid.cell || crack.spacing < kFinest * scene.grid.cell)
+    slot.report(
+        fmt::format("a spacing of a hundredth of a cell to a cell ({} m) was expected", scene.grid.cell));
+  else if (length_of(crack.points) / crack.spacing > kMost)
+    slot.report("a crack of at most a million points was expected");
+  if (!runs_through(body.shape, crack.points))
+    slot.report(fmt::format("no part of it lies in '{}'", body.name));
+  for (const CrackSpec& other : scene.cracks) {
+    if (other.name == crack.name) slot.report(fmt::format("a crack is called '{}' already", crack.name));
+    if (other.body == crack.body && go_on(other.points, crack.points, scene.grid.cell))
+      slot.report(
+          fmt::format("it goes on where '{}' ends, or lies on it: one line was expected", other.name));
   }
 }
 
@@ -107,7 +174,9 @@ void describe_cracks(Keys& top, Scene& scene) {
                          crack.law = scene.contact.law;
                        }
                        describe_crack(entry, scene, crack);
-                       if (entry.reads() && entry.good()) scene.cracks.push_back(crack);
+                       if (!entry.reads() || !entry.good()) return;
+                       check_crack(entry, scene, crack);
+                       scene.cracks.push_back(crack);
                      });
          });
 }
@@ -144,19 +213,8 @@ void check_cracks(const Value& top, const Scene& scene) {
   refuse(scene.grid.leaving == LeavingKind::outflow, "bodies that flow out (grid.leaving)");
   if (scene.contact.fields != ManyFields::simultaneous)
     stated.report("the sides of cracks meet in pairs: contact.fields: simultaneous was expected");
-  for (std::size_t k = 0; k < scene.cracks.size(); ++k) {
-    const CrackSpec& crack = scene.cracks[k];
-    const Value entry = stated.item(k);
-    const BodySpec& body = scene.bodies[static_cast<std::size_t>(crack.body)];
-    if (is_rigid(scene, body)) entry.report(fmt::format("'{}' is rigid: nothing in it opens", body.name));
-    if (crack.spacing > scene.grid.cell)
-      entry.report(fmt::format("a spacing of at most a cell ({} m) was expected", scene.grid.cell));
-    if (!runs_through(body.shape, crack.points))
-      entry.report(fmt::format("no part of it lies in '{}'", body.name));
-    for (std::size_t other = 0; other < k; ++other)
-      if (scene.cracks[other].name == crack.name)
-        entry.report(fmt::format("a crack is called '{}' already", crack.name));
-  }
+  if (scene.contact.normal == NormalKind::own_gradient)
+    stated.report("the sides of cracks want one normal for both (not contact.normal: own_gradient)");
 }
 
 }  // namespace mpmfast

@@ -67,7 +67,7 @@ void check_walls(const Value& top, const Scene& scene);
 void close_faces(const Value& top, Scene& scene);
 /// Refuses laws that plane stress cannot have.
 void check_plane_stress(const Value& top, const Scene& scene);
-/// Refuses what cracks do not know, and cracks outside of their bodies.
+/// Refuses what cracks do not know.
 void check_cracks(const Value& top, const Scene& scene);
 /// Refuses what heat does not know, and materials that it knows too little of.
 void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlace>& places);
