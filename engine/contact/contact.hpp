@@ -100,7 +100,7 @@ class Contact {
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
-    std::size_t entry;  ///< which of the last step's entries
+    std::uint32_t entry;  ///< which of the last step's entries
     bool touching, stuck;
     double spring;
     double plane[Dim + 1];

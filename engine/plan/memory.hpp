@@ -27,7 +27,7 @@ PassingNeed passing_need(const Scene& scene, double particles);
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles);
 
 /// Of the program and its libraries, resident; those that write checkpoints come with the first.
-inline constexpr double kProgramBytes = 19.0 * (1 << 20), kCheckpointBytes = 4.5 * (1 << 20);
+inline constexpr double kProgramBytes = 18.5 * (1 << 20), kCheckpointBytes = 4.5 * (1 << 20);
 
 /// Bytes of memory that the machine has; 0 when it does not tell.
 std::uint64_t machine_memory();

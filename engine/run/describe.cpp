@@ -36,8 +36,9 @@ std::string checkpoint_text(const CheckpointSpec& checkpoint, std::size_t bytes)
 
 /// A few steps of the scene itself measure what a step costs on this machine: the median, which neither the
 /// first steps, that touch the memory, nor a busy moment disturb.
-template <int Dim>
-std::string estimated_time(Step<Dim>& step, double steps) {
+/// @param look  called once, after as many steps on any machine
+template <int Dim, class F>
+std::string estimated_time(Step<Dim>& step, double steps, const F& look) {
   constexpr std::size_t kFewest = 5, kMost = 100;
   constexpr double kPatience = 0.3;  // s
   using Clock = std::chrono::steady_clock;
@@ -51,8 +52,10 @@ std::string estimated_time(Step<Dim>& step, double steps) {
       const auto start = Clock::now();
       step.advance(step.stable_dt());
       walls.push_back(seconds_since(start));
+      if (walls.size() == kFewest) look();
     }
   } catch (const RunFailure& failure) {
+    if (walls.size() < kFewest) look();
     return fmt::format("unknown: {}", failure.what());
   }
   const auto middle = walls.begin() + static_cast<std::ptrdiff_t>(walls.size() / 2);
@@ -137,7 +140,8 @@ std::string describe(const Scene& scene, bool verbose) {
   };
 
   const auto bodies = body_lines(scene, step.state().particles);
-  const std::string estimate = estimated_time(step, steps);
+  std::string memory;
+  const std::string estimate = estimated_time(step, steps, [&] { memory = memory_text(step, scene); });
 
   const auto& particles = step.state().particles;
   std::string columns, nodal, passes;
@@ -167,7 +171,7 @@ std::string describe(const Scene& scene, bool verbose) {
   if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
                                  step.state().tiling.node_tiles.size(), step.state().tiling.places()));
-  line("memory", memory_text(step, scene));
+  line("memory", memory);
   line("checkpoint",
        checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));
   const DisplayUnit unit = display_unit(dt, "s");

@@ -77,7 +77,7 @@ class Cracks {
   struct Parting {
     int crack = -1;
     Vec<Dim> normal = Vec<Dim>::Zero();
-    int beyond = 0;  ///< are both on the right of the node's other crack?
+    bool beyond = false;  ///< are both on the right of the node's other crack?
   };
   /// Are both fields sides of one body?
   bool same_body(const State<Dim>& state, int a, int b) const {

@@ -78,7 +78,7 @@ bool Contact<Dim>::parts(const State<Dim>& state, const ContactNode<Dim>& node,
   };
   const auto parting = cracks_.parting(state, node.node, field(entry.a), field(entry.b),
                                        node.field_end - node.field_begin == 2);
-  entry.crack = parting.crack;
+  entry.crack = static_cast<std::int16_t>(parting.crack);
   entry.beyond = parting.beyond;
   entry.normal = parting.normal;
   entry.settled = true;
@@ -164,7 +164,7 @@ void Contact<Dim>::remember() {
   memory_.reserve(list_.entries.size());
   for (std::size_t k = 0; k < list_.entries.size(); ++k) {
     const auto& entry = list_.entries[k];
-    Memory m{keys_[k], k, entry.touching, entry.stuck, entry.spring, {}};
+    Memory m{keys_[k], static_cast<std::uint32_t>(k), entry.touching, entry.stuck, entry.spring, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
     memory_.push_back(m);
   }

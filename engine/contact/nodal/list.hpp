@@ -26,17 +26,17 @@ struct ContactEntry {
   double advanced = 0;        ///< the separation that a correction judges by, m
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
   bool settled = false;       ///< the normal is found: no regression
-  int crack = -1;             ///< whose sides they are
-  int beyond = 0;             ///< are they both on the right of another crack of the node? 0 or 1
+  bool beyond = false;        ///< both are on the right of another crack of the node
+  std::int16_t crack = -1;    ///< whose sides they are
   bool touched = false;       ///< in contact at the end of the last step
   bool held = false;          ///< by the first correction
   bool touching = false;      ///< in contact at the second correction
   bool stuck = false;         ///< the second correction leaves no slip
-  bool stuck_before = false;  ///< that of the last step did
   double spring = 0;          ///< m: how far the surfaces would come together if nothing pressed them apart
   double spring_before = 0;   ///< at the end of the last step
   bool parts = false;         ///< its law knows no tie
   bool alone = false;         ///< its node has these two fields only
+  bool stuck_before = false;  ///< the second correction of the last step left no slip
   double friction_work = 0;   ///< J, of this step
   Vec<Dim> impulse;           ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
@@ -142,7 +142,7 @@ std::uint64_t entry_key(const State<Dim>& state, const ContactList<Dim>& list, c
   const auto fields = static_cast<std::uint64_t>(state.fields());
   const std::uint64_t at = place * kTileNodes<Dim> + static_cast<std::uint64_t>(node.local);
   if (entry.crack >= 0)
-    return kCrack | (at << 16 | static_cast<std::uint64_t>(2 * entry.crack + entry.beyond));
+    return kCrack | (at << 16 | static_cast<std::uint64_t>(2 * entry.crack + (entry.beyond ? 1 : 0)));
   const std::uint64_t other = entry.b >= 0 ? field(entry.b) + 1 : 0;
   return (at * fields + field(entry.a)) * (fields + 1) + other;
 }

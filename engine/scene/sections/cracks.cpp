@@ -159,12 +159,13 @@ void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
 }  // namespace
 
 void describe_cracks(Keys& top, Scene& scene) {
+  constexpr int kMostCracks = 10000;
   top.at("cracks", "Surfaces inside of bodies, closed at the start, whose sides come apart, touch and slide.",
          [&](Slot& slot) {
            std::size_t count = scene.cracks.size();
            if (slot.writes() && count == 0) return;
            if (slot.reads() && slot.is_word("none", false)) return;
-           slot.list("a list of maps {body, line | arc, law, …}", 0, Form::kNoEnd, count,
+           slot.list("a list of maps {body, line | arc, law, …}", 0, kMostCracks, count,
                      [&](Slot& entry, std::size_t k) {
                        CrackSpec crack;
                        if (entry.writes()) crack = scene.cracks[k];
