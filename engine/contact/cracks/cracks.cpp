@@ -1,5 +1,7 @@
 #include "engine/contact/cracks/cracks.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,6 +10,7 @@ namespace mpmfast {
 
 template <int Dim>
 Cracks<Dim>::Cracks(const Scene& scene, const Plan& plan) : first_side_(plan.first_side) {
+  rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   for (const CrackSpec& crack : scene.cracks) {
     CrackLine<Dim> line{plan.body_field[static_cast<std::size_t>(crack.body)], {}};
     const auto corner = [&](std::size_t k) {
@@ -38,12 +41,20 @@ int Cracks<Dim>::place_in_block(const NodeIndex<Dim>& node, NodeIndex<Dim>& bloc
 }
 
 template <int Dim>
+const std::array<int, kTileNodes<Dim>>* Cracks<Dim>::find_block(int field,
+                                                                const NodeIndex<Dim>& block) const {
+  const std::uint64_t key = key_of(field, block);
+  const auto found = std::lower_bound(block_keys_.begin(), block_keys_.end(), key);
+  if (found == block_keys_.end() || *found != key) return nullptr;
+  return &blocks_[static_cast<std::size_t>(found - block_keys_.begin())];
+}
+
+template <int Dim>
 const CrackedNode<Dim>* Cracks<Dim>::find(int field, const NodeIndex<Dim>& node) const {
   NodeIndex<Dim> block;
   const auto local = static_cast<std::size_t>(place_in_block(node, block));
-  const auto found = blocks_of_nodes_.find(key_of(field, block));
-  if (found == blocks_of_nodes_.end() || found->second[local] < 0) return nullptr;
-  return &nodes_[static_cast<std::size_t>(found->second[local])];
+  const auto* found = find_block(field, block);
+  return found && (*found)[local] >= 0 ? &nodes_[static_cast<std::size_t>((*found)[local])] : nullptr;
 }
 
 /// The nodes under the window of a tile that are seen behind cracks; @return whether there are any
@@ -59,11 +70,11 @@ bool Cracks<Dim>::find_under(const ParticleTile<Dim>& tile, WindowNodes& seen) c
       block[d] = tile.window[d] / kTileSide + (c >> d & 1);
       base += (c >> d & 1) * kTileSide * stride;
     }
-    const auto found = blocks_of_nodes_.find(key_of(tile.field, block));
-    if (found == blocks_of_nodes_.end()) continue;
+    const auto* found = find_block(tile.field, block);
+    if (!found) continue;
     any = true;
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      const int at = found->second[static_cast<std::size_t>(local)];
+      const int at = (*found)[static_cast<std::size_t>(local)];
       if (at < 0) continue;
       int w = base;
       for (int d = 0, rest = local, stride = 1; d < Dim; ++d, rest /= kTileSide, stride *= kWindowSide)
@@ -112,7 +123,7 @@ void Cracks<Dim>::move(const State<Dim>& state, double dt) {
   for (CrackLine<Dim>& line : lines_) {
     const int first = first_side_[static_cast<std::size_t>(line.field)];
     velocity_.assign(line.points.size(), Vec<Dim>::Zero());
-    std::vector<bool> known(line.points.size(), false);
+    is_known_.assign(line.points.size(), false);
     for (std::size_t k = 0; k < line.points.size(); ++k) {
       NodeIndex<Dim> node;
       Vec<Dim> share;
@@ -147,14 +158,14 @@ void Cracks<Dim>::move(const State<Dim>& state, double dt) {
       }
       if (!(weight > 0)) continue;
       velocity_[k] /= weight;
-      known[k] = true;
+      is_known_[k] = true;
     }
     // Beyond the body it goes on as the last point inside.
     const auto spread = [&](auto begin, auto end, auto step) {
       for (auto k = begin + step; k != end; k += step)
-        if (!known[static_cast<std::size_t>(k)] && known[static_cast<std::size_t>(k - step)]) {
+        if (!is_known_[static_cast<std::size_t>(k)] && is_known_[static_cast<std::size_t>(k - step)]) {
           velocity_[static_cast<std::size_t>(k)] = velocity_[static_cast<std::size_t>(k - step)];
-          known[static_cast<std::size_t>(k)] = true;
+          is_known_[static_cast<std::size_t>(k)] = true;
         }
     };
     const auto n = static_cast<std::ptrdiff_t>(line.points.size());

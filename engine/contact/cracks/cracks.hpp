@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <unordered_map>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -111,17 +110,22 @@ class Cracks {
     NodeIndex<Dim> first;
     std::array<std::int8_t, 36> side;
   };
+  /// What one thread works in.
+  struct Room {
+    std::vector<const Segment*> near, reached;
+  };
   using WindowNodes = std::array<const CrackedNode<Dim>*, kWindowNodes<Dim>>;
 
   static std::uint64_t key_of(int field, const NodeIndex<Dim>& place);
   static int place_in_block(const NodeIndex<Dim>& node, NodeIndex<Dim>& block);
   const CrackedNode<Dim>* find(int field, const NodeIndex<Dim>& node) const;
+  const std::array<int, kTileNodes<Dim>>* find_block(int field, const NodeIndex<Dim>& block) const;
   bool find_under(const ParticleTile<Dim>& tile, WindowNodes& seen) const;
   int side_of(const State<Dim>& state, int field) const;
   void list_segments();
   void list_crossed(const State<Dim>& state, const Supports<Dim>& supports);
   void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
-             std::vector<Crossed>& out) const;
+             Room& room, std::vector<Crossed>& out) const;
   void list_nodes(const State<Dim>& state);
   bool see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
   bool list_sides(State<Dim>& state, const Supports<Dim>& supports);
@@ -129,13 +133,16 @@ class Cracks {
   std::vector<CrackLine<Dim>> lines_;
   std::vector<int> first_side_;  ///< as Plan
   std::vector<Segment> segments_;
-  std::vector<std::array<Vec<Dim>, 2>> blocks_;  ///< boxes around every so many of them
-  std::vector<std::vector<Crossed>> crossed_;    ///< by tile
+  std::vector<std::array<Vec<Dim>, 2>> boxes_;  ///< around every so many of them
+  std::vector<std::vector<Crossed>> crossed_;   ///< by tile
   std::vector<CrackedNode<Dim>> nodes_;
-  std::unordered_map<std::uint64_t, std::array<int, kTileNodes<Dim>>> blocks_of_nodes_;  ///< −1: not cracked
+  std::vector<std::uint64_t> block_keys_;                 ///< of tiles of nodes, rising
+  std::vector<std::array<int, kTileNodes<Dim>>> blocks_;  ///< likewise: into nodes_; −1: not cracked
   std::vector<std::vector<Sides>> sides_;  ///< by tile, of the particles that see another than 0
   std::vector<std::uint8_t> group_;
-  std::vector<Vec<Dim>> velocity_;
+  std::vector<Vec<Dim>> velocity_;      ///< of the points of the line in hand
+  std::vector<std::uint8_t> is_known_;  ///< likewise
+  std::vector<Room> rooms_;             ///< of each thread
   CrackCounters counters_;
 };
 

@@ -2,6 +2,8 @@
 
 #include "engine/contact/cracks/cracks.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -34,7 +36,7 @@ bool overlap(const Vec<Dim>& low, const Vec<Dim>& high, const Vec<Dim>& other_lo
 template <int Dim>
 void Cracks<Dim>::list_segments() {
   segments_.clear();
-  blocks_.clear();
+  boxes_.clear();
   for (std::size_t c = 0; c < lines_.size(); ++c)
     for (std::size_t k = 1; k < lines_[c].points.size(); ++k) {
       const Vec<Dim>&from = lines_[c].points[k - 1], &to = lines_[c].points[k];
@@ -43,16 +45,16 @@ void Cracks<Dim>::list_segments() {
       normal[0] = -along[1], normal[1] = along[0];
       segments_.push_back(
           {static_cast<int>(c), from, to, from.cwiseMin(to), from.cwiseMax(to), normal / along.norm()});
-      if (segments_.size() % kBlock == 1) blocks_.push_back({segments_.back().low, segments_.back().high});
-      blocks_.back()[0] = blocks_.back()[0].cwiseMin(segments_.back().low);
-      blocks_.back()[1] = blocks_.back()[1].cwiseMax(segments_.back().high);
+      if (segments_.size() % kBlock == 1) boxes_.push_back({segments_.back().low, segments_.back().high});
+      boxes_.back()[0] = boxes_.back()[0].cwiseMin(segments_.back().low);
+      boxes_.back()[1] = boxes_.back()[1].cwiseMax(segments_.back().high);
     }
 }
 
 /// The ways from the particles of a tile to the nodes of their supports that cross cracks of their body.
 template <int Dim>
 void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
-                        std::vector<Crossed>& out) const {
+                        Room& room, std::vector<Crossed>& out) const {
   const auto place = [&](const NodeIndex<Dim>& node) {
     Vec<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = state.grid.origin[d] + node[d] * state.grid.cell;
@@ -61,9 +63,10 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
   NodeIndex<Dim> first;
   for (int d = 0; d < Dim; ++d) first[d] = tile.window[d] - 1;
   const Vec<Dim> low = place(first), high = place(first + NodeIndex<Dim>::Constant(kWindowSide + 1));
-  std::vector<const Segment*> near;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    if (!overlap<Dim>(blocks_[b][0], blocks_[b][1], low, high)) continue;
+  auto& [near, reached] = room;
+  near.clear();
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    if (!overlap<Dim>(boxes_[b][0], boxes_[b][1], low, high)) continue;
     for (std::size_t s = kBlock * b; s < std::min(segments_.size(), kBlock * (b + 1)); ++s) {
       const Segment& segment = segments_[s];
       if (lines_[static_cast<std::size_t>(segment.crack)].field == tile.field &&
@@ -72,7 +75,6 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
     }
   }
   if (near.empty()) return;
-  std::vector<const Segment*> reached;
   for (int r = tile.run_begin; r < tile.run_end; ++r) {
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
@@ -118,22 +120,33 @@ void Cracks<Dim>::list_crossed(const State<Dim>& state, const Supports<Dim>& sup
     const auto& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
     auto& out = crossed_[static_cast<std::size_t>(t)];
     out.clear();
-    if (first_side_[static_cast<std::size_t>(tile.field)] >= 0) cross(state, supports, tile, out);
+    if (first_side_[static_cast<std::size_t>(tile.field)] >= 0)
+      cross(state, supports, tile, rooms_[static_cast<std::size_t>(omp_get_thread_num())], out);
   }
 }
 
 /// The nodes that any particle sees behind a crack.
 template <int Dim>
 void Cracks<Dim>::list_nodes(const State<Dim>& state) {
-  nodes_.clear();
-  blocks_of_nodes_.clear();
+  NodeIndex<Dim> block;
+  const auto key_in = [&](std::size_t tile) { return key_of(state.tiling.tiles[tile].field, block); };
+  block_keys_.clear();
   for (std::size_t t = 0; t < crossed_.size(); ++t)
     for (const Crossed& one : crossed_[t]) {
-      NodeIndex<Dim> block;
+      place_in_block(one.node, block);
+      if (block_keys_.empty() || block_keys_.back() != key_in(t)) block_keys_.push_back(key_in(t));
+    }
+  std::sort(block_keys_.begin(), block_keys_.end());
+  block_keys_.erase(std::unique(block_keys_.begin(), block_keys_.end()), block_keys_.end());
+  blocks_.resize(block_keys_.size());
+  for (auto& places : blocks_) places.fill(-1);
+  nodes_.clear();
+  for (std::size_t t = 0; t < crossed_.size(); ++t)
+    for (const Crossed& one : crossed_[t]) {
       const auto local = static_cast<std::size_t>(place_in_block(one.node, block));
-      const auto [entry, added] = blocks_of_nodes_.try_emplace(key_of(state.tiling.tiles[t].field, block));
-      if (added) entry->second.fill(-1);
-      int& number = entry->second[local];
+      const auto at =
+          std::lower_bound(block_keys_.begin(), block_keys_.end(), key_in(t)) - block_keys_.begin();
+      int& number = blocks_[static_cast<std::size_t>(at)][local];
       if (number < 0) {
         number = static_cast<int>(nodes_.size());
         nodes_.emplace_back();

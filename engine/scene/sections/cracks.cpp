@@ -18,15 +18,7 @@ using Points = std::vector<std::array<double, 2>>;
 
 /// The corners of a crack, from one end to the other.
 void describe_line(Slot& slot, Points& points) {
-  Points read;
-  std::size_t count = points.size();
-  slot.list("a list of two or more points [x, y]", 2, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
-    Vec3 point = item.writes() ? Vec3{points[k][0], points[k][1], 0} : Vec3{};
-    item.take(point, Vector{Measure::length, 2});
-    if (item.reads()) read.push_back({point[0], point[1]});
-  });
-  if (!slot.reads() || !slot.good()) return;
-  points = std::move(read);
+  if (!take_points(slot, 2, "a list of two or more points [x, y]", points)) return;
   for (std::size_t k = 1; k < points.size(); ++k)
     if (points[k] == points[k - 1])
       return slot.refuse_item(k, "a point apart from the one before was expected");

@@ -79,16 +79,8 @@ void describe_ring(Slot& slot, Shape& shape, const Scene& scene) {
                             ring.inner, ring.outer));
 }
 
-void describe_points(Slot& slot, std::vector<std::array<double, 2>>& points) {
-  std::vector<std::array<double, 2>> read;
-  std::size_t count = points.size();
-  slot.list("a list of three or more points [x, y]", 3, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
-    Vec3 point = item.writes() ? Vec3{points[k][0], points[k][1], 0} : Vec3{};
-    item.take(point, Vector{Measure::length, 2});
-    if (item.reads()) read.push_back({point[0], point[1]});
-  });
-  if (!slot.reads() || !slot.good()) return;
-  points = std::move(read);
+void describe_points(Slot& slot, Points2& points) {
+  if (!take_points(slot, 3, "a list of three or more points [x, y]", points)) return;
   if (const std::string fault = polygon_fault(points); !fault.empty()) slot.report(fault);
 }
 
@@ -179,6 +171,19 @@ const std::vector<ShapeKind>& shape_kinds() {
        "A closed surface from a file, in 3-D.", describe_stl, StlShape{}, true},
   };
   return kKinds;
+}
+
+bool take_points(Slot& slot, int least, const char* expected, Points2& points) {
+  Points2 read;
+  std::size_t count = points.size();
+  slot.list(expected, least, Form::kNoEnd, count, [&](Slot& item, std::size_t k) {
+    Vec3 point = item.writes() ? Vec3{points[k][0], points[k][1], 0} : Vec3{};
+    item.take(point, Vector{Measure::length, 2});
+    if (item.reads()) read.push_back({point[0], point[1]});
+  });
+  if (!slot.reads() || !slot.good()) return false;
+  points = std::move(read);
+  return true;
 }
 
 }  // namespace mpmfast
