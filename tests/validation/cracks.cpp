@@ -1,5 +1,7 @@
 // Cracks: sides of one body that have velocity fields of their own on the nodes near.
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -87,6 +89,24 @@ TEST_CASE("a crack that opens, closes and slides keeps momentum and energy") {
   CHECK((momentum(step.state().particles) - start).norm() < 1e-11 * start.norm());
   const double left = kinetic_energy(step.state().particles) + step.stored_energy();
   CHECK(left == doctest::Approx(kinetic).epsilon(3e-4).scale(0));  // measured -7e-5
+}
+
+TEST_CASE("a crack moves with its body: that of a block that flies and spins lies where the block is") {
+  const Scene scene = scene_from(block("law: perfect"));
+  Step<2> step(scene);
+  const std::vector<Vec<2>> start = step.cracks().lines()[0].points;
+  advance(step, 150);
+  const double time = step.state().time, angle = 9000 * time;
+  const Vec<2> about(16e-3, 13e-3), moved = time * Vec<2>(30, 11);
+  double farthest = 0, most = 0;
+  for (std::size_t k = 0; k < start.size(); ++k) {
+    if (start[k][0] < 6.3e-3) continue;  // outside of it
+    const Vec<2> now = about + moved + Eigen::Rotation2Dd(angle) * (start[k] - about);
+    most = std::max(most, (now - start[k]).norm());
+    farthest = std::max(farthest, (step.cracks().lines()[0].points[k] - now).norm());
+  }
+  CHECK(most > 3e-3);
+  CHECK(farthest < 0.1e-3);  // the spin stretches the block by 0.04 mm
 }
 
 TEST_CASE("the steps of a cracked body are the same bits on any number of threads") {
