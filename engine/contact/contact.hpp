@@ -129,7 +129,8 @@ class Contact {
   void weigh_bonds(const State<Dim>& state);
   template <class F>
   void for_each_bond(const State<Dim>& state, const F& f);
-  bool is_cracked(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  bool is_cracked(const State<Dim>& state, const ContactNode<Dim>& node,
+                  const ContactEntry<Dim>& entry) const;
   void take_nearest(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                     Bond<Dim>& bond) const;
   const ContactEntry<Dim>* same_pair(const State<Dim>& state, const ContactNode<Dim>& node,

@@ -138,8 +138,21 @@ std::array<Extent, 3> extents_of(const Particles<3>& particles, const Scene& sce
   return box;
 }
 
+/// Within a box.
+void draw_lines(Picture& picture, const Polylines& lines, const Range& x, const Range& y) {
+  constexpr Colour kDark{20, 20, 20};
+  const auto holds = [&](const Vec<2>& at) {
+    return at[0] >= x.lower && at[0] <= x.upper && at[1] >= y.lower && at[1] <= y.upper;
+  };
+  for (const auto& points : lines)
+    for (std::size_t k = 1; k < points.size(); ++k)
+      if (holds(points[k - 1]) && holds(points[k]))
+        picture.canvas().line(picture.at(points[k - 1][0], points[k - 1][1]),
+                              picture.at(points[k][0], points[k][1]), 1.2, kDark);
+}
+
 Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring& colour,
-              const Framing& framing, PictureFormat format) {
+              const Framing& framing, PictureFormat format, const Polylines& lines) {
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
   const double margin = 0.02 * std::max(x.width(), y.width());
   const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
@@ -157,6 +170,7 @@ Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
     picture.canvas().fill_convex(corners, colour(p));
   }
+  draw_lines(picture, lines, wider(x), wider(y));
   picture.draw_axes(length_unit(scene), scene.space == Space::axisymmetric ? "rz" : "xy");
   return picture;
 }
@@ -170,7 +184,7 @@ void draw_ball(Picture& picture, PixelPoint centre, double radius, Colour colour
 }
 
 Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring& colour,
-              const Framing& framing, PictureFormat format) {
+              const Framing& framing, PictureFormat format, const Polylines&) {
   const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
               z = box_range(framing, scene, 2);
   const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
@@ -247,10 +261,10 @@ Framing framing_of(const Particles<Dim>& particles, const Scene& scene, const st
 
 template <int Dim>
 Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
-                       double time, const Framing& framing, PictureFormat format) {
+                       double time, const Framing& framing, PictureFormat format, const Polylines& lines) {
   const FieldValues values = field_values(particles, scene, field);
   const Colouring colour(values, framing);
-  Picture picture = paint(particles, scene, colour, framing, format);
+  Picture picture = paint(particles, scene, colour, framing, format, lines);
   PictureText text = picture_text(scene, values.label, time);
   if (colour.has_bar()) {
     picture.draw_colour_bar(colour.scale, values.unit);
@@ -263,19 +277,21 @@ Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, cons
 
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
-                    const std::string& field, double time) {
-  paint_particles(particles, scene, field, time, framing_of(particles, scene, field)).write(png);
+                    const std::string& field, double time, const Polylines& lines) {
+  paint_particles(particles, scene, field, time, framing_of(particles, scene, field), PictureFormat::png,
+                  lines)
+      .write(png);
 }
 
 template Framing framing_of(const Particles<2>&, const Scene&, const std::string&);
 template Canvas paint_particles(const Particles<2>&, const Scene&, const std::string&, double, const Framing&,
-                                PictureFormat);
+                                PictureFormat, const Polylines&);
 template void draw_particles(const std::filesystem::path&, const Particles<2>&, const Scene&,
-                             const std::string&, double);
+                             const std::string&, double, const Polylines&);
 template Framing framing_of(const Particles<3>&, const Scene&, const std::string&);
 template Canvas paint_particles(const Particles<3>&, const Scene&, const std::string&, double, const Framing&,
-                                PictureFormat);
+                                PictureFormat, const Polylines&);
 template void draw_particles(const std::filesystem::path&, const Particles<3>&, const Scene&,
-                             const std::string&, double);
+                             const std::string&, double, const Polylines&);
 
 }  // namespace mpmfast

@@ -131,6 +131,8 @@ std::vector<std::string> column_names(const Scene& scene) {
   for (const CrackTip& tip : crack_tips(scene))
     for (const char* column : {".x_m", ".y_m", ".J_J_per_m2", ".KI_Pa_sqrt_m", ".KII_Pa_sqrt_m"})
       names.push_back(tip.name + column);
+  for (const CrackSpec& crack : scene.cracks)
+    if (crack.growth.active) names.push_back(crack.name + ".length_m");
   return names;
 }
 
@@ -236,6 +238,8 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
   if (has_joints(scene)) numbers.add(row.joints);
   for (std::size_t k = 0; k < crack_tips(scene).size(); ++k)
     numbers.add(k < row.tips.size() ? row.tips[k] : std::array<double, 5>{}, 5);
+  for (std::size_t c = 0; c < scene.cracks.size(); ++c)
+    if (scene.cracks[c].growth.active) numbers.add(c < row.crack_lengths.size() ? row.crack_lengths[c] : 0.0);
   return numbers.all;
 }
 

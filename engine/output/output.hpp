@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/output/descriptor.hpp"
+#include "engine/output/lines.hpp"
 #include "engine/output/overlap.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/outflow.hpp"
@@ -58,6 +59,7 @@ struct HistoryRow {
   std::vector<double> pair_friction;  ///< J; as ContactSpec::pairs
   std::vector<double> pair_area;      ///< m², of surfaces that press, at the time of the row; likewise
   std::optional<Overlap> overlap;     ///< with output.overlap
+  std::vector<double> crack_lengths;  ///< m, up to where bonds soften
   std::vector<std::array<double, 5>> tips;  ///< of cracks: place, m, J, J/m², K_I, K_II, Pa √m; as crack_tips
   std::optional<Outflow> outflow;           ///< with grid.leaving: outflow; up to now
   struct Heat {
@@ -160,9 +162,10 @@ void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>&
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
 /// by `field` (one of field_names) to a PNG with title, equal axes, and a colour bar with units. Throws
 /// std::invalid_argument for a field that there is not.
+/// @param lines  drawn over them, in the plane: cracks
 template <int Dim>
 void draw_particles(const std::filesystem::path& png, const Particles<Dim>& particles, const Scene& scene,
-                    const std::string& field, double time);
+                    const std::string& field, double time, const Polylines& lines = {});
 
 /// XXH3-128 over the particle state (all columns, ordered by id), as hexadecimal text. Independent of sort
 /// order.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/output/canvas.hpp"
+#include "engine/output/lines.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/scales.hpp"
 #include "engine/scene/scene.hpp"
@@ -37,8 +38,10 @@ Framing framing_of(const Particles<Dim>& particles, const Scene& scene, const st
 
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of balls in 3-D) coloured by
 /// `field`, with title, equal axes and, where the field is a number, a colour bar with units.
+/// @param lines  drawn over them, in the plane
 template <int Dim>
 Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
-                       double time, const Framing& framing, PictureFormat format = PictureFormat::png);
+                       double time, const Framing& framing, PictureFormat format = PictureFormat::png,
+                       const Polylines& lines = {});
 
 }  // namespace mpmfast

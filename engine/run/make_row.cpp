@@ -1,6 +1,5 @@
 #include "engine/run/make_row.hpp"
 
-#include "engine/contact/cracks/tip_load.hpp"
 #include "engine/scene/crack_tips.hpp"
 
 namespace mpmfast {
@@ -63,13 +62,12 @@ std::optional<Overlap> overlap_of(const State<Dim>& state, const Scene& scene) {
 /// Stresses must be those of the moment.
 template <int Dim>
 void fill_tips(Step<Dim>& step, const Scene& scene, HistoryRow& row) {
-  if constexpr (Dim == 2)
-    for (const CrackTip& tip : crack_tips(scene)) {
-      const auto crack = static_cast<std::size_t>(tip.crack);
-      const TipLoad load = tip_load(step.state(), step.cracks().lines()[crack], tip.end,
-                                    scene.cracks[crack].contour * scene.grid.cell, scene.thickness);
-      row.tips.push_back({load.place[0], load.place[1], load.release, load.opening, load.sliding});
-    }
+  for (const CrackLine<Dim>& line : step.cracks().lines()) row.crack_lengths.push_back(line.length());
+  for (const CrackTip& tip : crack_tips(scene)) {
+    const TipLoad load = step.tip_load(tip.crack, tip.end);
+    row.tips.push_back({load.place[0], load.place[1], load.release, load.opening, load.sliding});
+    row.crack_lengths[static_cast<std::size_t>(tip.crack)] -= load.lead;
+  }
 }
 
 }  // namespace

@@ -240,9 +240,14 @@ class Run {
   void draw(const std::string& which) {
     if (scene_.output.picture == "none") return;
     step_.find_stresses();
+    Polylines cracks;
+    for (const auto& crack : step_.cracks().lines()) {
+      cracks.emplace_back();
+      for (const auto& x : crack.points) cracks.back().push_back(x.template head<2>());
+    }
     for (const std::string& field : {std::string("body"), scene_.output.picture})
       draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field),
-                     step_.state().particles, scene_, field, step_.state().time);
+                     step_.state().particles, scene_, field, step_.state().time, cracks);
   }
 
   double throughput() const {

@@ -85,6 +85,7 @@ constexpr Topic kTopics[] = {
     {"areas", [] { return words_of(kAreas); }},
     {"fields", [] { return words_of(kManyFields); }},
     {"jumps", [] { return words_of(kJumps); }},
+    {"growth", [] { return words_of(kGrowthRules); }},
     {"shapes", [] { return kinds_of(shape_kinds(), "bodies[]."); }},
     {"seedings", seedings},
     {"boundaries", boundaries},

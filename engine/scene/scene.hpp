@@ -265,6 +265,17 @@ struct ContactSpec {
   }
 };
 
+/// When a crack grows, and whereto.
+enum class GrowthRule { hoop_stress, energy };
+
+struct GrowthSpec {
+  bool active = false;
+  double toughness = 0;  ///< J/m²
+  GrowthRule rule = GrowthRule::hoop_stress;
+  double advance = 0.5;  ///< cells, at once
+  double zone = 6;       ///< cells in which bonds of new pieces soften, where the crack's law has none
+};
+
 /// A surface inside a body, closed at the start, whose sides touch by a law.
 struct CrackSpec {
   std::string name;
@@ -273,6 +284,7 @@ struct CrackSpec {
   double spacing = 0;                         ///< of the points that follow it, m
   double contour = 6;                         ///< cells about an end, where J is found
   SurfaceLaw law;                             ///< between its sides
+  GrowthSpec growth;
 };
 
 /// When a run writes its state down, beside at a signal and at its end.

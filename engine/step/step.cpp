@@ -129,6 +129,8 @@ void Step<Dim>::advance(double dt, bool stresses) {
   book(dt);
   state_.time += dt;
   ++state_.step;
+  dt_ = dt;
+  grow_cracks();
   if (stresses) find_stresses();
 }
 

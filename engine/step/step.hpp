@@ -10,6 +10,7 @@
 #include "engine/conditions/conditions.hpp"
 #include "engine/conditions/rigid_bodies.hpp"
 #include "engine/contact/contact.hpp"
+#include "engine/contact/cracks/tip_load.hpp"
 #include "engine/contact/penalty/penalty.hpp"
 #include "engine/heat/heat.hpp"
 #include "engine/plan/plan.hpp"
@@ -82,6 +83,8 @@ class Step {
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   const Cracks<Dim>& cracks() const { return cracks_; }
+  /// What drives a crack at one of its ends, after a step. The stresses must be those of the moment.
+  TipLoad tip_load(int crack, bool end);
   std::uint64_t nodes_peak() const { return nodes_peak_; }
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
@@ -128,6 +131,7 @@ class Step {
   void find_moving_velocities();
   void update_particles(double dt);
   void move_rigid_end(double dt);
+  void grow_cracks();
   void let_leave();
   void book(double dt);
   void book(const ContactBooks<Dim>& books);
@@ -150,7 +154,9 @@ class Step {
   Heat<Dim> heat_;
   Sums<Dim> sums_;
   PassClock clock_;
-  Vec<Dim> lower_, upper_;                 ///< box that particles must stay in, m
+  Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
+  TipSamples tip_samples_;
+  double dt_ = 0;                          ///< of the last step, s
   double fastest_ = 0;                     ///< max_p (c_p + |v_p|), m/s
   double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
   double ramped_ = 1;                      ///< share of the body forces in this step

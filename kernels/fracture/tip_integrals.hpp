@@ -3,43 +3,72 @@
 /// @file What drives a crack at its tip: J by its domain form over a disk about it, and its share in each
 /// mode by how the sides are apart behind the tip (NN's own code does so too).
 ///
-/// With q = 1 near the tip, falling smoothly to 0 at the rim, and x₁ along the crack, out of it,
+/// With q the direction of the crack, as long as 1 near the tip and falling smoothly to 0 at the rim,
 ///
-///   J = ∫ (σ_ij u_i,₁ − W δ_1j) q,_j dA
+///   J = ∫ [(σ_ij u_i,k − (W + T) δ_jk) q_k,j + ρ (a_i u_i,k − v_i v_i,k) q_k] dA − ∫ t_i [u_i],k q_k ds,
 ///
-/// where nothing moves in the disk and the sides rub on nothing. Both jumps grow as √r behind a tip, so that
-/// K_I : K_II = δ_n : δ_t however far one looks, and a crack that is pressed closed has none of mode I.
+/// T = ρ v²/2, a what stresses accelerate, t the traction on one side and [u] what that is ahead of the other
+/// (Nakamura, Shih and Freund 1985). On each circle about the tip q is the direction that the crack has where
+/// it crosses that: so it lies along the sides of a crack that bends, and these add nothing else.
+///
+/// Both jumps grow as √r behind a tip, so that K_I : K_II = δ_n : δ_t however far one looks, and a crack that
+/// is pressed closed has none of mode I.
 
 #include <cmath>
 
 #include "kernels/dimension.hpp"
+#include "kernels/fracture/tip_path.hpp"
 
 namespace mpmfast {
 
 /// A piece of the plane near a tip, in axes along the crack and to the left of it.
 struct TipSample {
-  Vec<2> place;   ///< from the tip, m
-  double area;    ///< m²
-  Vec<2> moved;   ///< u, m
-  Mat<2> slope;   ///< u_i,j
-  Mat<2> stress;  ///< Cauchy, Pa
-  double energy;  ///< W by the volume now, J/m³
+  Vec<2> place;                            ///< from the tip, m
+  double area;                             ///< m²
+  Vec<2> moved;                            ///< u, m
+  Mat<2> slope;                            ///< u_i,j
+  Mat<2> stress;                           ///< Cauchy, Pa
+  double energy;                           ///< W by the volume now, J/m³
+  double density = 0;                      ///< kg/m³
+  Vec<2> velocity = Vec<2>::Zero();        ///< m/s
+  Mat<2> velocity_slope = Mat<2>::Zero();  ///< v_i,j, 1/s
+  Vec<2> acceleration = Vec<2>::Zero();    ///< by stresses, m/s²
+};
+
+/// A piece of a crack that carries a force across.
+struct TipTraction {
+  Vec<2> place;  ///< from the tip, m
+  Vec<2> force;  ///< on one side, N/m
+  Mat<2> slope;  ///< u_i,j of that side less that of the other
 };
 
 class TipIntegrals {
  public:
   /// @param radius   of the disk, m
   /// @param modulus  E′: of the plane, Pa; 0: unknown, no stress intensities
-  TipIntegrals(double radius, double modulus) : radius_(radius), modulus_(modulus) {}
+  /// @param reach    back along the crack that it is straight, m: no farther is asked how its sides are apart
+  TipIntegrals(const TipPath& path, double radius, double modulus, double reach = HUGE_VAL)
+      : path_(&path), radius_(radius), modulus_(modulus), reach_(std::min(kReach * radius, reach)) {}
 
   void add(const TipSample& one) {
-    const double r = one.place.norm(), inner = kInner * radius_;
+    const double r = one.place.norm();
     if (r >= radius_) return;
     see_opening(one);
-    if (r <= inner) return;
-    const double share = (r - inner) / (radius_ - inner), steep = 6 * share * (1 - share) / (radius_ - inner);
-    const Vec<2> fall = -one.area * steep / r * one.place;  // ∇q dA
-    release_ += one.slope.col(0).dot(one.stress * fall) - one.energy * fall[0];
+    const Vec<2> along = path_->along(r);
+    const auto [weight, fall] = plateau(r);
+    const Vec<2> pull =
+        one.slope.transpose() * one.acceleration - one.velocity_slope.transpose() * one.velocity;
+    release_ += one.area * one.density * weight * pull.dot(along);
+    if (!(r > 0)) return;
+    const Mat<2> gradient = (fall * along + weight * path_->bend(r)) * (one.place / r).transpose();  // q_k,j
+    const double kinetic = 0.5 * one.density * one.velocity.squaredNorm();
+    release_ += one.area * ((one.slope.transpose() * one.stress).cwiseProduct(gradient).sum() -
+                            (one.energy + kinetic) * gradient.trace());
+  }
+
+  void add(const TipTraction& one) {
+    const double r = one.place.norm();
+    if (r < radius_) release_ -= plateau(r).first * one.force.dot(one.slope * path_->along(r));
   }
 
   double release() const { return release_; }  ///< J, J/m²
@@ -57,18 +86,28 @@ class TipIntegrals {
   }
 
  private:
+  /// |q| and d|q|/dr
+  std::pair<double, double> plateau(double r) const {
+    const double inner = kInner * radius_;
+    if (r <= inner) return {1, 0};
+    const double width = radius_ - inner, share = (r - inner) / width;
+    return {1 - share * share * (3 - 2 * share), -6 * share * (1 - share) / width};
+  }
+
   /// Displacements are led to the sides along their slopes.
   void see_opening(const TipSample& one) {
-    constexpr double kFrom = 0.25, kTo = 0.7, kBeside = 0.18;  // of the radius
-    const double behind = -one.place[0] / radius_, beside = std::abs(one.place[1]) / radius_;
-    if (behind < kFrom || behind > kTo || beside > kBeside) return;
-    const bool left = one.place[1] > 0;
-    face_[left] += one.area * (one.moved - one.place[1] * one.slope.col(1));
+    const TipPath::Beside at = path_->beside(one.place);
+    if (at.behind < kFrom * reach_ || at.behind > reach_ || std::abs(at.offset) > kBeside * radius_) return;
+    const bool left = at.offset > 0;
+    face_[left] += one.area * (one.moved - at.offset * (one.slope * at.left));
     area_[left] += one.area;
   }
 
-  static constexpr double kInner = 0.4;  ///< of the radius: q is 1 within
-  double radius_, modulus_;
+  static constexpr double kInner = 0.4;                  ///< of the radius: |q| is 1 within
+  static constexpr double kReach = 0.7, kBeside = 0.18;  ///< of the radius: where the sides are looked at
+  static constexpr double kFrom = 0.25 / kReach;         ///< of the reach
+  const TipPath* path_;
+  double radius_, modulus_, reach_;
   double release_ = 0;
   Vec<2> face_[2] = {Vec<2>::Zero(), Vec<2>::Zero()};  ///< right, left: Σ u dA
   double area_[2] = {0, 0};

@@ -101,6 +101,8 @@ std::vector<std::string> small_scenes() {
           cracked(", " + joint),
           cracked(", " + curves),
           cracked(", " + glue),
+          replaced(cracked(", " + glue + ", growth: {}"), "model: rigid",
+                   "model: neo_hookean, density: 1, bulk: 1, shear: 1"),
           replaced(solid("box: {from: [1 mm, 1 mm], to: [4 mm, 4 mm]}", "plane_strain"), "shear: 1}",
                    "shear: 1, heat_capacity: 1}") +
               "  - {name: two, box: {from: [4 mm, 1 mm], to: [8 mm, 4 mm]}, material: a}\n"

@@ -303,6 +303,22 @@ TEST_CASE("cracks go on to the bit on any number of threads, where two cross and
                    30);
 }
 
+/// It turns, and its new sides soften.
+TEST_CASE("a crack that grows goes on to the bit on any number of threads") {
+  check_goes_on<2>(R"(
+space: plane_strain
+grid: {size: [30 mm, 40 mm], cell: 1 mm}
+time: {end: 1 ms}
+materials: {acrylic: {model: neo_hookean, density: 1.18 g/cm^3, young: 3 GPa, poisson: 0.35}}
+bodies: [{name: plate, box: {from: [3 mm, 3 mm], to: [27 mm, 37 mm]}, material: acrylic}]
+cracks: [{body: plate, line: [[0 mm, 17 mm], [12 mm, 20 mm]], growth: {toughness: 20 J/m^2}}]
+boundaries:
+  up: {box: {from: [0 mm, 36.6 mm], to: [30 mm, 40 mm]}, direction: +y, speed: 10 m/s}
+  down: {box: {from: [0 mm, 0 mm], to: [30 mm, 3.4 mm]}, direction: -y, speed: 10 m/s}
+)",
+                   85, 150);
+}
+
 /// Kept from breaking at once: beside whole ones there are bonds that soften, are broken, move to new nodes.
 TEST_CASE(
     "bonds that soften and break go on to the bit on any number of threads, as they move through the grid") {

@@ -4,10 +4,17 @@
 
 #include <cmath>
 
+#include "kernels/fracture/kink.hpp"
 #include "kernels/fracture/tip_integrals.hpp"
 
 namespace mpmfast {
 namespace {
+
+/// A straight crack.
+const TipPath& straight() {
+  static const TipPath path({{0, 0}, {-1, 0}}, 0.02, 1e-3);
+  return path;
+}
 
 constexpr double kShear = 3e9, kPoisson = 0.3, kRadius = 0.02;
 
@@ -21,7 +28,7 @@ Vec<2> displacement(double one, double two, double kappa, const Vec<2>& x) {
 
 /// All integrals of them, with a stress along the crack beside; slopes by differences, stresses by Hooke.
 TipIntegrals integrate(double one, double two, double along, double kappa) {
-  TipIntegrals out(kRadius, 8 * kShear / (kappa + 1));
+  TipIntegrals out(straight(), kRadius, 8 * kShear / (kappa + 1));
   constexpr int kRings = 60, kAngles = 240;
   const double poisson = 0.25 * (3 - kappa);  // of the plane: ε_ij = (σ_ij − this σ_kk δ_ij)/2G
   for (int i = 0; i < kRings; ++i)
@@ -71,6 +78,120 @@ TEST_CASE("a stress along the crack changes none of them") {
   CHECK(with.intensities()[1] == doctest::Approx(without.intensities()[1]).epsilon(2e-3).scale(0));
   CHECK(with.intensities()[0] == doctest::Approx(without.intensities()[0]).epsilon(2e-3).scale(1e6));
   CHECK(with.release() == doctest::Approx(without.release()).epsilon(2e-3).scale(0));
+}
+
+/// Places all over the disk, with their shares of it.
+template <class F>
+void for_each_place(const F& f) {
+  constexpr int kRings = 80, kAngles = 160;
+  for (int i = 0; i < kRings; ++i)
+    for (int k = 0; k < kAngles; ++k) {
+      const double r = kRadius * (i + 0.5) / kRings, angle = kFullTurn * ((k + 0.5) / kAngles - 0.5);
+      f(Vec<2>(r * std::cos(angle), r * std::sin(angle)), r * kRadius / kRings * kFullTurn / kAngles);
+    }
+}
+
+/// Hooke's law of plane strain.
+void load(TipSample& sample) {
+  const Mat<2> strain = 0.5 * (sample.slope + sample.slope.transpose());
+  sample.stress = 2 * kShear * (strain + kPoisson / (1 - 2 * kPoisson) * strain.trace() * Mat<2>::Identity());
+  sample.energy = 0.5 * sample.stress.cwiseProduct(strain).sum();
+}
+
+/// u = (1, 2) x sin(k x − ω t) of both waves along x, where there is no crack.
+TEST_CASE("a wave that passes drives no crack: its inertia takes what its stresses bring") {
+  constexpr double kDensity = 1200, kWave = 300, kSize = 1e-6;
+  const double fast = std::sqrt(2 * kShear * (1 - kPoisson) / (1 - 2 * kPoisson) / kDensity),
+               slow = std::sqrt(kShear / kDensity);
+  for (const double phase : {0.3, 1.2}) {
+    TipIntegrals moving(straight(), kRadius, 1), still(straight(), kRadius, 1);
+    for_each_place([&](const Vec<2>& x, double area) {
+      TipSample sample{x, area, {}, {}, {}, 0};
+      sample.moved = sample.velocity = sample.acceleration = Vec<2>::Zero();
+      sample.slope = sample.velocity_slope = Mat<2>::Zero();
+      const double speeds[] = {fast, slow};
+      for (int d = 0; d < 2; ++d) {
+        const double at = kWave * x[0] - phase, rate = kWave * speeds[d], size = (1 + d) * kSize;
+        sample.moved[d] = size * std::sin(at);
+        sample.slope(d, 0) = size * kWave * std::cos(at);
+        sample.velocity[d] = -size * rate * std::cos(at);
+        sample.velocity_slope(d, 0) = size * rate * kWave * std::sin(at);
+        sample.acceleration[d] = -size * rate * rate * std::sin(at);
+      }
+      load(sample);
+      still.add(sample);
+      sample.density = kDensity;
+      moving.add(sample);
+    });
+    CHECK(std::abs(still.release()) > 0.01);
+    CHECK(std::abs(moving.release()) < 1e-3 * std::abs(still.release()));
+  }
+}
+
+/// A smooth field without a crack, in equilibrium: u = ∇∧ of x³ − 3xy² and a uniform strain.
+TEST_CASE("a path that bends changes nothing of a field that is smooth") {
+  const TipPath bent({{0, 0}, {-0.006, 0}, {-0.012, 0.008}, {-0.03, 0.008}}, kRadius, 1e-3);
+  TipIntegrals bends(bent, kRadius, 1);
+  double size = 0;
+  for_each_place([&](const Vec<2>& x, double area) {
+    TipSample sample{x, area, {}, {}, {}, 0};
+    sample.slope << 1e-3 + 0.2 * x[0], -0.2 * x[1], -0.2 * x[1], -0.5e-3 - 0.2 * x[0];
+    load(sample);
+    size += area * sample.energy / kRadius;
+    bends.add(sample);
+  });
+  CHECK(std::abs(bends.release()) < 2e-3 * size);
+}
+
+TEST_CASE("where the path is, and which side of it") {
+  const TipPath bent({{0, 0}, {-0.006, 0}, {-0.006, -0.1}}, kRadius, 1e-3);
+  CHECK((bent.along(0.003) - Vec<2>(1, 0)).norm() < 1e-12);
+  CHECK((bent.along(0.015) - Vec<2>(0, 1)).norm() < 0.05);
+  CHECK(bent.bend(0.003).norm() < 1e-9);
+  const TipPath::Beside before = bent.beside({-0.002, 1e-3}), behind = bent.beside({-0.007, -0.004}),
+                        ahead = bent.beside({0.002, 1e-3});
+  CHECK(before.behind == doctest::Approx(0.002));
+  CHECK(before.offset == doctest::Approx(1e-3));
+  CHECK(behind.behind == doctest::Approx(0.01));
+  CHECK(behind.offset == doctest::Approx(1e-3));
+  CHECK(std::isinf(ahead.behind));
+}
+
+/// Halves that are stretched and pressed along a line which carries a shear: there is no tip, and what the
+/// stresses bring is the work of the shear along the line.
+TEST_CASE("what sides that rub do on each other is no part of J") {
+  constexpr double kStretch = 1e-3, kTraction = 5e6;
+  TipIntegrals all(straight(), kRadius, 1), stresses(straight(), kRadius, 1);
+  for_each_place([&](const Vec<2>& x, double area) {
+    TipSample sample{x, area, {}, {}, {}, 0};
+    sample.slope = Mat<2>::Zero();
+    sample.slope(0, 0) = x[1] > 0 ? kStretch : -kStretch;
+    sample.slope(1, 1) = -kPoisson / (1 - kPoisson) * sample.slope(0, 0);
+    sample.slope(0, 1) = kTraction / kShear;
+    load(sample);
+    all.add(sample);
+    stresses.add(sample);
+  });
+  constexpr int kPieces = 1000;
+  for (int k = 0; k < kPieces; ++k) {
+    const double length = 2 * kRadius / kPieces;
+    TipTraction one{{-kRadius + (k + 0.5) * length, 0}, {-kTraction * length, 0}, Mat<2>::Zero()};
+    one.slope(0, 0) = 2 * kStretch;
+    all.add(one);
+  }
+  CHECK(std::abs(stresses.release()) > 100);
+  CHECK(std::abs(all.release()) < 1e-3 * std::abs(stresses.release()));
+}
+
+/// Erdogan and Sih 1963: σ_θθ ∝ cos(θ/2) (K_I cos²(θ/2) − 3/2 K_II sin θ) is largest.
+TEST_CASE("a crack kinks to where the hoop stress is largest") {
+  CHECK(kink_angle(1, 0) == 0);
+  CHECK(kink_angle(0, 1) == doctest::Approx(-std::acos(1 / 3.0)));
+  for (const auto& [one, two] : {std::pair{1.0, 0.4}, {1.0, -0.4}, {0.2, 1.0}, {1.0, 1e-9}}) {
+    const double angle = kink_angle(one, two), most = hoop_intensity(one, two, angle);
+    CHECK(angle * two < 0);
+    for (double other = -2; other < 2; other += 0.01) CHECK(hoop_intensity(one, two, other) <= most + 1e-12);
+  }
 }
 
 }  // namespace

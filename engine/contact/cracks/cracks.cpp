@@ -6,13 +6,19 @@
 #include <cmath>
 #include <string>
 
+#include "engine/scene/crack_tips.hpp"
+
 namespace mpmfast {
 
 template <int Dim>
-Cracks<Dim>::Cracks(const Scene& scene, const Plan& plan) : first_side_(plan.first_side) {
+Cracks<Dim>::Cracks(const Scene& scene, const Plan& plan) : scene_(&scene), first_side_(plan.first_side) {
   rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   for (const CrackSpec& crack : scene.cracks) {
-    CrackLine<Dim> line{plan.body_field[static_cast<std::size_t>(crack.body)], {}};
+    const BodySpec& body = scene.bodies[static_cast<std::size_t>(crack.body)];
+    CrackLine<Dim> line;
+    line.field = plan.body_field[static_cast<std::size_t>(crack.body)];
+    line.node_mass =
+        density_of(scene.materials[static_cast<std::size_t>(body.material)]) * cell_volume(scene);
     const auto corner = [&](std::size_t k) {
       Vec<Dim> x = Vec<Dim>::Zero();
       for (int d = 0; d < 2; ++d) x[d] = crack.points[k][static_cast<std::size_t>(d)];
@@ -26,7 +32,12 @@ Cracks<Dim>::Cracks(const Scene& scene, const Plan& plan) : first_side_(plan.fir
         line.points.push_back(from + way * (static_cast<double>(piece) / pieces));
       line.points.push_back(corner(k));
     }
+    line.sides = {line.points, line.points};
     lines_.push_back(line);
+  }
+  for (const CrackTip& tip : crack_tips(scene)) {
+    const auto c = static_cast<std::size_t>(tip.crack);
+    lines_[c].ends[tip.end].grows = scene.cracks[c].growth.active;
   }
 }
 
@@ -117,61 +128,88 @@ typename Cracks<Dim>::Parting Cracks<Dim>::parting(const State<Dim>& state, cons
   return {cracked->crack[k], from_left ? Vec<Dim>(-left) : left, (side_a & side_b & ~differ) != 0};
 }
 
+/// Of the material beside a crack, between the nodes of a cell. @return whether there is any
+template <int Dim>
+bool Cracks<Dim>::velocity_at(const State<Dim>& state, int crack, int side, const Vec<Dim>& x,
+                              Vec<Dim>& velocity) const {
+  constexpr double kHardly = 1e-3;
+  const double* mass = state.nodes.column(Nodal::mass);
+  const int base = lines_[static_cast<std::size_t>(crack)].field,
+            first = first_side_[static_cast<std::size_t>(base)];
+  NodeIndex<Dim> low;
+  Vec<Dim> share;
+  for (int d = 0; d < Dim; ++d) {
+    const double cells = (x[d] - state.grid.origin[d]) * state.grid.inverse_cell;
+    low[d] = static_cast<int>(std::floor(cells));
+    share[d] = cells - low[d];
+  }
+  double weight = 0;
+  velocity.setZero();
+  for (int corner = 0; corner < kCorners<Dim>; ++corner) {
+    NodeIndex<Dim> node = low;
+    double w = 1;
+    for (int d = 0; d < Dim; ++d) {
+      node[d] += corner >> d & 1;
+      w *= corner >> d & 1 ? share[d] : 1 - share[d];
+    }
+    const CrackedNode<Dim>* cracked = find(base, node);
+    int bit = 0;  // of the sides of fields there that tells this crack's
+    for (int k = 0; cracked && k < CrackedNode<Dim>::kMost; ++k)
+      if (cracked->crack[static_cast<std::size_t>(k)] == crack) bit = 1 << k;
+    double all = 0;
+    Vec<Dim> momentum = Vec<Dim>::Zero();
+    const auto add = [&](int field) {
+      if (bit != 0 && ((side_of(state, field) & bit) != 0) != (side == 1)) return;
+      const int slot = state.tiling.slot(node, field);
+      if (slot < 0 || !(mass[slot] > 0)) return;
+      all += mass[slot];
+      momentum += mass[slot] * state.nodes.vector(Nodal::velocity, slot);
+    };
+    add(base);
+    for (int f = first; f < state.fields() && state.field_base[static_cast<std::size_t>(f)] == base; ++f)
+      add(f);
+    // Nodes of hardly any mass are thrown.
+    if (!(all > kHardly * lines_[static_cast<std::size_t>(crack)].node_mass)) continue;
+    velocity += w / all * momentum;
+    weight += w;
+  }
+  if (!(weight > 0)) return false;
+  velocity /= weight;
+  return true;
+}
+
 template <int Dim>
 void Cracks<Dim>::move(const State<Dim>& state, double dt) {
-  const double* mass = state.nodes.column(Nodal::mass);
-  for (CrackLine<Dim>& line : lines_) {
-    const int first = first_side_[static_cast<std::size_t>(line.field)];
-    velocity_.assign(line.points.size(), Vec<Dim>::Zero());
-    is_known_.assign(line.points.size(), false);
-    for (std::size_t k = 0; k < line.points.size(); ++k) {
-      NodeIndex<Dim> node;
-      Vec<Dim> share;
-      for (int d = 0; d < Dim; ++d) {
-        const double cells = (line.points[k][d] - state.grid.origin[d]) * state.grid.inverse_cell;
-        node[d] = static_cast<int>(std::floor(cells));
-        share[d] = cells - node[d];
-      }
-      double weight = 0;
-      for (int corner = 0; corner < kCorners<Dim>; ++corner) {
-        NodeIndex<Dim> at = node;
-        double w = 1;
-        for (int d = 0; d < Dim; ++d) {
-          at[d] += corner >> d & 1;
-          w *= corner >> d & 1 ? share[d] : 1 - share[d];
-        }
-        double all = 0;
-        Vec<Dim> momentum = Vec<Dim>::Zero();
-        const auto add = [&](int field) {
-          const int slot = state.tiling.slot(at, field);
-          if (slot < 0 || !(mass[slot] > 0)) return;
-          all += mass[slot];
-          momentum += mass[slot] * state.nodes.vector(Nodal::velocity, slot);
-        };
-        add(line.field);
-        for (int f = first; f < state.fields() && state.field_base[static_cast<std::size_t>(f)] == line.field;
-             ++f)
-          add(f);
-        if (!(all > 0)) continue;
-        velocity_[k] += w / all * momentum;
-        weight += w;
-      }
-      if (!(weight > 0)) continue;
-      velocity_[k] /= weight;
-      is_known_[k] = true;
-    }
-    // Beyond the body it goes on as the last point inside.
-    const auto spread = [&](auto begin, auto end, auto step) {
-      for (auto k = begin + step; k != end; k += step)
-        if (!is_known_[static_cast<std::size_t>(k)] && is_known_[static_cast<std::size_t>(k - step)]) {
-          velocity_[static_cast<std::size_t>(k)] = velocity_[static_cast<std::size_t>(k - step)];
-          is_known_[static_cast<std::size_t>(k)] = true;
-        }
-    };
+  for (std::size_t c = 0; c < lines_.size(); ++c) {
+    CrackLine<Dim>& line = lines_[c];
+    for (CrackEnd& end : line.ends) end.fresh = false;
     const auto n = static_cast<std::ptrdiff_t>(line.points.size());
-    spread(std::ptrdiff_t{0}, n, std::ptrdiff_t{1});
-    spread(n - 1, std::ptrdiff_t{-1}, std::ptrdiff_t{-1});
-    for (std::size_t k = 0; k < line.points.size(); ++k) line.points[k] += dt * velocity_[k];
+    for (std::size_t side = 0; side < 2; ++side) {
+      auto& velocity = velocity_[side];
+      auto& known = is_known_[side];
+      velocity.assign(line.points.size(), Vec<Dim>::Zero());
+      known.assign(line.points.size(), false);
+      for (std::size_t k = 0; k < line.points.size(); ++k)
+        known[k] =
+            velocity_at(state, static_cast<int>(c), static_cast<int>(side), line.sides[side][k], velocity[k]);
+      // Beyond the body it goes on as the last point inside.
+      const auto spread = [&](std::ptrdiff_t begin, std::ptrdiff_t end, std::ptrdiff_t step) {
+        for (std::ptrdiff_t k = begin + step; k != end; k += step) {
+          const auto at = static_cast<std::size_t>(k), before = static_cast<std::size_t>(k - step);
+          if (known[at] || !known[before]) continue;
+          velocity[at] = velocity[before];
+          known[at] = true;
+        }
+      };
+      spread(0, n, 1);
+      spread(n - 1, -1, -1);
+    }
+    for (std::size_t k = 0; k < line.points.size(); ++k)
+      for (std::size_t side = 0; side < 2; ++side) {
+        const auto& velocity = is_known_[side][k] ? velocity_[side][k] : velocity_[1 - side][k];
+        line.sides[side][k] += dt * velocity;
+        line.points[k] += 0.5 * dt * velocity;
+      }
   }
 }
 
@@ -183,12 +221,26 @@ void Cracks<Dim>::visit(Archive& archive) {
   for (std::size_t k = 0; k < lines_.size(); ++k) {
     const std::string name = "cracks/" + std::to_string(k);
     archive.number(name + "/field", lines_[k].field);
-    std::vector<double> places;
-    for (const Vec<Dim>& x : lines_[k].points) places.insert(places.end(), x.data(), x.data() + Dim);
-    archive.list(name + "/points", places);
-    lines_[k].points.resize(places.size() / Dim);
-    for (std::size_t p = 0; p < lines_[k].points.size(); ++p)
-      std::copy_n(places.data() + Dim * p, Dim, lines_[k].points[p].data());
+    const auto visit_points = [&](const std::string& what, std::vector<Vec<Dim>>& points) {
+      std::vector<double> places;
+      for (const Vec<Dim>& x : points) places.insert(places.end(), x.data(), x.data() + Dim);
+      archive.list(name + what, places);
+      points.resize(places.size() / Dim);
+      for (std::size_t p = 0; p < points.size(); ++p)
+        std::copy_n(places.data() + Dim * p, Dim, points[p].data());
+    };
+    visit_points("/points", lines_[k].points);
+    visit_points("/left", lines_[k].sides[0]);
+    visit_points("/right", lines_[k].sides[1]);
+    for (const bool end : {false, true}) {
+      CrackEnd& one = lines_[k].ends[end];
+      const std::string of = name + (end ? "/end" : "/start");
+      archive.flag(of + "/grows", one.grows);
+      archive.number(of + "/due", one.due);
+      archive.number(of + "/straight", one.straight);
+      archive.number(of + "/grown", one.grown);
+      archive.flag(of + "/fresh", one.fresh);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 /// particles of one body that lie on different sides of a crack have velocity fields of their own (NN §1.1).
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -15,11 +16,30 @@
 
 namespace mpmfast {
 
+/// An end of a crack: where it starts, or ends.
+struct CrackEnd {
+  bool grows = false;          ///< it lies in its body, and what drives it is asked
+  double due = 0;              ///< when that is asked next, s
+  double straight = HUGE_VAL;  ///< so far back it has not turned, m
+  double grown = 0;            ///< m
+  bool fresh = false;          ///< in the last step
+};
+
 /// A crack: its points, from one end to the other.
 template <int Dim>
 struct CrackLine {
-  int field;                     ///< of the body that it is in
-  std::vector<Vec<Dim>> points;  ///< m
+  int field = 0;                 ///< of the body that it is in
+  double node_mass = 0;          ///< of a node inside of it, at the start, kg
+  std::vector<Vec<Dim>> points;  ///< m, between its sides
+  /// Of those, where the material is that was there: on the left, on the right; m.
+  std::array<std::vector<Vec<Dim>>, 2> sides;
+  std::array<CrackEnd, 2> ends;  ///< where the points start, where they end
+
+  double length() const {
+    double sum = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) sum += (points[k] - points[k - 1]).norm();
+    return sum;
+  }
 };
 
 /// What the particles around a node see of cracks there.
@@ -40,6 +60,8 @@ struct Supports {
   std::function<NodeIndex<Dim>(std::size_t)> first;
   int nodes = 0;
 };
+
+struct TipLoad;
 
 struct CrackCounters {
   std::uint64_t sorts = 0;  ///< because of sides that changed
@@ -87,12 +109,24 @@ class Cracks {
   /// so that the cracks lie on each other, it is the first. For the fields of same_body, a < b.
   Parting parting(const State<Dim>& state, const NodeIndex<Dim>& node, int a, int b, bool alone) const;
 
-  /// Moves the points with the bodies: the mean velocity of all sides, that nodes move particles with.
+  /// Moves the points with the bodies: each side with the velocities of its own, that nodes move particles
+  /// with, and what lies between with the mean of both (NN §1.1).
   void move(const State<Dim>& state, double dt);
+
+  /// Is any end to be asked whether it grows?
+  bool growth_due(double time) const;
+  /// Asks all that are due what drives them, and lets them grow. The stresses are those of the moment.
+  /// @param load_of  (crack, end) → TipLoad
+  void grow(const State<Dim>& state, const std::function<TipLoad(int, bool)>& load_of);
+
+  bool grows(int crack) const { return scene_->cracks[static_cast<std::size_t>(crack)].growth.active; }
+  /// Was what is now a side of it at this node whole before the crack grew in the last step?
+  bool is_fresh(const State<Dim>& state, int crack, const NodeIndex<Dim>& node) const;
 
   void visit(Archive& archive);
 
  private:
+  void grow(const State<Dim>& state, int crack, bool end, const TipLoad& load);
   struct Segment {
     int crack;
     Vec<Dim> from, to, low, high, normal;  ///< unit, to the left
@@ -122,6 +156,7 @@ class Cracks {
   const std::array<int, kTileNodes<Dim>>* find_block(int field, const NodeIndex<Dim>& block) const;
   bool find_under(const ParticleTile<Dim>& tile, WindowNodes& seen) const;
   int side_of(const State<Dim>& state, int field) const;
+  bool velocity_at(const State<Dim>& state, int crack, int side, const Vec<Dim>& x, Vec<Dim>& velocity) const;
   void list_segments();
   void list_crossed(const State<Dim>& state, const Supports<Dim>& supports);
   void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
@@ -130,6 +165,7 @@ class Cracks {
   bool see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
   bool list_sides(State<Dim>& state, const Supports<Dim>& supports);
 
+  const Scene* scene_;
   std::vector<CrackLine<Dim>> lines_;
   std::vector<int> first_side_;  ///< as Plan
   std::vector<Segment> segments_;
@@ -140,9 +176,9 @@ class Cracks {
   std::vector<std::array<int, kTileNodes<Dim>>> blocks_;  ///< likewise: into nodes_; −1: not cracked
   std::vector<std::vector<Sides>> sides_;  ///< by tile, of the particles that see another than 0
   std::vector<std::uint8_t> group_;
-  std::vector<Vec<Dim>> velocity_;      ///< of the points of the line in hand
-  std::vector<std::uint8_t> is_known_;  ///< likewise
-  std::vector<Room> rooms_;             ///< of each thread
+  std::array<std::vector<Vec<Dim>>, 2> velocity_;      ///< of the sides of the line in hand
+  std::array<std::vector<std::uint8_t>, 2> is_known_;  ///< likewise
+  std::vector<Room> rooms_;                            ///< of each thread
   CrackCounters counters_;
 };
 

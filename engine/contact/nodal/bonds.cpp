@@ -35,9 +35,18 @@ void Contact<Dim>::find_bonds(const State<Dim>& state) {
   constexpr double kTouch = 0.25;  // cells
   for_each_bond(state, [&](const auto& node, const auto& entry, const Cohesive&, Bond<Dim>& bond) {
     bond.way = bond.before, bond.offset = bond.offset_before;
+    if (entry.crack >= 0 && state.step > 0 && cracks_.is_fresh(state, entry.crack, node.node)) {
+      bond.way = 0;
+      bond.offset.setZero();
+      auto& bridge = list_.bridges[static_cast<std::size_t>(&entry - list_.entries.data())];
+      bridge.known = true;  // they were one: what displacements tell about a tip is no jump
+      bridge.jump.setZero();
+      bridge.jump_normal = entry.normal;
+      return;
+    }
     if (bond.before >= 0) return;
     if (state.step == 0)
-      bond.way = entry.separation < kTouch * cell_ && !is_cracked(state, node) ? 0 : 1;
+      bond.way = entry.separation < kTouch * cell_ && !is_cracked(state, node, entry) ? 0 : 1;
     else
       take_nearest(state, node, entry, bond);
   });
@@ -45,7 +54,9 @@ void Contact<Dim>::find_bonds(const State<Dim>& state) {
 
 /// Does the scene have a crack there at the start?
 template <int Dim>
-bool Contact<Dim>::is_cracked(const State<Dim>& state, const ContactNode<Dim>& node) const {
+bool Contact<Dim>::is_cracked(const State<Dim>& state, const ContactNode<Dim>& node,
+                              const ContactEntry<Dim>& entry) const {
+  if (entry.crack >= 0 && cracks_.grows(entry.crack)) return true;
   if (!spec_.cracked) return false;
   for (int d = 0; d < Dim; ++d) {
     const auto k = static_cast<std::size_t>(d);

@@ -91,7 +91,9 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
         // more or less of a jump that stays.
         if (bridge.known) bridge.jump = turned<Dim>(bridge.jump_normal, bridge.normal, bridge.jump);
         bridge.jump_normal = bridge.normal;
-        bridge.recalls = bridge.known && spec_.jumps == JumpKind::integrated;
+        const bool integrated =
+            spec_.jumps == JumpKind::integrated || (entry.crack >= 0 && cracks_.grows(entry.crack));
+        bridge.recalls = bridge.known && integrated;
         bridge.told = bridge.recalls ? bridge.jump : told_jump(state, node, slot_a, slot_b);
         bridge.own_area = area;
         bridge.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));

@@ -128,6 +128,12 @@ inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
      "all touching pairs of the node at once; conserves momentum (default)"},
 }};
 
+inline constexpr std::array<Word<GrowthRule>, 2> kGrowthRules{{
+    {GrowthRule::hoop_stress, "hoop_stress",
+     "across the largest hoop stress at the end, where K of it reaches sqrt(E' toughness) (default)"},
+    {GrowthRule::energy, "energy", "straight on, where J reaches the toughness"},
+}};
+
 inline constexpr std::array<Word<JumpKind>, 2> kJumps{{
     {JumpKind::extrapolated, "extrapolated", "by the displacements of the particles (default)"},
     {JumpKind::integrated, "integrated", "by the sum of what each step adds, of the nodes around"},

@@ -9,6 +9,7 @@
 #include "engine/geometry/shapes.hpp"
 #include "engine/scene/crack_tips.hpp"
 #include "engine/scene/sections/describe.hpp"
+#include "kernels/materials/at_rest.hpp"
 
 namespace mpmfast {
 
@@ -126,6 +127,45 @@ void check_crack(Slot& slot, const Scene& scene, const CrackSpec& crack) {
   }
 }
 
+/// What new sides take to part. Where the crack's law has no bond they have one of that toughness, whose
+/// strength makes the zone in which it softens, E′ G/σ², as long as cells can follow.
+void describe_growth(Keys& map, const Scene& scene, CrackSpec& crack) {
+  GrowthSpec& growth = crack.growth;
+  auto* own = std::get_if<Cohesive>(&crack.law.acts);
+  growth.active = true;
+  if (own) growth.toughness = own->normal_toughness;
+  const bool stated = map.derived("toughness",
+                                  "What it takes to grow, of its area: G_c = K_c^2/E'; that of its law, if "
+                                  "that is cohesive.",
+                                  growth.toughness, Number{Measure::surface_energy, kPositive});
+  map.key("rule", "When it grows, and whereto.", growth.rule, kGrowthRules);
+  map.key("advance", "By how much at once, in cells.", growth.advance,
+          Number{Measure::number, {"between 0.1 and 1", 0.1, 1}});
+  map.key("zone", "Over so many cells new sides soften, where the law of the crack is not cohesive.",
+          growth.zone, Number{Measure::number, {"1 or more", 1}});
+  if (!map.reads() || !map.good() || !stated || own) return;
+  if (growth.toughness == 0)
+    return map.report("toughness: missing (an energy of a surface: J/m^2, N/m, N/mm)");
+  if (!std::holds_alternative<Frictionless>(crack.law.acts) &&
+      !std::holds_alternative<Coulomb>(crack.law.acts))
+    return map.report("the sides of a crack that grows are frictionless, coulomb or cohesive");
+  const auto& body = scene.bodies[static_cast<std::size_t>(crack.body)];
+  const double modulus =
+      std::visit([&](const auto& law) { return plane_modulus(law, scene.space == Space::plane_stress); },
+                 scene.materials[static_cast<std::size_t>(body.material)].model);
+  if (modulus == 0)
+    return map.report(fmt::format("'{}' has no shear modulus: cracks grow in solids", body.name));
+  Cohesive bond;
+  if (const auto* coulomb = std::get_if<Coulomb>(&crack.law.acts)) {
+    bond.friction = coulomb->friction;
+    bond.static_friction = coulomb->static_friction;
+  }
+  bond.normal_toughness = bond.shear_toughness = growth.toughness;
+  bond.normal_strength = bond.shear_strength =
+      std::sqrt(modulus * growth.toughness / (growth.zone * scene.grid.cell));
+  crack.law.acts = bond;
+}
+
 void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
   slot.map("a map {body, line: [[x, y], …], law, …}", [&](Keys& map) {
     map.derived("name", "Heads its columns; crack1, crack2, … if not given.", crack.name, Name{});
@@ -145,6 +185,11 @@ void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
             crack.contour, Number{Measure::number, kPositive});
     describe_tractions(map, "What its sides do that touch; what it leaves out is that of `contact`.",
                        crack.law);
+    map.at("growth", "Lets its ends grow that lie in the body.", [&](Slot& growth) {
+      if (growth.writes() && !crack.growth.active) return;
+      if (growth.reads() && growth.is_word("none", false)) return;
+      growth.map("a map {toughness, rule, …}", [&](Keys& keys) { describe_growth(keys, scene, crack); });
+    });
   });
 }
 
