@@ -17,7 +17,7 @@ class ContactFitter {
   virtual void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) = 0;
   /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
   /// @param cracks_alone  displacements serve cracks: only nodes near them want any
-  virtual void project_geometry(State<Dim>& state, bool cracks_alone) = 0;
+  virtual void project_geometry(State<Dim>& state, bool cracks_alone, bool cracks_displaced) = 0;
 };
 
 }  // namespace mpmfast

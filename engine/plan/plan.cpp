@@ -254,6 +254,7 @@ Plan make_plan(const Scene& scene) {
   plan.contact_geometry = any_law(scene, touches);
   const auto bridges = [](const auto& law) { return law.scope == LawScope::bridged; };
   plan.bridges = plan.contact && any_law(scene, bridges);
+  plan.cracks_alone = cracked && plan.first_side.size() == 1;
   plan.displacements = plan.bridges || (cracked && plan.contact_geometry);
   plan.exact_fields = plan.bridges || any_law(scene, ties);
   plan.first_correction = scene.contact.corrections == 2;

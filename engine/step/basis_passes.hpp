@@ -97,7 +97,7 @@ class BasisPasses final : public Passes<Dim> {
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
   }
 
-  void project_geometry(State<Dim>& state, bool cracks_alone) override {
+  void project_geometry(State<Dim>& state, bool cracks_alone, bool cracks_displaced) override {
     auto& nodes = state.nodes;
     const GeometryColumns<Dim> out{nodes.columns(Nodal::volume_gradient), nodes.columns(Nodal::mass_position),
                                    nodes.columns(Nodal::mass_displacement),
@@ -106,14 +106,15 @@ class BasisPasses final : public Passes<Dim> {
                      out.mass_displacement.column[0] || out.volume.column[0];
     if (any)
       scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-        project_geometry_tile<Dim, Basis>(c, room.project, out);
+        if (!cracks_alone || c.tile->cracked) project_geometry_tile<Dim, Basis>(c, room.project, out);
       });
     if (!nodes.has(Nodal::mass_slope)) return;
     NodeColumns<Dim + Dim * Dim> displaced;
     for (int k = 0; k < Dim; ++k) displaced.column[k] = nodes.column(Nodal::mass_offset, k);
     for (int k = 0; k < Dim * Dim; ++k) displaced.column[Dim + k] = nodes.column(Nodal::mass_slope, k);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      if (!cracks_alone || c.tile->cracked) project_displaced_tile<Dim, Basis>(c, room.project, displaced);
+      if (!cracks_displaced || c.tile->cracked)
+        project_displaced_tile<Dim, Basis>(c, room.project, displaced);
     });
   }
 

@@ -175,6 +175,7 @@ void Step<Dim>::sort_if_due() {
   const bool due = sort_due_ || travelled_ >= 0.5 * state_.grid.cell;
   if (due) sort(nullptr);
   if (!cracks_.active()) return;
+  if (!due && !cracks_.look_due(state_.grid.cell)) return;
   const bool parted =
       clock_.time(Pass::contact_nodes, [&] { return cracks_.look(state_, passes_->supports(state_)); });
   if (parted) sort(&cracks_);
@@ -214,7 +215,8 @@ void Step<Dim>::project() {
           for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
       });
       const bool all_inside = passes_->project(state_, plan_.force_with_mass);
-      if (all_inside && plan_.geometry) passes_->project_geometry(state_, !plan_.bridges);
+      if (all_inside && plan_.geometry)
+        passes_->project_geometry(state_, plan_.cracks_alone, plan_.cracks_alone || !plan_.bridges);
       if (all_inside && extension_.active()) passes_->occupy(state_);
       return all_inside;
     });
@@ -426,6 +428,7 @@ void Step<Dim>::update_particles(double dt) {
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;
   travelled_ += report.speed * dt;
+  cracks_.drift(report.speed * dt);
   if (report.inverted) fail("a volume became zero or negative (J <= 0)");
   lost_ = report.lost;
 }

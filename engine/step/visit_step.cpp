@@ -131,6 +131,7 @@ void Step<Dim>::visit(Archive& archive) {
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
   penalty_.forget_tiles();
+  if (cracks_.active()) cracks_.mark(state_);
 }
 
 template void Contact<2>::visit(Archive&);

@@ -242,6 +242,35 @@ void Cracks<Dim>::visit(Archive& archive) {
       archive.flag(of + "/fresh", one.fresh);
     }
   }
+  archive.number("cracks/drifted", drifted_);
+  visit_nodes(archive);
+}
+
+/// What was seen last.
+template <int Dim>
+void Cracks<Dim>::visit_nodes(Archive& archive) {
+  archive.list("cracks/blocks", block_keys_);
+  blocks_.resize(block_keys_.size());
+  std::vector<int> places, told;
+  std::vector<double> normals;
+  for (const auto& block : blocks_) places.insert(places.end(), block.begin(), block.end());
+  for (const CrackedNode<Dim>& node : nodes_)
+    for (std::size_t k = 0; k < CrackedNode<Dim>::kMost; ++k) {
+      told.insert(told.end(), {node.crack[k], node.ways[k]});
+      normals.insert(normals.end(), node.normal[k].data(), node.normal[k].data() + Dim);
+    }
+  archive.list("cracks/places", places);
+  archive.list("cracks/told", told);
+  archive.list("cracks/normals", normals);
+  for (std::size_t b = 0; b < blocks_.size(); ++b)
+    std::copy_n(places.data() + b * kTileNodes<Dim>, kTileNodes<Dim>, blocks_[b].begin());
+  nodes_.resize(told.size() / (2 * CrackedNode<Dim>::kMost));
+  for (std::size_t n = 0, at = 0; n < nodes_.size(); ++n)
+    for (std::size_t k = 0; k < CrackedNode<Dim>::kMost; ++k, ++at) {
+      nodes_[n].crack[k] = told[2 * at];
+      nodes_[n].ways[k] = told[2 * at + 1];
+      std::copy_n(normals.data() + Dim * at, Dim, nodes_[n].normal[k].data());
+    }
 }
 
 // Here: the members that this file defines.

@@ -80,6 +80,12 @@ class Cracks {
   const std::vector<CrackLine<Dim>>& lines() const { return lines_; }
   const CrackCounters& counters() const { return counters_; }
 
+  /// Is what was seen last out of date? Where nothing has moved by a hundred-thousandth of a cell since, a particle
+  /// may take a node for one of the side that it left by less.
+  bool look_due(double cell) const { return drifted_ >= 1e-5 * cell; }
+  /// Everything has moved by so much at most, m.
+  void drift(double way) { drifted_ += way; }
+
   /// Finds what sides the particles see.
   /// @return whether the tiles tell otherwise: they must be sorted anew
   bool look(State<Dim>& state, const Supports<Dim>& supports);
@@ -157,6 +163,7 @@ class Cracks {
   bool find_under(const ParticleTile<Dim>& tile, WindowNodes& seen) const;
   int side_of(const State<Dim>& state, int field) const;
   bool velocity_at(const State<Dim>& state, int crack, int side, const Vec<Dim>& x, Vec<Dim>& velocity) const;
+  void visit_nodes(Archive& archive);
   void list_segments();
   void list_crossed(const State<Dim>& state, const Supports<Dim>& supports);
   void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
@@ -180,6 +187,7 @@ class Cracks {
   std::array<std::vector<std::uint8_t>, 2> is_known_;  ///< likewise
   std::vector<Room> rooms_;                            ///< of each thread
   CrackCounters counters_;
+  double drifted_ = HUGE_VAL;  ///< by so much at most since the last look, m
 };
 
 extern template class Cracks<2>;

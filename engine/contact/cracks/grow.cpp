@@ -57,6 +57,7 @@ void Cracks<Dim>::grow(const State<Dim>& state, int crack, bool end, const TipLo
     next[1] += length * (s * load.ahead[0] + c * load.ahead[1]);
     for (auto* points : {&line.points, &line.sides[0], &line.sides[1]})
       points->insert(end ? points->end() : points->begin(), next);
+    drifted_ = HUGE_VAL;  // look anew
   };
   tip.due = state.time + piece / speed;
   if (load.through) {

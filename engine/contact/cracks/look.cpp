@@ -238,6 +238,7 @@ bool Cracks<Dim>::list_sides(State<Dim>& state, const Supports<Dim>& supports) {
 template <int Dim>
 bool Cracks<Dim>::look(State<Dim>& state, const Supports<Dim>& supports) {
   if (!active()) return false;
+  drifted_ = 0;
   list_segments();
   list_crossed(state, supports);
   list_nodes(state);
