@@ -47,8 +47,13 @@ class TipIntegrals {
   /// @param radius   of the disk, m
   /// @param modulus  E′: of the plane, Pa; 0: unknown, no stress intensities
   /// @param reach    back along the crack that it is straight, m: no farther is asked how its sides are apart
-  TipIntegrals(const TipPath& path, double radius, double modulus, double reach = HUGE_VAL)
-      : path_(&path), radius_(radius), modulus_(modulus), reach_(std::min(kReach * radius, reach)) {}
+  /// @param beside   so far beside the crack its sides are looked for at least, m
+  TipIntegrals(const TipPath& path, double radius, double modulus, double reach = HUGE_VAL, double beside = 0)
+      : path_(&path),
+        radius_(radius),
+        modulus_(modulus),
+        reach_(std::min(kReach * radius, reach)),
+        beside_(std::max(kBeside * radius, beside)) {}
 
   void add(const TipSample& one) {
     const double r = one.place.norm();
@@ -77,11 +82,13 @@ class TipIntegrals {
     if (!(area_[0] > 0) || !(area_[1] > 0)) return Vec<2>::Zero();
     return face_[1] / area_[1] - face_[0] / area_[0];
   }
-  /// K_II and K_I, Pa √m
+  /// K_II and K_I, Pa √m; all of mode I where no sides were seen
   Vec<2> intensities() const {
     const Vec<2> apart = opening();
     const double length = apart.norm();
-    if (!(length > 0) || !(release_ > 0)) return Vec<2>::Zero();
+    if (!(release_ > 0)) return Vec<2>::Zero();
+    if (!(area_[0] > 0) || !(area_[1] > 0)) return {0, std::sqrt(modulus_ * release_)};
+    if (!(length > 0)) return Vec<2>::Zero();
     return std::sqrt(modulus_ * release_) / length * apart;
   }
 
@@ -97,7 +104,7 @@ class TipIntegrals {
   /// Displacements are led to the sides along their slopes.
   void see_opening(const TipSample& one) {
     const TipPath::Beside at = path_->beside(one.place);
-    if (at.behind < kFrom * reach_ || at.behind > reach_ || std::abs(at.offset) > kBeside * radius_) return;
+    if (at.behind < kFrom * reach_ || at.behind > reach_ || std::abs(at.offset) > beside_) return;
     const bool left = at.offset > 0;
     face_[left] += one.area * (one.moved - at.offset * (one.slope * at.left));
     area_[left] += one.area;
@@ -107,7 +114,7 @@ class TipIntegrals {
   static constexpr double kReach = 0.7, kBeside = 0.18;  ///< of the radius: where the sides are looked at
   static constexpr double kFrom = 0.25 / kReach;         ///< of the reach
   const TipPath* path_;
-  double radius_, modulus_, reach_;
+  double radius_, modulus_, reach_, beside_;
   double release_ = 0;
   Vec<2> face_[2] = {Vec<2>::Zero(), Vec<2>::Zero()};  ///< right, left: Σ u dA
   double area_[2] = {0, 0};

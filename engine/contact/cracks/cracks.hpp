@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "engine/plan/plan.hpp"
@@ -80,8 +81,8 @@ class Cracks {
   const std::vector<CrackLine<Dim>>& lines() const { return lines_; }
   const CrackCounters& counters() const { return counters_; }
 
-  /// Is what was seen last out of date? Where nothing has moved by a hundred-thousandth of a cell since, a particle
-  /// may take a node for one of the side that it left by less.
+  /// Is what was seen last out of date? Where nothing has moved by a hundred-thousandth of a cell since, a
+  /// particle may take a node for one of the side that it left by less.
   bool look_due(double cell) const { return drifted_ >= 1e-5 * cell; }
   /// Everything has moved by so much at most, m.
   void drift(double way) { drifted_ += way; }
@@ -128,6 +129,9 @@ class Cracks {
   bool grows(int crack) const { return scene_->cracks[static_cast<std::size_t>(crack)].growth.active; }
   /// Was what is now a side of it at this node whole before the crack grew in the last step?
   bool is_fresh(const State<Dim>& state, int crack, const NodeIndex<Dim>& node) const;
+  /// What of lines is next to a place, if it is nearer than that: those of other cracks of the same body, and
+  /// of its own what lies farther back.
+  std::optional<Vec<Dim>> meets(int crack, bool end, const Vec<Dim>& x, double nearer) const;
 
   void visit(Archive& archive);
 

@@ -17,6 +17,7 @@ namespace {
 constexpr double kStraight = 3;
 /// So many cells a growing crack leads the bonds that soften: these say when it goes on.
 constexpr double kLead = 4;
+constexpr double kMeets = 1;   // cells: nearer than that an end goes into another crack
 constexpr double kBeyond = 2;  // cells: so far goes a crack that has come to the outline
 
 }  // namespace
@@ -76,9 +77,40 @@ void Cracks<Dim>::grow(const State<Dim>& state, int crack, bool end, const TipLo
   if (grown ? load.lead > kLead * cell : !(drives >= spec.growth.toughness)) return;
   constexpr double kTurn = 0.01;  // rad
   put(piece, angle);
+  // Into another crack, or into itself, it goes and rests.
+  Vec<Dim>& now = end ? line.points.back() : line.points.front();
+  if (const auto other = meets(crack, end, now, kMeets * cell)) {
+    now = *other;
+    for (auto& side : line.sides) (end ? side.back() : side.front()) = now;
+    tip.grows = false;
+  }
   tip.straight = std::abs(angle) > kTurn ? piece : tip.straight + piece;
   tip.grown += piece;
   tip.fresh = true;
+}
+
+template <int Dim>
+std::optional<Vec<Dim>> Cracks<Dim>::meets(int crack, bool end, const Vec<Dim>& x, double nearer) const {
+  std::optional<Vec<Dim>> nearest;
+  double least = nearer;
+  for (std::size_t c = 0; c < lines_.size(); ++c) {
+    const auto& points = lines_[c].points;
+    const bool own = static_cast<int>(c) == crack;
+    if (lines_[c].field != lines_[static_cast<std::size_t>(crack)].field) continue;
+    double back = 0;  // from the end
+    for (std::size_t m = 1; m < points.size(); ++m) {
+      const std::size_t k = end ? points.size() - m : m;
+      const Vec<Dim> way = points[k] - points[k - 1];
+      back += way.norm();
+      if (own && back < 4 * nearer) continue;
+      const double share = std::clamp((x - points[k - 1]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      const Vec<Dim> at = points[k - 1] + share * way;
+      if (!((x - at).norm() < least)) continue;
+      least = (x - at).norm();
+      nearest = at;
+    }
+  }
+  return nearest;
 }
 
 /// Was the material around a place whole when the last step ended, and is now beside a piece that was put?
@@ -105,6 +137,8 @@ template void Cracks<2>::grow(const State<2>&, const std::function<TipLoad(int, 
 template void Cracks<3>::grow(const State<3>&, const std::function<TipLoad(int, bool)>&);
 template bool Cracks<2>::is_fresh(const State<2>&, int, const NodeIndex<2>&) const;
 template bool Cracks<3>::is_fresh(const State<3>&, int, const NodeIndex<3>&) const;
+template std::optional<Vec<2>> Cracks<2>::meets(int, bool, const Vec<2>&, double) const;
+template std::optional<Vec<3>> Cracks<3>::meets(int, bool, const Vec<3>&, double) const;
 template void Cracks<2>::grow(const State<2>&, int, bool, const TipLoad&);
 template void Cracks<3>::grow(const State<3>&, int, bool, const TipLoad&);
 

@@ -18,6 +18,7 @@ namespace {
 constexpr double kBack = 2;       // cells that the direction of an end is looked for along
 constexpr double kBlur = 0.75;    // cells
 constexpr double kOutline = 1.5;  // cells, within which an end is at the outline
+constexpr double kApart = 0.8;    // of the way to the other end that a disk may take
 constexpr double kWorn = 0.02;    // share of its way to broken from which on a bond softens
 
 /// The points of a crack from one of its ends on, until that far.
@@ -128,23 +129,24 @@ double modulus_of(const State<Dim>& state, int field) {
   return 0;
 }
 
-/// How far a body goes on ahead of a tip: of the disk so much that the wedge ahead is covered, m; 0: nowhere.
+/// How far a body goes on ahead of a tip: so far that what lies ahead is covered, m; 0: it ends at the tip.
 double covered_radius(const TipSamples& samples, double radius, double cell) {
-  constexpr int kRings = 24;
   constexpr double kWedge = 0.5, kCovered = 0.8, kThrough = 0.4;  // of its width to its length; of its area
-  const double ring = radius / kRings, angle = std::atan(kWedge);
-  std::array<double, kRings> area{};
+  const double strip = 0.5 * cell;
+  const auto half_width = [&](double x) { return std::max(cell, kWedge * x); };
+  const auto strips = std::max(std::size_t{4}, static_cast<std::size_t>(radius / strip));
+  std::vector<double> area(strips, 0.0);
   for (const TipSample& one : samples)
-    if (std::abs(one.place[1]) < kWedge * one.place[0])
-      if (const auto k = static_cast<std::size_t>(one.place.norm() / ring); k < kRings) area[k] += one.area;
-  const double least = std::min(kOutline * cell, radius);
-  double sum = 0, covered = 0;
-  for (std::size_t k = 0; k < kRings; ++k) {
+    if (one.place[0] >= 0 && std::abs(one.place[1]) < half_width(one.place[0]))
+      if (const auto k = static_cast<std::size_t>(one.place[0] / strip); k < strips) area[k] += one.area;
+  double sum = 0, whole = 0, covered = 0;
+  for (std::size_t k = 0; k < strips; ++k) {
+    const double x = strip * static_cast<double>(k + 1);
     sum += area[k];
-    const double r = ring * static_cast<double>(k + 1);
-    if (r < least) continue;
-    if (covered == 0 && sum < kThrough * angle * r * r) return 0;
-    if (covered == 0 || sum >= kCovered * angle * r * r) covered = r;
+    whole += 2 * strip * half_width(x - 0.5 * strip);
+    if (k < 3) continue;  // of two cells
+    if (k == 3 && sum < kThrough * whole) return 0;
+    if (k == 3 || sum >= kCovered * whole) covered = x;
   }
   return covered;
 }
@@ -245,7 +247,7 @@ void add_tractions(const State<Dim>& state, const ContactList<Dim>& contacts, co
         return Mat<2>(mass > 0 ? Mat<2>(sum / mass) : Mat<2>::Zero());
       };
       Vec<Dim> impulse = entry.second;
-      if (contacts.bonds.empty() && !contacts.bridges.empty())
+      if (!question.bonded && !contacts.bridges.empty())
         impulse += contacts.bridges[static_cast<std::size_t>(e)].impulse;
       integrals.add(TipTraction{axes * (place_of(state, node) - about),
                                 axes * impulse.template head<2>() / (question.dt * question.thickness),
@@ -258,16 +260,19 @@ void add_tractions(const State<Dim>& state, const ContactList<Dim>& contacts, co
 template <int Dim>
 TipLoad tip_load(State<Dim>& state, const ContactList<Dim>& contacts, const CrackLine<Dim>& line,
                  const TipQuestion& question, TipSamples& samples) {
-  const double cell = state.grid.cell, radius = question.radius;
+  const double cell = state.grid.cell,
+               apart = (line.points.front() - line.points.back()).norm(),  // the other end has its own J
+      radius = std::max(2 * cell, std::min(question.radius, kApart * apart));
   const CrackEnd& end = line.ends[question.end];
-  std::vector<Vec<2>> behind = points_behind(line, question.end, 4 * radius);
+  const double far = std::max(2 * radius, 8 * cell);  // farther than a line leads its bonds
+  std::vector<Vec<2>> behind = points_behind(line, question.end, 2 * far);
   TipLoad load;
   load.ahead = direction(behind, cell, end.straight);
   Vec<2> ahead = load.ahead;
   const std::vector<Vec<2>> to_end = behind;
   if (end.grows && end.grown > 0) {
-    const std::optional<double> worn = foremost_worn(state, contacts, question.crack, behind, 2 * radius);
-    load.lead = worn ? std::min(*worn, 2 * radius) : end.grown;
+    const std::optional<double> worn = foremost_worn(state, contacts, question.crack, behind, far);
+    load.lead = std::min(worn.value_or(HUGE_VAL), end.grown);
     cut(behind, load.lead);
     if (load.lead > 0) {
       std::vector<Vec<2>> before = to_end;
@@ -298,7 +303,8 @@ TipLoad tip_load(State<Dim>& state, const ContactList<Dim>& contacts, const Crac
   if (covered == 0) return load;
   const double within = std::min(radius, covered);
   const TipPath path(std::move(behind), within, kBlur * cell);
-  TipIntegrals integrals(path, within, load.modulus, std::max(end.straight - load.lead, kOutline * cell));
+  TipIntegrals integrals(path, within, load.modulus, std::max(end.straight - load.lead, kOutline * cell),
+                         cell);
   for (const TipSample& one : samples) integrals.add(one);
   add_tractions(state, contacts, question, load.place, axes, integrals);
   load.release = integrals.release();

@@ -31,6 +31,7 @@ struct TipQuestion {
   double radius;     ///< of the disk, m; smaller where the body ends ahead
   double thickness;  ///< of the plane, m
   double dt;         ///< of the step, s
+  bool bonded;       ///< its law has bonds that soften
   Vec<2> fall;       ///< acceleration by body forces, m/s²
 };
 

@@ -35,6 +35,7 @@ void Contact<Dim>::find_bonds(const State<Dim>& state) {
   constexpr double kTouch = 0.25;  // cells
   for_each_bond(state, [&](const auto& node, const auto& entry, const Cohesive&, Bond<Dim>& bond) {
     bond.way = bond.before, bond.offset = bond.offset_before;
+    // Ahead of where a crack ended sides have hardly any mass, and what they tell of a jump is noise.
     if (entry.crack >= 0 && state.step > 0 && cracks_.is_fresh(state, entry.crack, node.node)) {
       bond.way = 0;
       bond.offset.setZero();

@@ -140,21 +140,25 @@ void describe_growth(Keys& map, const Scene& scene, CrackSpec& crack) {
                                   growth.toughness, Number{Measure::surface_energy, kPositive});
   map.key("rule", "When it grows, and whereto.", growth.rule, kGrowthRules);
   map.key("advance", "By how much at once, in cells.", growth.advance,
-          Number{Measure::number, {"between 0.1 and 1", 0.1, 1}});
+          Number{Measure::number, {"between 0.25 and 1", 0.25, 1}});
   map.key("zone", "Over so many cells new sides soften, where the law of the crack is not cohesive.",
           growth.zone, Number{Measure::number, {"1 or more", 1}});
-  if (!map.reads() || !map.good() || !stated || own) return;
-  if (growth.toughness == 0)
-    return map.report("toughness: missing (an energy of a surface: J/m^2, N/m, N/mm)");
-  if (!std::holds_alternative<Frictionless>(crack.law.acts) &&
-      !std::holds_alternative<Coulomb>(crack.law.acts))
-    return map.report("the sides of a crack that grows are frictionless, coulomb or cohesive");
+  if (!map.reads() || !map.good() || !stated || crack.body < 0) return;
   const auto& body = scene.bodies[static_cast<std::size_t>(crack.body)];
+  if (body.material < 0) return;
   const double modulus =
       std::visit([&](const auto& law) { return plane_modulus(law, scene.space == Space::plane_stress); },
                  scene.materials[static_cast<std::size_t>(body.material)].model);
   if (modulus == 0)
     return map.report(fmt::format("'{}' has no shear modulus: cracks grow in solids", body.name));
+  if (own && growth.toughness != own->normal_toughness)
+    return map.report("where the crack is cohesive its normal_toughness is the toughness");
+  if (own) return;
+  if (growth.toughness == 0)
+    return map.report("toughness: missing (an energy of a surface: J/m^2, N/m, N/mm)");
+  if (!std::holds_alternative<Frictionless>(crack.law.acts) &&
+      !std::holds_alternative<Coulomb>(crack.law.acts))
+    return map.report("the sides of a crack that grows are frictionless, coulomb or cohesive");
   Cohesive bond;
   if (const auto* coulomb = std::get_if<Coulomb>(&crack.law.acts)) {
     bond.friction = coulomb->friction;
@@ -215,6 +219,10 @@ void describe_cracks(Keys& top, Scene& scene) {
                        if (!entry.reads() || !entry.good()) return;
                        check_crack(entry, scene, crack);
                        scene.cracks.push_back(crack);
+                       const auto tips = crack_tips(scene);
+                       if (crack.growth.active &&
+                           (tips.empty() || tips.back().crack + 1 != static_cast<int>(scene.cracks.size())))
+                         entry.report("neither of its ends lies in its body: nothing grows");
                      });
          });
 }
