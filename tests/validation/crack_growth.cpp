@@ -160,9 +160,10 @@ TEST_CASE("slow: a slanted crack kinks to where the hoop stress is largest, and 
 }
 
 TEST_CASE("slow: a beam grows its crack steadily at its toughness, and breaks where it is hit") {
-  const Outcome beam = run(scene_file(
-      "dcb.yaml",
-      {{"grid.cell", "0.25 mm"}, {"output.frames", "0"}, {"cracks.0.growth", "{toughness: 5 J/m^2}"}}));
+  const Outcome beam =
+      run(scene_file("dcb.yaml", {{"grid.cell", "0.25 mm"},
+                                  {"output.frames", "0"},
+                                  {"cracks.0.growth", "{toughness: 5 J/m^2, rule: energy}"}}));
   REQUIRE(beam.failure.empty());
   const auto& h = beam.history;
   const double grown = h.at("slit.end.x_m").back() - 13e-3, work = h.at("boundary_work_J").back();

@@ -17,8 +17,9 @@ namespace {
 constexpr double kStraight = 3;
 /// So many cells a growing crack leads the bonds that soften: these say when it goes on.
 constexpr double kLead = 4;
-constexpr double kMeets = 1;   // cells: nearer than that an end goes into another crack
-constexpr double kBeyond = 2;  // cells: so far goes a crack that has come to the outline
+constexpr double kCarries = 0.1;  // of the strength
+constexpr double kMeets = 1;      // cells: nearer than that an end goes into another crack
+constexpr double kBeyond = 2;     // cells: so far goes a crack that has come to the outline
 
 }  // namespace
 
@@ -70,7 +71,10 @@ void Cracks<Dim>::grow(const State<Dim>& state, int crack, bool end, const TipLo
   // Ahead of a crack K_II : K_I = σ_tn : σ_nn, which tells it also where bonds hold the sides together.
   const double one = std::max(grown ? load.across[1] : load.opening, 0.0),
                two = grown ? load.across[0] : load.sliding;
-  const bool may_turn = by_hoop && tip.straight >= kStraight * cell * (1 - 1e-6) && (!grown || one > 0);
+  // What hardly carries anything does not tell where to.
+  const double strength = std::get<Cohesive>(spec.law.acts).normal_strength;
+  const bool may_turn =
+      by_hoop && tip.straight >= kStraight * cell * (1 - 1e-6) && (!grown || one > kCarries * strength);
   const double angle = may_turn ? kink_angle(one, two) : 0;
   const double intensity = by_hoop ? hoop_intensity(one, two, angle) : 0;
   const double drives = by_hoop ? intensity * std::abs(intensity) / load.modulus : load.release;

@@ -188,15 +188,17 @@ Vec<2> across_end(const TipSamples& samples, const std::vector<Vec<2>>& points, 
                   double straight, double cell) {
   constexpr double kBeside = 1;  // cells
   Vec<2> sum = Vec<2>::Zero();
+  double area = 0;
   for (const TipSample& one : samples) {
     const Vec<2> from = one.place - points.front();
     const double behind = -from.dot(ahead), beside = ahead[0] * from[1] - ahead[1] * from[0];
     if (behind < 0 || behind > std::min(straight, kBack * cell) || std::abs(beside) > kBeside * cell)
       continue;
     const Vec<2> traction = one.stress * Vec<2>(-ahead[1], ahead[0]);
+    area += one.area;
     sum += one.area * Vec<2>(traction.dot(ahead), ahead[0] * traction[1] - ahead[1] * traction[0]);
   }
-  return sum;
+  return area > 0 ? Vec<2>(sum / area) : sum;
 }
 
 /// What is within a distance of a place, in the axes of the scene.

@@ -20,7 +20,7 @@ struct TipLoad {
   double modulus = 0;              ///< E′, Pa; 0 likewise
   double lead = 0;                 ///< from there on to the end, m
   Vec<2> ahead = Vec<2>::Zero();   ///< unit, out of the crack at its end
-  Vec<2> across = Vec<2>::Zero();  ///< σ_tn and σ_nn on what is straight behind that, in some unit
+  Vec<2> across = Vec<2>::Zero();  ///< σ_tn and σ_nn on what is straight behind that, Pa
   bool through = false;            ///< there is nothing ahead of the end: it has come to the outline
 };
 
