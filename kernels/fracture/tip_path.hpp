@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "kernels/dimension.hpp"
