@@ -66,7 +66,7 @@ boundaries: {left: wall, right: wall}
   for (std::size_t p = 0; p < particles.size(); ++p)
     particles.column(Quantity::velocity, 0)[p] = is_left(p) ? -10 : 10;
   const double start = kinetic_energy(particles);
-  double widest = -1, least = 1, apart = 0;
+  double widest = -1, least = 1, apart = 0, astray = 0;
   std::uint64_t peak = 0;
   for (; step.state().time < 5.2e-3; step.advance(step.stable_dt())) {
     double left = 0, right = 1;
@@ -75,13 +75,19 @@ boundaries: {left: wall, right: wall}
       (is_left(p) ? left : right) = is_left(p) ? std::max(left, x) : std::min(right, x);
     }
     widest = std::max(widest, right - left);
+    const auto& line = step.cracks().lines()[0];
+    const std::size_t middle = line.points.size() / 2;
+    astray = std::max(
+        astray, std::abs(line.sides[1][middle][0] - line.sides[0][middle][0] + 0.5e-3 - (right - left)));
     if (step.state().time > 2.4e-3) least = std::min(least, right - left);
     apart = right - left;
     peak = std::max<std::uint64_t>(peak, step.contact_list().entries.size());
   }
   const double left = kinetic_energy(particles) + step.stored_energy();
-  MESSAGE("widest ", widest, " least ", least, " at last ", apart, " energy ", left / start);
+  MESSAGE("widest ", widest, " least ", least, " at last ", apart, " energy ", left / start, " astray ",
+          astray);
   CHECK(widest > 10e-3);    // twenty cells would do
+  CHECK(astray < 1e-3);     // each side of the line is with its half
   CHECK(least > 0.3e-3);    // half a cell lies between particles that touch, which the blow presses
   CHECK(apart > 2 * 1e-3);  // they parted again
   CHECK(left == doctest::Approx(start).epsilon(5e-3).scale(0));
