@@ -1,17 +1,21 @@
 /// Counts the instructions per particle-step of small scenes and compares them with bounds.txt: a figure of
 /// speed without noise.
 ///
-/// usage: instruction_count BOUNDS
+/// usage: instruction_count BOUNDS [CASE...]
+///
+/// Without a name all cases are counted (a minute, most of it that of the balls).
 ///
 /// Exit status: 0 within the bounds, 1 above one, 2 wrong input, 77 not possible here (ctest: skipped).
 
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -26,7 +30,6 @@ namespace {
 using namespace mpmfast;
 
 constexpr int kSkipped = 77;  // ctest: SKIP_RETURN_CODE
-constexpr int kSteps = 3;
 
 struct Case {
   const char *name, *scene;
@@ -56,6 +59,30 @@ contact: {law: coulomb, friction: 0.2}
 bodies:
   - {name: left, disk: {centre: [7.1 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [20 m/s, 2 m/s]}
   - {name: right, disk: {centre: [13 mm, 6 mm], radius: 3 mm}, material: rubber, velocity: [-20 m/s, -2 m/s]}
+)"},
+    // As "flip" in 3-D: 256 particles in 4 x 4 x 2 cells.
+    {"flip-3d", R"(
+space: 3d
+grid: {size: [12 mm, 12 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {rubber: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+method: {basis: ugimp, update: flip}
+bodies:
+  - {name: left, box: {from: [4 mm, 4 mm, 4 mm], to: [6 mm, 8 mm, 6 mm]}, material: rubber, velocity: [-5 m/s, 1 m/s, 1 m/s]}
+  - {name: right, box: {from: [6 mm, 4 mm, 4 mm], to: [8 mm, 8 mm, 6 mm]}, material: rubber, velocity: [5 m/s, 0 m/s, 1 m/s]}
+contact: none
+)"},
+    // As "contact" in 3-D: two balls of about 110 particles.
+    {"contact-3d", R"(
+space: 3d
+grid: {size: [14 mm, 10 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {rubber: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+method: {basis: ugimp, update: xpic(2)}
+contact: {law: coulomb, friction: 0.2}
+bodies:
+  - {name: left, sphere: {centre: [5.05 mm, 5 mm, 5 mm], radius: 1.5 mm}, material: rubber, velocity: [20 m/s, 2 m/s, 0 m/s]}
+  - {name: right, sphere: {centre: [8 mm, 5 mm, 5 mm], radius: 1.5 mm}, material: rubber, velocity: [-20 m/s, -2 m/s, 0 m/s]}
 )"}};
 
 struct Count {
@@ -63,16 +90,21 @@ struct Count {
   std::uint64_t contact_nodes = 0;
 };
 
-/// After two steps, of which the first allocates.
-Count count_of(const Case& test) {
-  const Scene scene = parse_scene(test.scene, test.name);
-  Step<2> step(scene);
+/// Of the third step; the first allocates.
+template <int dim>
+Count count_in(const Scene& scene) {
+  Step<dim> step(scene);
   for (int k = 0; k < 2; ++k) step.advance(step.stable_dt());
   instructions::start_counting();
-  for (int k = 0; k < kSteps; ++k) step.advance(step.stable_dt());
+  step.advance(step.stable_dt());
   const std::uint64_t counted = instructions::stop_counting();
-  const auto work = static_cast<double>(step.state().particles.size() * kSteps);
+  const auto work = static_cast<double>(step.state().particles.size());
   return {static_cast<double>(counted) / work, step.contact_counters().nodes_peak};
+}
+
+Count count_of(const Case& test) {
+  const Scene scene = parse_scene(test.scene, test.name);
+  return scene.dimension() == 3 ? count_in<3>(scene) : count_in<2>(scene);
 }
 
 struct InstructionBounds {
@@ -99,11 +131,15 @@ InstructionBounds read_bounds(const char* file) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  const InstructionBounds limits = count == 2 ? read_bounds(arguments[1]) : InstructionBounds{};
-  if (!(limits.slack > 1)) {
+  const InstructionBounds limits = count >= 2 ? read_bounds(arguments[1]) : InstructionBounds{};
+  const std::set<std::string> wanted(arguments + std::min(count, 2), arguments + count);
+  const auto is_case = [](const std::string& name) {
+    return std::any_of(kCases.begin(), kCases.end(), [&](const Case& test) { return name == test.name; });
+  };
+  if (!(limits.slack > 1) || !std::all_of(wanted.begin(), wanted.end(), is_case)) {
     fmt::print(stderr,
-               "usage: instruction_count BOUNDS, a file with a line 'slack FACTOR' and lines 'CASE LANES "
-               "MEASURED'\n");
+               "usage: instruction_count BOUNDS [CASE...], a file with a line 'slack FACTOR' and lines 'CASE "
+               "LANES MEASURED', and names of cases of tests/instructions/main.cpp\n");
     return 2;
   }
   if (!instructions::can_count()) {
@@ -117,8 +153,9 @@ int main(int count, char** arguments) {
   omp_set_num_threads(1);  // what another thread does would not be counted
   bool above = false, known = false;
   for (const Case& test : kCases) {
+    if (!wanted.empty() && wanted.count(test.name) == 0) continue;
     const Count counted = count_of(test);
-    fmt::print("{:8} {} lanes: {:.0f} instructions per particle-step", test.name, kLanes,
+    fmt::print("{:10} {} lanes: {:.0f} instructions per particle-step", test.name, kLanes,
                counted.per_particle_step);
     if (counted.contact_nodes > 0) fmt::print(", {} contact nodes", counted.contact_nodes);
     const auto found = limits.measured.find({test.name, kLanes});
@@ -132,7 +169,7 @@ int main(int count, char** arguments) {
     above = above || too_many;
     fmt::print("; recorded {:.0f}, bound {:.0f}{}\n", found->second, bound, too_many ? ": TOO MANY" : "");
     if (counted.per_particle_step < found->second / limits.slack)
-      fmt::print("         far fewer than recorded: lower the figure in {}\n", arguments[1]);
+      fmt::print("           far fewer than recorded: lower the figure in {}\n", arguments[1]);
     std::fflush(stdout);
   }
   return above ? 1 : known ? 0 : kSkipped;
