@@ -60,6 +60,7 @@ bool Penalty<Dim>::find_near(const State<Dim>& state) {
   for (std::size_t p = 0; p < is_near_.size(); ++p) more |= near_now_[p] > is_near_[p];
   if (!more) return false;
   is_near_ = near_now_;
+  for (int f : near_facets_) ball_[static_cast<std::size_t>(f)].body = -1;
   near_facets_.clear();
   for (std::size_t f = 0; f < surfaces_->facets.size(); ++f) {
     const auto& corner = surfaces_->facets[f].point;
@@ -132,14 +133,12 @@ void Penalty<Dim>::fill_bins() {
   }
 }
 
-/// The facets of other bodies that may touch a facet, by their numbers.
+/// The facets in the cells around one that what is of the body may touch, by their numbers.
 template <int Dim>
-void Penalty<Dim>::list_around(int own, std::vector<int>& out) const {
-  const int body = facet(own).body, field = field_of(body);
+void Penalty<Dim>::list_bins(const NodeIndex<Dim>& cell, int body, std::vector<const Binned*>& out) const {
+  const int field = field_of(body);
   const bool rigid = body_rigid_[static_cast<std::size_t>(body)];
-  const Ball& ball = ball_[static_cast<std::size_t>(own)];
-  const NodeIndex<Dim> cell = cell_of(ball.middle);
-  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  out.clear();
   for (int k = 0; k < power(3, Dim); ++k) {
     NodeIndex<Dim> there = cell;
     int digits = k;
@@ -149,12 +148,29 @@ void Penalty<Dim>::list_around(int own, std::vector<int>& out) const {
       const Binned& binned = binned_[static_cast<std::size_t>(b)];
       if (field_of(binned.body) == field || binned.cell != there) continue;
       if (rigid && body_rigid_[static_cast<std::size_t>(binned.body)]) continue;
-      const double most = (1 + kSkin) * cell_ + ball.radius + binned.ball.radius;
-      if ((ball.middle - binned.ball.middle).squaredNorm() <= most * most) out.push_back(binned.facet);
+      out.push_back(&binned);
     }
   }
-  std::sort(out.begin() + begin, out.end());
-  leave_far_ones(ball, begin, out);
+  std::sort(out.begin(), out.end(), [](const Binned* a, const Binned* b) { return a->facet < b->facet; });
+}
+
+/// The facets of other bodies that may touch a facet, by their numbers.
+template <int Dim>
+void Penalty<Dim>::list_around(int own, Room& room) const {
+  const Ball& ball = ball_[static_cast<std::size_t>(own)];
+  const NodeIndex<Dim> cell = cell_of(ball.middle);
+  if (room.body != ball.body || room.cell != cell) {  // most follow one of the same cell
+    room.body = ball.body;
+    room.cell = cell;
+    list_bins(cell, ball.body, room.binned);
+  }
+  const auto begin = static_cast<std::ptrdiff_t>(room.listed.size());
+  for (const Binned* binned : room.binned) {
+    const double most = (1 + kSkin) * cell_ + ball.radius + binned->ball.radius;
+    if ((ball.middle - binned->ball.middle).squaredNorm() <= most * most)
+      room.listed.push_back(binned->facet);
+  }
+  leave_far_ones(ball, begin, room.listed);
 }
 
 /// Of each piece, what cannot have the nearest foot of a point of the facet, as long as the lists hold, goes.
@@ -197,12 +213,13 @@ void Penalty<Dim>::list_all(int threads) {
   for (Room& room : rooms_) {
     room.listing.clear();
     room.listed.clear();
+    room.body = -1;
   }
 #pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
   for (std::int64_t k = 0; k < n; ++k) {
     Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
     const int begin = static_cast<int>(room.listed.size());
-    list_around(near_facets_[static_cast<std::size_t>(k)], room.listed);
+    list_around(near_facets_[static_cast<std::size_t>(k)], room);
     const int end = static_cast<int>(room.listed.size());
     if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end, 0});
   }
@@ -230,7 +247,8 @@ template bool Penalty<2>::find_near(const State<2>&);
 template NodeIndex<2> Penalty<2>::cell_of(const Vec<2>&) const;
 template std::size_t Penalty<2>::bucket_of(const NodeIndex<2>&) const;
 template void Penalty<2>::fill_bins();
-template void Penalty<2>::list_around(int, std::vector<int>&) const;
+template void Penalty<2>::list_bins(const NodeIndex<2>&, int, std::vector<const Binned*>&) const;
+template void Penalty<2>::list_around(int, Room&) const;
 template void Penalty<2>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<2>::list_all(int);
 template void Penalty<2>::find_balls(int);
@@ -240,7 +258,8 @@ template bool Penalty<3>::find_near(const State<3>&);
 template NodeIndex<3> Penalty<3>::cell_of(const Vec<3>&) const;
 template std::size_t Penalty<3>::bucket_of(const NodeIndex<3>&) const;
 template void Penalty<3>::fill_bins();
-template void Penalty<3>::list_around(int, std::vector<int>&) const;
+template void Penalty<3>::list_bins(const NodeIndex<3>&, int, std::vector<const Binned*>&) const;
+template void Penalty<3>::list_around(int, Room&) const;
 template void Penalty<3>::leave_far_ones(const Ball&, std::ptrdiff_t, std::vector<int>&) const;
 template void Penalty<3>::list_all(int);
 template void Penalty<3>::find_balls(int);

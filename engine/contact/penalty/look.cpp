@@ -100,8 +100,10 @@ int Penalty<Dim>::find_normals(int threads) {
     const auto w = static_cast<std::size_t>(listed_wedges_[static_cast<std::size_t>(k)]);
     const auto& wedge = surfaces_->wedges[w];
     Vec<Dim> sum = Vec<Dim>::Zero();
-    for (int f = wedge.begin; f < wedge.end; ++f)
-      sum += facet_normal(surfaces_->wedge_facets[static_cast<std::size_t>(f)]);
+    for (int k = wedge.begin; k < wedge.end; ++k) {
+      const int f = surfaces_->wedge_facets[static_cast<std::size_t>(k)];
+      sum += ball(f).body >= 0 ? ball(f).normal : facet_normal(f);
+    }
     const double length = sum.norm();
     if (!(length > kFolded)) {
       int& fold = rooms_[static_cast<std::size_t>(omp_get_thread_num())].fold;
@@ -115,8 +117,8 @@ int Penalty<Dim>::find_normals(int threads) {
 }
 
 template <int Dim>
-std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
-                                               const typename Surfaces<Dim>::Facet& facet) const {
+[[gnu::always_inline]] inline std::optional<Foot<Dim>> Penalty<Dim>::foot_of(
+    const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet, double reach) const {
   std::array<Vec<Dim>, Dim> corner, normal;
   std::array<bool, Dim> ends;
   for (std::size_t k = 0; k < Dim; ++k) {
@@ -124,7 +126,7 @@ std::optional<Foot<Dim>> Penalty<Dim>::foot_of(const Vec<Dim>& x,
     normal[k] = wedge_normal_[static_cast<std::size_t>(facet.wedge[k])];
     ends[k] = facet.joint[k] != Joint::smooth;
   }
-  auto foot = foot_on(x, corner, normal, ends, cell_);
+  auto foot = foot_on(x, corner, normal, ends, reach);
   if (foot && foot->clipped) {
     // 2-D: the end with all of the foot; 3-D: the edge opposite the corner with none.
     std::size_t at = 0;
@@ -142,28 +144,37 @@ bool Penalty<Dim>::look_around(const Listing& listing, Room& room) const {
   Vec<Dim> x[kPoints];
   for (int k = 0; k < kPoints; ++k) x[k] = mean(listing.facet, k, now_);
   if (room.squared.size() < kPoints * count) room.squared.resize(kPoints * count);
-  double* squared = room.squared.data();
+  room.around.clear();
+  double least[kPoints]{};
   for (std::size_t j = 0; j < count; ++j) {
-    const Vec<Dim>& middle = ball(listed(listing.begin + static_cast<int>(j))).middle;
-    for (std::size_t k = 0; k < kPoints; ++k) squared[k * count + j] = (x[k] - middle).squaredNorm();
+    const int at = listing.begin + static_cast<int>(j);
+    const Ball& other = ball(listed(at));
+    if (room.around.empty() || room.around.back().body != other.body) {  // those of a body follow each other
+      room.around.push_back({other.body, at, at, {}, 0});
+      std::fill(least, least + kPoints, kInfinity);
+    }
+    Around& around = room.around.back();
+    around.end = at + 1;
+    around.widest = std::max(around.widest, other.radius);
+    for (std::size_t k = 0; k < kPoints; ++k) {
+      const double squared = (x[k] - other.middle).squaredNorm();
+      room.squared[k * count + j] = squared;
+      if (!(squared < least[k])) continue;
+      least[k] = squared;
+      around.nearest[k] = at;
+    }
   }
   bool outside = true;
-  for (int k = 0; k < kPoints; ++k, squared += count)
-    for (int begin = listing.begin; begin < listing.end;) {
-      // Those of a body follow each other.
-      const int body = ball(listed(begin)).body;
-      const double* of_body = squared + (begin - listing.begin);
-      int end = begin, nearest = begin;
-      double widest = 0;
-      for (; end < listing.end && ball(listed(end)).body == body; ++end) {
-        widest = std::max(widest, ball(listed(end)).radius);
-        if (of_body[end - begin] < of_body[nearest - begin]) nearest = end;
-      }
+  for (std::size_t k = 0; k < kPoints; ++k)
+    for (const Around& around : room.around) {
       // Most points lie well outside of whatever is near: over the facet whose middle is the nearest.
+      const int nearest = around.nearest[k];
       const Ball& under = ball(listed(nearest));
-      if (under.normal.dot(x[k] - under.middle) <= 2 * widest)
-        outside &= look_at_body(listing.facet, k, x[k], {begin, end, nearest, of_body}, room);
-      begin = end;
+      if (under.normal.dot(x[k] - under.middle) > 2 * around.widest) continue;
+      const double* squared =
+          room.squared.data() + k * count + static_cast<std::size_t>(around.begin - listing.begin);
+      outside &= look_at_body(listing.facet, static_cast<int>(k), x[k],
+                              {around.begin, around.end, nearest, squared}, room);
     }
   return outside;
 }
@@ -180,9 +191,9 @@ bool Penalty<Dim>::look_at_body(int own, int k_th, const Vec<Dim>& x, const Neig
     int place = 0;
     while (place < count && found[place].piece < piece) ++place;
     const bool known = place < count && found[place].piece == piece;
-    const double most = ball(f).radius + (known ? found[place].foot.distance : cell_);
+    const double reach = known ? found[place].foot.distance : cell_, most = ball(f).radius + reach;
     if (neighbours.squared[k - neighbours.begin] > most * most) return;
-    const std::optional<Foot<Dim>> foot = foot_of(x, facet(f));
+    const std::optional<Foot<Dim>> foot = foot_of(x, facet(f), reach);
     if (!foot) return;
     const Candidate candidate{facet(f).body, piece, f, *foot};
     if (known) {
@@ -211,6 +222,7 @@ bool Penalty<Dim>::touch_body(int own, int k_th, const Vec<Dim>& x, const Candid
   const Foot<Dim>& first = nearest->foot;
   if (!(first.distance > 0)) return false;
   if (first.clipped ? first.convex : !first.below) return true;
+  const bool alone = end - begin == 1;
   const double reach = 1 / (cell_ * cell_);
   const auto weight = [&](const Candidate& c) {  // 1/d_j²
     const double d = c.foot.distance;
@@ -218,21 +230,27 @@ bool Penalty<Dim>::touch_body(int own, int k_th, const Vec<Dim>& x, const Candid
     const bool counts = c.foot.clipped ? c.foot.convex : c.foot.below;
     return counts && d > 0 && !first.clipped ? std::max(0.0, 1 / (d * d) - reach) : 0.0;
   };
-  double sum = 0;
-  for (const Candidate* c = begin; c != end; ++c) sum += weight(*c);
-  const double depth = 1 / std::sqrt(sum);
-  Vec<Dim> way = Vec<Dim>::Zero();
+  double depth = first.distance;
+  Vec<Dim> way = first.exit;
   const auto part = [&](const Candidate& c) {  // (d/d_j)³ of ∂d/∂x
+    if (alone) return 1.0;
     const double ratio = depth / c.foot.distance;
     return weight(c) > 0 ? ratio * ratio * ratio : 0.0;
   };
-  for (const Candidate* c = begin; c != end; ++c) way += part(*c) * c->foot.exit;
-  const double length = way.norm();
-  if (!(length > 0)) return false;
+  if (!alone) {
+    double sum = 0;
+    for (const Candidate* c = begin; c != end; ++c) sum += weight(*c);
+    depth = 1 / std::sqrt(sum);
+    way.setZero();
+    for (const Candidate* c = begin; c != end; ++c) way += part(*c) * c->foot.exit;
+    const double length = way.norm();
+    if (!(length > 0)) return false;
+    way /= length;
+  }
   const int body = facet(own).body;
   if (std::holds_alternative<Ignore>(law_between(field_of(body), field_of(nearest->body)))) return false;
   // What lies round an edge does not press. The area is the undeformed one, so that springs keep energy.
-  const double facing = std::max(0.0, -ball(own).normal.dot(way) / length);
+  const double facing = std::max(0.0, -ball(own).normal.dot(way));
   const double stiffness = 0.5 * stiffness_between(body, nearest->body) * facing * facet(own).area / kPoints;
   if (!(stiffness > 0)) return false;
   double energy = 0.5 * stiffness * depth * depth;
@@ -257,7 +275,7 @@ template std::optional<Fold> Penalty<2>::look(const State<2>&);
 template void Penalty<2>::gather(const State<2>&);
 template Vec<2> Penalty<2>::facet_normal(int) const;
 template int Penalty<2>::find_normals(int);
-template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&) const;
+template std::optional<Foot<2>> Penalty<2>::foot_of(const Vec<2>&, const Surfaces<2>::Facet&, double) const;
 template bool Penalty<2>::look_around(const Listing&, Room&) const;
 template bool Penalty<2>::look_at_body(int, int, const Vec<2>&, const Neighbours&, Room&) const;
 template bool Penalty<2>::touch_body(int, int, const Vec<2>&, const Candidate*, const Candidate*,
@@ -266,7 +284,7 @@ template std::optional<Fold> Penalty<3>::look(const State<3>&);
 template void Penalty<3>::gather(const State<3>&);
 template Vec<3> Penalty<3>::facet_normal(int) const;
 template int Penalty<3>::find_normals(int);
-template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&) const;
+template std::optional<Foot<3>> Penalty<3>::foot_of(const Vec<3>&, const Surfaces<3>::Facet&, double) const;
 template bool Penalty<3>::look_around(const Listing&, Room&) const;
 template bool Penalty<3>::look_at_body(int, int, const Vec<3>&, const Neighbours&, Room&) const;
 template bool Penalty<3>::touch_body(int, int, const Vec<3>&, const Candidate*, const Candidate*,

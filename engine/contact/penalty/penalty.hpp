@@ -61,6 +61,10 @@ class Penalty {
   void visit(Archive& archive);
 
  private:
+  /// Points of integration on a facet: two of a segment, exact for cubics; the middle of a triangle (at two
+  /// boundary points a cell and more, three gave spheres, cubes and gaps the same errors for twice the time).
+  static constexpr int kPoints = Dim == 2 ? 2 : 1;
+  static_assert(kPoints == 1 || Dim == 2);
   /// A point of a facet that a piece of another body pushes out, at the nearest of its facets.
   struct Touch {
     int own, at, facet;  ///< its facet, which of its points; the other's facet
@@ -95,7 +99,7 @@ class Penalty {
   struct Ball {
     Vec<Dim> middle, normal;
     double radius;
-    int body;
+    int body = -1;  ///< −1: it is not known
   };
   struct Binned {
     NodeIndex<Dim> cell;
@@ -115,13 +119,23 @@ class Penalty {
     int begin, end, nearest;
     const double* squared;
   };
+  /// Of a listing, the facets of one body.
+  struct Around {
+    int body, begin, end;
+    int nearest[kPoints];  ///< which has its middle nearest to each point
+    double widest;         ///< of their radii, m
+  };
   struct Room {
     std::vector<Touch> touches;
     std::vector<Pushed> pushed;   ///< as touches
     std::size_t pressed = 0;      ///< points that touch
     std::vector<double> squared;  ///< m², of a listing: from each point to each middle
+    std::vector<Around> around;   ///< of a listing, by body
     std::vector<Listing> listing;
     std::vector<int> listed;
+    int body = -1;                      ///< whose facets look around, from which cell,
+    NodeIndex<Dim> cell;                ///< and
+    std::vector<const Binned*> binned;  ///< what may be there
     int fold = -1;
   };
 
@@ -130,8 +144,10 @@ class Penalty {
   int find_normals(int threads);
   void find_balls(int threads);
   void fill_bins();
-  std::optional<Foot<Dim>> foot_of(const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet) const;
-  void list_around(int own, std::vector<int>& out) const;
+  std::optional<Foot<Dim>> foot_of(const Vec<Dim>& x, const typename Surfaces<Dim>::Facet& facet,
+                                   double reach) const;
+  void list_bins(const NodeIndex<Dim>& cell, int body, std::vector<const Binned*>& out) const;
+  void list_around(int own, Room& room) const;
   void leave_far_ones(const Ball& ball, std::ptrdiff_t begin, std::vector<int>& out) const;
   void list_all(int threads);
   double moved_since_listed() const;
@@ -164,10 +180,6 @@ class Penalty {
       sum += corner_share(k, static_cast<int>(c)) * of[static_cast<std::size_t>(facet(f).point[c])];
     return sum;
   }
-  /// Points of integration on a facet: two of a segment, exact for cubics; the middle of a triangle (at two
-  /// boundary points a cell and more, three gave spheres, cubes and gaps the same errors for twice the time).
-  static constexpr int kPoints = Dim == 2 ? 2 : 1;
-  static_assert(kPoints == 1 || Dim == 2);
   static double corner_share(int k, int corner) {
     if (kPoints == 1) return 1.0 / Dim;
     return k == corner ? 0.7886751345948129 : 1 - 0.7886751345948129;

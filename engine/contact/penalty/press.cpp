@@ -277,7 +277,8 @@ std::size_t Penalty<Dim>::bytes() const {
       bytes_of(ball_, now_, before_, holds_, near_points_, near_facets_, is_near_, near_now_, shared_,
                listing_, listed_, listed_wedges_, listed_at_, wedge_normal_, bucket_begin_, binned_, force_);
   for (const Room& room : rooms_)
-    sum += bytes_of(room.touches, room.pushed, room.squared, room.listing, room.listed);
+    sum += bytes_of(room.touches, room.pushed, room.squared, room.around, room.listing, room.listed,
+                    room.binned);
   return sum;
 }
 
