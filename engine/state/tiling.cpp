@@ -56,22 +56,27 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
 }
 
 /// Puts the column in order, by way of the spare keys: a column of its own to swap with would cost as much
-/// memory again.
-/// @param begin, end  beyond these all stay where they are
+/// memory again. Beyond the ranges all stay where they are.
 template <class T>
-void permute(Column<T>& column, std::int64_t begin, std::int64_t end, SortBuffers& buffers) {
+void permute(T* values, SortBuffers& buffers) {
   static_assert(sizeof(T) <= sizeof(std::uint64_t));
-  T* values = column.data();
-#pragma omp parallel if (end - begin > static_cast <std::int64_t>(kFewest))
-  {
-#pragma omp for schedule(static)
-    for (std::int64_t i = begin; i < end; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      std::memcpy(&buffers.spare[at], values + buffers.order[at], sizeof(T));
+  const auto take = [&](std::uint32_t i) {
+    std::memcpy(&buffers.spare[i], values + buffers.order[i], sizeof(T));
+  };
+  const auto put = [&](std::uint32_t i) { std::memcpy(values + i, &buffers.spare[i], sizeof(T)); };
+  for (const auto& [begin, end] : buffers.ranges) {
+    if (end - begin <= kFewest) {
+      for (std::uint32_t i = begin; i < end; ++i) take(i);
+      for (std::uint32_t i = begin; i < end; ++i) put(i);
+      continue;
     }
+#pragma omp parallel
+    {
 #pragma omp for schedule(static)
-    for (std::int64_t i = begin; i < end; ++i)
-      std::memcpy(values + i, &buffers.spare[static_cast<std::size_t>(i)], sizeof(T));
+      for (std::uint32_t i = begin; i < end; ++i) take(i);
+#pragma omp for schedule(static)
+      for (std::uint32_t i = begin; i < end; ++i) put(i);
+    }
   }
 }
 
@@ -115,9 +120,23 @@ void Tiling<Dim>::start_keys(std::size_t n, std::size_t bodies) {
 }
 
 template <int Dim>
-void Tiling<Dim>::set_groups(int field, const NodeIndex<Dim>& tile, const std::vector<SideMap<Dim>>& maps) {
+void Tiling<Dim>::start_groups() {
+  mapped_.clear();
+  maps_.clear();
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    if (tile_keys_[t] % static_cast<std::uint64_t>(groups_) == 0) continue;
+    const auto begin = runs[static_cast<std::size_t>(tiles[t].run_begin)].begin,
+               end = runs[static_cast<std::size_t>(tiles[t].run_end - 1)].end;
+    for (std::uint32_t p = begin; p < end; ++p) set_group(p, 0);
+  }
+}
+
+template <int Dim>
+void Tiling<Dim>::set_groups(const ParticleTile<Dim>& tile, const std::vector<SideMap<Dim>>& maps) {
+  NodeIndex<Dim> at;
+  for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide;
   const auto key =
-      (static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile))) *
+      (static_cast<std::uint64_t>(tile.field) * all_places() + static_cast<std::uint64_t>(place(at))) *
       static_cast<std::uint64_t>(groups_);
   for (std::size_t group = 0; group < maps.size(); ++group) {
     mapped_.push_back(key + group + 1);
@@ -129,6 +148,15 @@ template <int Dim>
 void Tiling<Dim>::build(Particles<Dim>& particles, const std::vector<int>& body_field) {
   order_maps();
   sort(particles);
+  cut_runs(particles, body_field);
+  number_slots();
+  stack_up();
+}
+
+template <int Dim>
+void Tiling<Dim>::regroup(Particles<Dim>& particles, const std::vector<int>& body_field) {
+  order_maps();
+  sort_places(particles);
   cut_runs(particles, body_field);
   number_slots();
   stack_up();
@@ -192,16 +220,44 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
     largest = std::max(largest, buffers_.key[p]);
   }
   radix_sort(buffers_, largest);
-  std::size_t begin = 0, end = n;
+  std::uint32_t begin = 0, end = static_cast<std::uint32_t>(n);
   while (begin < n && buffers_.order[begin] == begin) ++begin;
   while (end > begin && buffers_.order[end - 1] == end - 1) --end;
-  const auto in_order = [&](auto& column) {
-    permute(column, static_cast<std::int64_t>(begin), static_cast<std::int64_t>(end), buffers_);
-  };
+  buffers_.ranges.assign(1, {begin, end});
+  put_in_order(particles);
+}
+
+/// As sort(), where only the order within places is to change.
+template <int Dim>
+void Tiling<Dim>::sort_places(Particles<Dim>& particles) {
+  auto& [next, key, spare, order, order_spare, ranges] = buffers_;
+  order.resize(key.size());
+  spare.resize(key.size());
+  ranges.clear();
+  for (std::size_t t = 0; t < tiles.size(); t += 1 + static_cast<std::size_t>(tiles[t].others)) {
+    const auto last = t + static_cast<std::size_t>(tiles[t].others);
+    const std::uint32_t begin = runs[static_cast<std::size_t>(tiles[t].run_begin)].begin,
+                        end = runs[static_cast<std::size_t>(tiles[last].run_end - 1)].end;
+    if (std::is_sorted(key.begin() + begin, key.begin() + end)) continue;
+    std::iota(order.begin() + begin, order.begin() + end, begin);
+    std::sort(order.begin() + begin, order.begin() + end,
+              [&](auto a, auto b) { return key[a] != key[b] ? key[a] < key[b] : a < b; });
+    std::uint32_t from = begin, to = end;
+    while (order[from] == from) ++from;
+    while (order[to - 1] == to - 1) --to;
+    ranges.push_back({from, to});
+  }
+  permute(key.data(), buffers_);
+  put_in_order(particles);
+}
+
+/// All columns, of the particles in buffers_.ranges.
+template <int Dim>
+void Tiling<Dim>::put_in_order(Particles<Dim>& particles) {
   for (Quantity q : particles.quantities())
-    for (int k = 0; k < Particles<Dim>::components(q); ++k) in_order(particles.raw(q, k));
-  in_order(particles.id());
-  in_order(particles.body());
+    for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.column(q, k), buffers_);
+  permute(particles.id().data(), buffers_);
+  permute(particles.body().data(), buffers_);
 }
 
 template <int Dim>
@@ -369,9 +425,21 @@ void Tiling<Dim>::number_slots() {
   });
   const auto same = [](const auto& a, const auto& b) { return a.place == b.place && a.field == b.field; };
   node_tiles.erase(std::unique(node_tiles.begin(), node_tiles.end(), same), node_tiles.end());
+  // Tiles lie in order, and so does what is found for each of their corners, but for other fields between.
+  std::array<int, kCorners<Dim>> last;
+  last.fill(-1);
+  const auto find_on = [&](int c, std::int64_t at, int field) {
+    constexpr int kAhead = 4;
+    int& here = last[static_cast<std::size_t>(c)];
+    for (int k = here + 1; k < std::min(here + 1 + kAhead, static_cast<int>(node_tiles.size())); ++k) {
+      const auto& node_tile = node_tiles[static_cast<std::size_t>(k)];
+      if (node_tile.place == at && node_tile.field == field) return here = k;
+    }
+    return here = find(at, field);
+  };
   for (std::size_t t = 0; t < tiles.size(); ++t)
     for_each_node_tile(t, [&](int c, std::int64_t at, int field) {
-      const int found = find(at, field);
+      const int found = find_on(c, at, field);
       if (field == tiles[t].field) tiles[t].slot[c] = found * kTileNodes<Dim>;
       int& first = node_tiles[static_cast<std::size_t>(found)].particle_tile[c];
       if (first < 0) first = static_cast<int>(t);

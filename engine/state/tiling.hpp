@@ -49,6 +49,7 @@ struct SortBuffers {
   std::vector<Places> next;               ///< where the next key of each digit goes, by thread
   std::vector<std::uint64_t> key, spare;  ///< spare: of the keys, then of each column that is put in order
   std::vector<std::uint32_t> order, order_spare;
+  std::vector<std::array<std::uint32_t, 2>> ranges;  ///< where `order` has them: from, to
 
   std::size_t bytes() const {
     return (key.capacity() + spare.capacity()) * sizeof(std::uint64_t) +
@@ -68,18 +69,12 @@ class Tiling {
   /// Fields that are the sides of another behind cracks: the first of each, −1 where it has none.
   void set_sides(const std::vector<int>& first_side) { first_side_ = first_side; }
 
-  /// Makes room for the keys of n particles of some bodies, and forgets the groups of the last sort.
+  /// Makes room for the keys of n particles of some bodies, all in group 0.
   void start_keys(std::size_t n, std::size_t bodies);
-  /// The sides that the groups of a place of a field see, from group 1 on; 0 sees no other than 0. Before
-  /// set_key.
-  void set_groups(int field, const NodeIndex<Dim>& tile, const std::vector<SideMap<Dim>>& maps);
-  static constexpr int kMostGroups = 256;  ///< of one place
   /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: field,
   /// place of the particle tile, group, body, whether it is a boundary point, cell within the tile. Different
   /// particles may have theirs set at once.
-  /// @param group  of those that see the same sides of cracks
-  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface,
-               int group = 0) {
+  void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface) {
     NodeIndex<Dim> tile;
     int cell = 0;
     for (int d = Dim - 1; d >= 0; --d) {
@@ -88,13 +83,29 @@ class Tiling {
       cell = cell * kTileSide + (b - tile[d] * kTileSide);
     }
     auto key = static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile));
-    key = key * static_cast<std::uint64_t>(groups_) + static_cast<std::uint64_t>(group);
-    key = key * static_cast<std::uint64_t>(bodies_) + static_cast<std::uint64_t>(kinds_ * body + on_surface);
+    key = key * static_cast<std::uint64_t>(groups_) * static_cast<std::uint64_t>(bodies_) +
+          static_cast<std::uint64_t>(kinds_ * body + on_surface);
     buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
   }
   /// Sorts the particles by their keys and numbers the slots.
   /// @param body_field  velocity field of each body
   void build(Particles<Dim>& particles, const std::vector<int>& body_field);
+
+  /// After a sort, groups of particles that see the same sides of cracks, from 1 on; group 0 sees no other
+  /// than side 0. First of all, every particle goes to that.
+  void start_groups();
+  /// The sides that the groups of a tile's place see, from group 1 on.
+  void set_groups(const ParticleTile<Dim>& tile, const std::vector<SideMap<Dim>>& maps);
+  static constexpr int kMostGroups = 256;  ///< of one place
+  void set_group(std::size_t particle, int group) {
+    std::uint64_t& key = buffers_.key[particle];
+    const std::uint64_t rest = group_span();
+    const auto groups = static_cast<std::uint64_t>(groups_);
+    key = (key / (rest * groups) * groups + static_cast<std::uint64_t>(group)) * rest + key % rest;
+  }
+  /// Puts the particles of each place in order of their groups, and numbers the slots. They stay where they
+  /// were sorted to but for that.
+  void regroup(Particles<Dim>& particles, const std::vector<int>& body_field);
 
   /// Takes the particles out for which `leaves(index)`, calling it once for each in their order. The others
   /// keep theirs; tiles and slots are void until the next build. No memory is asked for after a sort.
@@ -151,7 +162,13 @@ class Tiling {
     for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
     return places;
   }
+  /// Keys of one group at one place.
+  std::uint64_t group_span() const {
+    return static_cast<std::uint64_t>(bodies_) * static_cast<std::uint64_t>(kTileNodes<Dim>);
+  }
   void sort(Particles<Dim>& particles);
+  void sort_places(Particles<Dim>& particles);
+  void put_in_order(Particles<Dim>& particles);
   void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
   void number_slots();

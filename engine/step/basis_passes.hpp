@@ -42,7 +42,7 @@ class BasisPasses final : public Passes<Dim> {
     }
   }
 
-  void sort(State<Dim>& state, Cracks<Dim>* cracks) override {
+  void sort(State<Dim>& state) override {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     state.tiling.start_keys(static_cast<std::size_t>(n), state.bodies.size());
@@ -55,14 +55,12 @@ class BasisPasses final : public Passes<Dim> {
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
       return first;
     };
-    if (cracks) cracks->group(state, supports(state), sorted_node);
 #pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
     for (std::int64_t p = 0; p < n; ++p) {
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
       state.tiling.set_key(at, sorted_node(at), state.body_field[static_cast<std::size_t>(body)], body,
-                           state.surfaces.holds(body, state.particles.id()[at]),
-                           cracks ? cracks->group_of(at) : 0);
+                           state.surfaces.holds(body, state.particles.id()[at]));
     }
     state.tiling.build(state.particles, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));

@@ -21,8 +21,7 @@ class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
   /// First support node of every particle, and the sort that follows from it.
-  /// @param cracks  whose sides the particles are grouped by; none: they have not looked yet
-  virtual void sort(State<Dim>& state, Cracks<Dim>* cracks = nullptr) = 0;
+  virtual void sort(State<Dim>& state) = 0;
   /// The nodes that particles reach; valid until the next sort.
   virtual Supports<Dim> supports(const State<Dim>& state) const = 0;
   /// Mass and momentum of every slot (N20 Eq. 5), and the internal force from stresses as they are if it is

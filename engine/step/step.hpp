@@ -101,7 +101,9 @@ class Step {
   double fastest() const;
   const State<Dim>& seeded(const Scene& scene);
   void sort_if_due();
-  void sort(Cracks<Dim>* cracks);
+  void sort();
+  void look_at_cracks(bool sorted);
+  void number_slots();
   void lead_displacements(double dt);
   void project();
   void press_surfaces(double dt);

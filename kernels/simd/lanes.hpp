@@ -82,6 +82,18 @@ inline bool any_of(IntLanes v) {
   for (int i = 0; i < kLanes; ++i) all |= v[i];
   return all != 0;
 }
+/// Of a comparison, a bit for each lane, the first lowest: does it hold?
+inline unsigned bits_of(IntLanes v) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi64_mask(reinterpret_cast<__m512i>(v), reinterpret_cast<__m512i>(v));
+#elif defined(__AVX__)
+  return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<__m256d>(v)));
+#else
+  unsigned bits = 0;
+  for (int i = 0; i < kLanes; ++i) bits |= (v[i] != 0 ? 1u : 0u) << i;
+  return bits;
+#endif
+}
 /// The first n lanes, or all of them.
 inline void store_first(double* p, Lanes v, int n) {
   if (n >= kLanes) return store_lanes(p, v);

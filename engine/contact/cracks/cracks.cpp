@@ -55,6 +55,7 @@ template <int Dim>
 const std::array<int, kTileNodes<Dim>>* Cracks<Dim>::find_block(int field,
                                                                 const NodeIndex<Dim>& block) const {
   const std::uint64_t key = key_of(field, block);
+  if (block_keys_.empty() || key < block_keys_.front() || key > block_keys_.back()) return nullptr;
   const auto found = std::lower_bound(block_keys_.begin(), block_keys_.end(), key);
   if (found == block_keys_.end() || *found != key) return nullptr;
   return &blocks_[static_cast<std::size_t>(found - block_keys_.begin())];

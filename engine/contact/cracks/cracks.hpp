@@ -4,12 +4,14 @@
 /// particles of one body that lie on different sides of a crack have velocity fields of their own (NN §1.1).
 
 #include <array>
+#include <bitset>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>
 
+#include "engine/geometry/crossing.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
@@ -62,11 +64,19 @@ struct Supports {
   int nodes = 0;
 };
 
+/// One for each node of a window.
+template <int Dim>
+using WindowBits = std::bitset<kWindowNodes<Dim>>;
+
 struct TipLoad;
 
+/// What particles see of cracks, beside what their tiles tell: the same; other sides, so that they must be
+/// grouped anew; nodes outside of their windows, so that they must be sorted first.
+enum class Seen { same, parted, outside };
+
 struct CrackCounters {
-  std::uint64_t sorts = 0;  ///< because of sides that changed
-  std::uint64_t third = 0;  ///< times that a particle saw a node behind a third crack
+  std::uint64_t regroups = 0;  ///< because of sides that changed
+  std::uint64_t third = 0;     ///< times that a particle saw a node behind a third crack
 };
 
 /// Sides are those of the material, not of the node (NN §1.1 calls what no crack hides from a node field
@@ -88,14 +98,10 @@ class Cracks {
   void drift(double way) { drifted_ += way; }
 
   /// Finds what sides the particles see.
-  /// @return whether the tiles tell otherwise: they must be sorted anew
-  bool look(State<Dim>& state, const Supports<Dim>& supports);
+  Seen look(State<Dim>& state, const Supports<Dim>& supports);
 
-  /// Groups the particles that see the same sides, for the next sort.
-  /// @param sorted_node  of a particle: as Tiling::set_key has it
-  void group(State<Dim>& state, const Supports<Dim>& supports,
-             const std::function<NodeIndex<Dim>(std::size_t)>& sorted_node);
-  int group_of(std::size_t particle) const { return group_[particle]; }
+  /// Groups the particles that see the same sides, and numbers the slots anew.
+  void group(State<Dim>& state) const;
 
   /// Marks the tiles that reach nodes which cracks part (ParticleTile::cracked), as `look` does, after a
   /// sort.
@@ -148,15 +154,29 @@ class Cracks {
     int crack, way;  ///< +1: to its left
     Vec<Dim> normal;
   };
-  /// The sides that a particle sees, of nodes from the first of its support on.
+  /// What a particle sees of the nodes under its tile's window.
   struct Sides {
     std::uint32_t particle;
-    NodeIndex<Dim> first;
-    std::array<std::int8_t, 36> side;
+    WindowBits<Dim> reach;                 ///< where it has weight
+    std::array<WindowBits<Dim>, 2> right;  ///< of these, right of the node's first and second crack
+  };
+  /// Boxes in the plane, many of which are asked at once whether they overlap another.
+  class Boxes {
+   public:
+    void set(const std::vector<const Segment*>& segments);
+    /// The numbers of those that do, rising.
+    void list_overlapping(const Point2& low, const Point2& high, std::vector<int>& out) const;
+
+   private:
+    std::array<std::vector<double>, 2> low_, high_;  ///< a multiple of kLanes
+    Point2 all_low_{}, all_high_{};
   };
   /// What one thread works in.
   struct Room {
-    std::vector<const Segment*> near, reached;
+    std::vector<const Segment*> near;
+    Boxes boxes;  ///< around these
+    std::vector<int> reached;
+    Ways ways;
   };
   using WindowNodes = std::array<const CrackedNode<Dim>*, kWindowNodes<Dim>>;
 
@@ -170,23 +190,25 @@ class Cracks {
   void visit_nodes(Archive& archive);
   void list_segments();
   void list_crossed(const State<Dim>& state, const Supports<Dim>& supports);
+  void list_around(const State<Dim>& state, const ParticleTile<Dim>& tile,
+                   std::vector<const Segment*>& near) const;
   void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
              Room& room, std::vector<Crossed>& out) const;
   void list_nodes(const State<Dim>& state);
-  bool see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
-  bool list_sides(State<Dim>& state, const Supports<Dim>& supports);
+  Seen see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
+  Seen list_sides(State<Dim>& state, const Supports<Dim>& supports);
 
   const Scene* scene_;
   std::vector<CrackLine<Dim>> lines_;
   std::vector<int> first_side_;  ///< as Plan
   std::vector<Segment> segments_;
   std::vector<std::array<Vec<Dim>, 2>> boxes_;  ///< around every so many of them
+  std::array<Vec<Dim>, 2> all_;                 ///< around all
   std::vector<std::vector<Crossed>> crossed_;   ///< by tile
   std::vector<CrackedNode<Dim>> nodes_;
   std::vector<std::uint64_t> block_keys_;                 ///< of tiles of nodes, rising
   std::vector<std::array<int, kTileNodes<Dim>>> blocks_;  ///< likewise: into nodes_; −1: not cracked
-  std::vector<std::vector<Sides>> sides_;  ///< by tile, of the particles that see another than 0
-  std::vector<std::uint8_t> group_;
+  std::vector<std::vector<Sides>> sides_;              ///< by tile, of the particles that see another than 0
   std::array<std::vector<Vec<Dim>>, 2> velocity_;      ///< of the sides of the line in hand
   std::array<std::vector<std::uint8_t>, 2> is_known_;  ///< likewise
   std::vector<Room> rooms_;                            ///< of each thread

@@ -5,8 +5,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 
 #include "engine/errors.hpp"
 #include "engine/geometry/crossing.hpp"
@@ -15,8 +15,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kBlock = 16;             ///< segments that have a box together
-static_assert(Tiling<2>::kMostGroups <= 256);  // as group_ can say
+constexpr std::size_t kBlock = 16;  ///< segments that have a box together
 
 template <int Dim>
 Point2 in_plane(const Vec<Dim>& x) {
@@ -34,9 +33,42 @@ bool overlap(const Vec<Dim>& low, const Vec<Dim>& high, const Vec<Dim>& other_lo
 }  // namespace
 
 template <int Dim>
+void Cracks<Dim>::Boxes::set(const std::vector<const Segment*>& segments) {
+  const std::size_t n = (segments.size() + kLanes - 1) / kLanes * kLanes;
+  all_low_.fill(kInfinity);
+  all_high_.fill(-kInfinity);
+  for (std::size_t d = 0; d < 2; ++d) {
+    low_[d].assign(n, kInfinity);
+    high_[d].assign(n, -kInfinity);
+    for (std::size_t k = 0; k < segments.size(); ++k) {
+      low_[d][k] = segments[k]->low[static_cast<int>(d)];
+      high_[d][k] = segments[k]->high[static_cast<int>(d)];
+      all_low_[d] = std::min(all_low_[d], low_[d][k]);
+      all_high_[d] = std::max(all_high_[d], high_[d][k]);
+    }
+  }
+}
+
+template <int Dim>
+void Cracks<Dim>::Boxes::list_overlapping(const Point2& low, const Point2& high,
+                                          std::vector<int>& out) const {
+  out.clear();
+  for (std::size_t d = 0; d < 2; ++d)
+    if (!(all_low_[d] <= high[d] && all_high_[d] >= low[d])) return;
+  for (std::size_t k = 0; k < low_[0].size(); k += kLanes) {
+    const auto overlaps = [&](std::size_t d) {
+      return (load_lanes(&low_[d][k]) <= high[d]) & (load_lanes(&high_[d][k]) >= low[d]);
+    };
+    for (unsigned bits = bits_of(overlaps(0) & overlaps(1)); bits != 0; bits &= bits - 1)
+      out.push_back(static_cast<int>(k) + std::countr_zero(bits));
+  }
+}
+
+template <int Dim>
 void Cracks<Dim>::list_segments() {
   segments_.clear();
   boxes_.clear();
+  all_ = {Vec<Dim>::Constant(kInfinity), Vec<Dim>::Constant(-kInfinity)};
   for (std::size_t c = 0; c < lines_.size(); ++c)
     for (std::size_t k = 1; k < lines_[c].points.size(); ++k) {
       const Vec<Dim>&from = lines_[c].points[k - 1], &to = lines_[c].points[k];
@@ -48,23 +80,21 @@ void Cracks<Dim>::list_segments() {
       if (segments_.size() % kBlock == 1) boxes_.push_back({segments_.back().low, segments_.back().high});
       boxes_.back()[0] = boxes_.back()[0].cwiseMin(segments_.back().low);
       boxes_.back()[1] = boxes_.back()[1].cwiseMax(segments_.back().high);
+      all_ = {all_[0].cwiseMin(boxes_.back()[0]), all_[1].cwiseMax(boxes_.back()[1])};
     }
 }
 
-/// The ways from the particles of a tile to the nodes of their supports that cross cracks of their body.
+/// The segments that come near the nodes under a tile's window, in the order of the lines.
 template <int Dim>
-void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
-                        Room& room, std::vector<Crossed>& out) const {
-  const auto place = [&](const NodeIndex<Dim>& node) {
-    Vec<Dim> x;
-    for (int d = 0; d < Dim; ++d) x[d] = state.grid.origin[d] + node[d] * state.grid.cell;
-    return x;
-  };
-  NodeIndex<Dim> first;
-  for (int d = 0; d < Dim; ++d) first[d] = tile.window[d] - 1;
-  const Vec<Dim> low = place(first), high = place(first + NodeIndex<Dim>::Constant(kWindowSide + 1));
-  auto& [near, reached] = room;
+void Cracks<Dim>::list_around(const State<Dim>& state, const ParticleTile<Dim>& tile,
+                              std::vector<const Segment*>& near) const {
   near.clear();
+  Vec<Dim> low, high;
+  for (int d = 0; d < Dim; ++d) {
+    low[d] = state.grid.origin[d] + (tile.window[d] - 1) * state.grid.cell;
+    high[d] = state.grid.origin[d] + (tile.window[d] + kWindowSide) * state.grid.cell;
+  }
+  if (!overlap<Dim>(all_[0], all_[1], low, high)) return;
   for (std::size_t b = 0; b < boxes_.size(); ++b) {
     if (!overlap<Dim>(boxes_[b][0], boxes_[b][1], low, high)) continue;
     for (std::size_t s = kBlock * b; s < std::min(segments_.size(), kBlock * (b + 1)); ++s) {
@@ -74,30 +104,50 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
         near.push_back(&segment);
     }
   }
-  if (near.empty()) return;
+}
+
+/// The ways from the particles of a tile to the nodes of their supports that cross cracks of their body.
+template <int Dim>
+void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
+                        Room& room, std::vector<Crossed>& out) const {
+  const int n = supports.nodes, count = power(n, Dim);
+  const double cell = state.grid.cell;
+  list_around(state, tile, room.near);
+  if (room.near.empty()) return;
+  room.boxes.set(room.near);
   for (int r = tile.run_begin; r < tile.run_end; ++r) {
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
       const Vec<Dim> x = state.particles.vector(Quantity::position, p);
       const NodeIndex<Dim> begin = supports.first(p);
-      const Vec<Dim> lowest = place(begin).cwiseMin(x),
-                     highest = place(begin + NodeIndex<Dim>::Constant(supports.nodes - 1)).cwiseMax(x);
-      reached.clear();
-      for (const Segment* segment : near)
-        if (overlap<Dim>(segment->low, segment->high, lowest, highest)) reached.push_back(segment);
-      if (reached.empty()) continue;
+      const auto at = [&](int d, int k) { return state.grid.origin[d] + (begin[d] + k) * cell; };
+      Point2 low, high;
+      for (std::size_t d = 0; d < 2; ++d) {
+        const int axis = static_cast<int>(d);
+        low[d] = std::min(at(axis, 0), x[axis]);
+        high[d] = std::max(at(axis, n - 1), x[axis]);
+      }
+      room.boxes.list_overlapping(low, high, room.reached);
+      if (room.reached.empty()) continue;
+      Ways& ways = room.ways;
+      ways.start(in_plane<Dim>(x));
+      for (int k = 0; k < count; ++k) ways.add({at(0, k % n), at(1, k / n % n)});
       const std::size_t own = out.size();
-      const Point2 p_at = in_plane<Dim>(x);
-      for (const Segment* segment : reached) {
+      const Segment* before = nullptr;
+      Ways::Bits left_of_from = 0, left_of_to = 0;
+      for (const int k : room.reached) {
+        const Segment* segment = room.near[static_cast<std::size_t>(k)];
         const Point2 from = in_plane<Dim>(segment->from), to = in_plane<Dim>(segment->to);
-        const bool p_left = is_left(from, to, p_at);
-        for (int k = 0; k < power(supports.nodes, Dim); ++k) {
+        const bool goes_on = segment - 1 == before && before->crack == segment->crack;
+        left_of_from = goes_on ? left_of_to : ways.left_of_ways(from);
+        left_of_to = ways.left_of_ways(to);
+        before = segment;
+        if (left_of_from == left_of_to) continue;
+        const auto [other, left] = ways.across(from, to);
+        for (Ways::Bits crossed = (left_of_from ^ left_of_to) & other; crossed != 0; crossed &= crossed - 1) {
+          const int bit = std::countr_zero(crossed), way = left >> bit & 1 ? 1 : -1;
           NodeIndex<Dim> node = begin;
-          for (int d = 0, rest = k; d < Dim; ++d, rest /= supports.nodes) node[d] += rest % supports.nodes;
-          const Point2 at = in_plane<Dim>(place(node));
-          if (is_left(from, to, at) == p_left) continue;  // most
-          const int way = crossing(p_at, at, from, to);
-          if (way == 0) continue;
+          for (int d = 0, rest = bit; d < Dim; ++d, rest /= n) node[d] += rest % n;
           const auto known =
               std::find_if(out.begin() + static_cast<std::ptrdiff_t>(own), out.end(),
                            [&](const auto& one) { return one.node == node && one.crack == segment->crack; });
@@ -170,132 +220,164 @@ void Cracks<Dim>::list_nodes(const State<Dim>& state) {
     }
 }
 
-/// The sides that the particles of a tile see. @return whether the tile tells otherwise
+namespace {
+
+/// Of a window, the nodes that a map tells of, and which of them are right of a node's first and second
+/// crack.
 template <int Dim>
-bool Cracks<Dim>::see(State<Dim>& state, const Supports<Dim>& supports, std::size_t t,
+struct Told {
+  WindowBits<Dim> known;
+  std::array<WindowBits<Dim>, 2> right;
+};
+
+template <int Dim>
+Told<Dim> told_by(const SideMap<Dim>* map) {
+  Told<Dim> told;
+  if (!map) told.known.set();
+  for (std::size_t w = 0; map && w < map->side.size(); ++w) {
+    const int side = map->side[w];
+    if (side < 0) continue;
+    told.known.set(w);
+    for (std::size_t j = 0; j < 2; ++j) told.right[j][w] = side >> j & 1;
+  }
+  return told;
+}
+
+/// Number of a node in a window; −1: it is outside.
+template <int Dim>
+int place_in_window(const NodeIndex<Dim>& node, const ParticleTile<Dim>& tile) {
+  int w = 0;
+  for (int d = Dim - 1; d >= 0; --d) {
+    const int at = node[d] - tile.window[d];
+    if (at < 0 || at >= kWindowSide) return -1;
+    w = w * kWindowSide + at;
+  }
+  return w;
+}
+
+/// The nodes of a window in a support of so many along each axis.
+template <int Dim>
+WindowBits<Dim> reach_of(const NodeIndex<Dim>& first, int nodes, const ParticleTile<Dim>& tile) {
+  WindowBits<Dim> reach;
+  for (int k = 0; k < power(nodes, Dim); ++k) {
+    NodeIndex<Dim> node = first;
+    for (int d = 0, rest = k; d < Dim; ++d, rest /= nodes) node[d] += rest % nodes;
+    const int w = place_in_window(node, tile);
+    if (w >= 0) reach.set(static_cast<std::size_t>(w));
+  }
+  return reach;
+}
+
+}  // namespace
+
+/// The sides that the particles of a tile see.
+template <int Dim>
+Seen Cracks<Dim>::see(State<Dim>& state, const Supports<Dim>& supports, std::size_t t,
                       std::vector<Sides>& out) const {
   auto& tile = state.tiling.tiles[t];
   const SideMap<Dim>* map = state.tiling.sides_of(t);
-  WindowNodes seen;
-  tile.cracked = find_under(tile, seen);
-  if (!tile.cracked && !map) return false;
-  bool differs = false;
-  auto next = crossed_[t].begin();
-  const auto end = crossed_[t].end();
+  WindowNodes under;
+  tile.cracked = find_under(tile, under);
+  if (!tile.cracked && !map) return Seen::same;
+  std::array<WindowBits<Dim>, 2> right;  // of what no way crosses to
+  for (std::size_t w = 0; w < under.size(); ++w)
+    for (std::size_t j = 0; under[w] && j < right.size(); ++j)
+      right[j][w] = under[w]->crack[j] >= 0 && !under[w]->is_left(static_cast<int>(j));
+  const Told<Dim> told = told_by(map);
+  NodeIndex<Dim> corner;
+  for (int d = 0; d < Dim; ++d) corner[d] = tile.window[d];
+  const WindowBits<Dim> at_corner = reach_of(corner, supports.nodes, tile);
+  Seen seen = Seen::same;
+  const Crossed *next = crossed_[t].data(), *end = next + crossed_[t].size();
   for (int r = tile.run_begin; r < tile.run_end; ++r) {
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
-      Sides sides{p, supports.first(p), {}};
-      const auto own = next;
-      while (next != end && next->particle == p) ++next;
-      bool other = false;
-      for (int k = 0; k < power(supports.nodes, Dim); ++k) {
-        int w = 0;
-        bool inside = true;
-        NodeIndex<Dim> node = sides.first;
-        for (int d = 0, rest = k, stride = 1; d < Dim; ++d, rest /= supports.nodes, stride *= kWindowSide) {
-          node[d] += rest % supports.nodes;
-          const int at = node[d] - tile.window[d];
-          inside &= at >= 0 && at < kWindowSide;
-          w += at * stride;
-        }
-        differs |= !inside;  // it is to be sorted anyway
-        const CrackedNode<Dim>* cracked = inside ? seen[static_cast<std::size_t>(w)] : find(tile.field, node);
-        int side = 0;
-        for (int j = 0; cracked && j < CrackedNode<Dim>::kMost; ++j) {
-          const int crack = cracked->crack[static_cast<std::size_t>(j)];
-          if (crack < 0) break;
-          bool left = cracked->is_left(j);
-          for (auto one = own; one != next; ++one)
-            if (one->node == node && one->crack == crack) left = one->way < 0;
-          side |= (left ? 0 : 1) << j;
-        }
-        sides.side[static_cast<std::size_t>(k)] = static_cast<std::int8_t>(side);
-        other |= side != 0;
-        if (inside) differs |= (map ? map->side[static_cast<std::size_t>(w)] : 0) != side;
+      const NodeIndex<Dim> first = supports.first(p);
+      const int begin = place_in_window(first, tile),
+                last = place_in_window<Dim>(first + NodeIndex<Dim>::Constant(supports.nodes - 1), tile);
+      const bool inside = begin >= 0 && last >= 0;
+      if (!inside) seen = Seen::outside;
+      Sides sides{
+          p,
+          inside ? at_corner << static_cast<std::size_t>(begin) : reach_of(first, supports.nodes, tile),
+          {}};
+      for (std::size_t j = 0; j < right.size(); ++j) sides.right[j] = right[j] & sides.reach;
+      for (; next != end && next->particle == p; ++next) {
+        const int w = place_in_window(next->node, tile);
+        for (std::size_t j = 0; w >= 0 && j < right.size(); ++j)
+          if (under[static_cast<std::size_t>(w)]->crack[j] == next->crack)
+            sides.right[j][static_cast<std::size_t>(w)] = next->way > 0;
       }
-      if (other) out.push_back(sides);
+      const auto other = (sides.right[0] ^ told.right[0]) | (sides.right[1] ^ told.right[1]) | ~told.known;
+      if ((other & sides.reach).any()) seen = std::max(seen, Seen::parted);
+      if ((sides.right[0] | sides.right[1]).any()) out.push_back(sides);
     }
   }
-  return differs;
+  return seen;
 }
 
-/// The sides that particles see. @return whether the tiles tell otherwise
+/// The sides that particles see.
 template <int Dim>
-bool Cracks<Dim>::list_sides(State<Dim>& state, const Supports<Dim>& supports) {
+Seen Cracks<Dim>::list_sides(State<Dim>& state, const Supports<Dim>& supports) {
   const auto tiles = static_cast<std::int64_t>(crossed_.size());
   sides_.resize(crossed_.size());
-  int differs = 0;
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) reduction(| : differs)
+  Seen seen = Seen::same;
+#pragma omp declare reduction(most:Seen : omp_out = std::max(omp_out, omp_in))
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) reduction(most : seen)
   for (std::int64_t t = 0; t < tiles; ++t) {
     auto& out = sides_[static_cast<std::size_t>(t)];
     out.clear();
-    differs |= see(state, supports, static_cast<std::size_t>(t), out) ? 1 : 0;
+    seen = std::max(seen, see(state, supports, static_cast<std::size_t>(t), out));
   }
-  return differs != 0;
+  return seen;
 }
 
 template <int Dim>
-bool Cracks<Dim>::look(State<Dim>& state, const Supports<Dim>& supports) {
-  if (!active()) return false;
+Seen Cracks<Dim>::look(State<Dim>& state, const Supports<Dim>& supports) {
   drifted_ = 0;
   list_segments();
   list_crossed(state, supports);
   list_nodes(state);
-  const bool differs = list_sides(state, supports);
-  counters_.sorts += differs;
-  return differs;
+  const Seen seen = list_sides(state, supports);
+  counters_.regroups += seen != Seen::same;
+  return seen;
 }
 
 template <int Dim>
-void Cracks<Dim>::group(State<Dim>& state, const Supports<Dim>& supports,
-                        const std::function<NodeIndex<Dim>(std::size_t)>& sorted_node) {
-  group_.assign(state.particles.size(), 0);
-  struct Place {
-    int field;
-    NodeIndex<Dim> tile;
-    std::vector<SideMap<Dim>> maps;
-  };
-  std::map<std::uint64_t, Place> places;
-  const auto group_one = [&](const Sides& sides) {
-    const int field = state.body_field[state.particles.body()[sides.particle]];
-    NodeIndex<Dim> tile;
-    const NodeIndex<Dim> at = sorted_node(sides.particle);
-    for (int d = 0; d < Dim; ++d) tile[d] = floor_div(at[d] - 1, kTileSide);
-    Place& place = places.try_emplace(key_of(field, tile), Place{field, tile, {}}).first->second;
-    const auto for_each_node = [&](const auto& f) {
-      bool good = true;
-      for (int k = 0; good && k < power(supports.nodes, Dim); ++k) {
-        std::size_t w = 0, stride = 1;
-        for (int d = 0, rest = k; d < Dim; ++d, rest /= supports.nodes, stride *= kWindowSide)
-          w +=
-              static_cast<std::size_t>(sides.first[d] + rest % supports.nodes - tile[d] * kTileSide) * stride;
-        good = f(w, sides.side[static_cast<std::size_t>(k)]);
-      }
-      return good;
+void Cracks<Dim>::group(State<Dim>& state) const {
+  auto& tiling = state.tiling;
+  tiling.start_groups();
+  std::vector<Told<Dim>> groups;
+  std::vector<SideMap<Dim>> maps;
+  /// The first of the groups whose particles see the same sides as one does, or a new one.
+  const auto group_in = [&](const Sides& sides) {
+    std::size_t g = 0;
+    const auto fits = [&](const Told<Dim>& told) {
+      const auto other = (told.right[0] ^ sides.right[0]) | (told.right[1] ^ sides.right[1]);
+      return (other & told.known & sides.reach).none();
     };
-    std::size_t group = 0;
-    const auto fits = [&](const SideMap<Dim>& map) {
-      return for_each_node([&](std::size_t w, std::int8_t side) {
-        return map.side[w] == SideMap<Dim>::kNone || map.side[w] == side;
-      });
-    };
-    while (group < place.maps.size() && !fits(place.maps[group])) ++group;
-    if (group == place.maps.size()) {
-      if (group + 1 == static_cast<std::size_t>(Tiling<Dim>::kMostGroups))
-        throw RunFailure("too many cracks within a few cells");
-      place.maps.emplace_back();
-      place.maps.back().side.fill(SideMap<Dim>::kNone);
-    }
-    for_each_node([&](std::size_t w, std::int8_t side) {
-      place.maps[group].side[w] = side;
-      return true;
-    });
-    group_[sides.particle] = static_cast<std::uint8_t>(group + 1);
+    while (g < groups.size() && !fits(groups[g])) ++g;
+    if (g == groups.size()) groups.emplace_back();
+    groups[g].known |= sides.reach;
+    for (std::size_t j = 0; j < 2; ++j) groups[g].right[j] |= sides.right[j];
+    return static_cast<int>(g);
   };
-  for (const auto& of_tile : sides_)
-    for (const Sides& sides : of_tile) group_one(sides);
-  for (const auto& [key, place] : places) state.tiling.set_groups(place.field, place.tile, place.maps);
+  for (std::size_t first = 0, next = 0; first < tiling.tiles.size(); first = next) {
+    next = first + 1 + static_cast<std::size_t>(tiling.tiles[first].others);
+    groups.clear();
+    for (std::size_t t = first; t < next; ++t)
+      for (const Sides& sides : sides_[t]) tiling.set_group(sides.particle, 1 + group_in(sides));
+    if (groups.empty()) continue;
+    if (groups.size() >= static_cast<std::size_t>(Tiling<Dim>::kMostGroups))
+      throw RunFailure("too many cracks within a few cells");
+    maps.resize(groups.size());
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (std::size_t w = 0; w < maps[g].side.size(); ++w)
+        maps[g].side[w] = static_cast<std::int8_t>(
+            !groups[g].known[w] ? SideMap<Dim>::kNone : groups[g].right[0][w] + 2 * groups[g].right[1][w]);
+    tiling.set_groups(tiling.tiles[first], maps);
+  }
+  tiling.regroup(state.particles, state.body_field);
 }
 
 template <int Dim>
