@@ -2,6 +2,7 @@
 
 /// @file Polylines in the plane that pictures show.
 
+#include <string_view>
 #include <vector>
 
 #include "kernels/dimension.hpp"
@@ -10,5 +11,8 @@ namespace mpmfast {
 
 /// Polylines, m.
 using Polylines = std::vector<std::vector<Vec<2>>>;
+
+/// What a particle file calls the points of its lines, one after the other, and how many each has.
+inline constexpr std::string_view kLinePoints = "crack_points", kLineLengths = "crack_lengths";
 
 }  // namespace mpmfast

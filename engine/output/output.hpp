@@ -143,7 +143,8 @@ class ParticleSeries {
  public:
   ParticleSeries(const std::filesystem::path& folder, const Scene& scene, std::vector<double> times = {})
       : series_(folder, "particles", std::move(times)), scene_(&scene) {}
-  void append(const Particles<Dim>& particles, double time);
+  /// @param lines  cracks, in the plane: `crack_points` and `crack_lengths` (points of each) of the file
+  void append(const Particles<Dim>& particles, double time, const Polylines& lines = {});
   const std::vector<double>& times() const { return series_.times(); }
 
  private:

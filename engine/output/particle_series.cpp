@@ -83,10 +83,23 @@ void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>
   }
 }
 
+void add_lines(const Polylines& lines, VtuFile& file) {
+  if (lines.empty()) return;
+  std::vector<double> points;
+  std::vector<std::uint32_t> lengths;
+  for (const auto& line : lines) {
+    for (const Vec<2>& x : line) points.insert(points.end(), {x[0], x[1], 0});
+    lengths.push_back(static_cast<std::uint32_t>(line.size()));
+  }
+  file.add_field_data(kLinePoints, points, 3);
+  file.add_field_data(kLineLengths, lengths);
+}
+
 /// The particles in `order`. @param place  of a particle, by its index
 template <int Dim, class Place>
 void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& particles, const Scene& scene,
-                     const std::vector<std::uint32_t>& order, const Place& place, double time) {
+                     const std::vector<std::uint32_t>& order, const Place& place, double time,
+                     const Polylines& lines = {}) {
   VtuFile file(order.size(),
                [&](std::size_t i, double* out) { fill_vector<double, Dim>(place(order[i]), out); });
   add_identity(particles, scene, order, file);
@@ -101,16 +114,17 @@ void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& par
   if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
   if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
   add_state(particles, order, file);
+  add_lines(lines, file);
   file.write(vtu, time);
 }
 
 }  // namespace
 
 template <int Dim>
-void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time) {
+void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time, const Polylines& lines) {
   write_particles(
       series_.next(), particles, *scene_, order_by_id(particles),
-      [&](std::uint32_t p) { return particles.vector(Quantity::position, p); }, time);
+      [&](std::uint32_t p) { return particles.vector(Quantity::position, p); }, time, lines);
   series_.add(time);
 }
 

@@ -102,6 +102,21 @@ Particles<Dim> read_frame(const VtuReader& file, const std::filesystem::path& pa
   throw FileError(fmt::format("{} does not fit the scene beside it: {}", path.string(), error.what()));
 }
 
+Polylines read_lines(const VtuReader& file, const std::filesystem::path& path) {
+  Polylines lines;
+  if (!file.find(kLineLengths)) return lines;
+  const std::vector<double> points = file.read<double>(kLinePoints);
+  std::size_t at = 0;
+  for (const std::uint32_t length : file.read<std::uint32_t>(kLineLengths)) {
+    auto& line = lines.emplace_back();
+    for (std::uint32_t k = 0; k < length && at + 3 <= points.size(); ++k, at += 3)
+      line.emplace_back(points[at], points[at + 1]);
+  }
+  if (at != points.size() || file.find(kLinePoints)->components != 3)
+    throw FileError(fmt::format("cannot read {}: its cracks have other points than they say", path.string()));
+  return lines;
+}
+
 template Particles<2> read_frame(const VtuReader&, const std::filesystem::path&, const Scene&);
 template Particles<3> read_frame(const VtuReader&, const std::filesystem::path&, const Scene&);
 

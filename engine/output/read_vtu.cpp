@@ -127,20 +127,29 @@ void VtuReader::read_header() {
       !is("compressor", "vtkZLibDataCompressor"))
     refuse("not in the format of a run's particle files (of another program or machine?)");
   const auto grid = file.child("UnstructuredGrid"), piece = grid.child("Piece");
-  const std::string_view time = grid.child("FieldData").child("DataArray").child_value();
+  const auto time_tag = grid.child("FieldData").child("DataArray");
+  const std::string_view time = time_tag.child_value();
   if (!read_number(time, time_) || !std::isfinite(time_)) refuse("its TimeValue is no number");
   if (!read_number(std::string_view(piece.attribute("NumberOfPoints").value()), size_))
     refuse("its number of points is no number");
-  const auto read_arrays = [&](const char* group, std::vector<VtuArray>& arrays) {
-    for (const auto& node : piece.child(group).children("DataArray")) {
-      VtuArray array;
-      array.tuples = size_;
-      if (!read_array_tag(node, array))
-        refuse(fmt::format("an array of its {} is not as a run writes it", group));
-      checked_bytes(array);
-      arrays.push_back(std::move(array));
-    }
+  const auto read_array = [&](const pugi::xml_node& node, const char* group, std::size_t tuples) {
+    VtuArray array;
+    array.tuples = tuples;
+    if (!read_array_tag(node, array))
+      refuse(fmt::format("an array of its {} is not as a run writes it", group));
+    checked_bytes(array);
+    return array;
   };
+  const auto read_arrays = [&](const char* group, std::vector<VtuArray>& arrays) {
+    for (const auto& node : piece.child(group).children("DataArray"))
+      arrays.push_back(read_array(node, group, size_));
+  };
+  for (auto node = time_tag.next_sibling("DataArray"); node; node = node.next_sibling("DataArray")) {
+    std::size_t tuples = 0;
+    if (!read_number(std::string_view(node.attribute("NumberOfTuples").value()), tuples))
+      refuse("the length of an array of its FieldData is no number");
+    others_.push_back(read_array(node, "FieldData", tuples));
+  }
   read_arrays("PointData", point_data_);
   read_arrays("Points", others_);
   read_arrays("Cells", others_);

@@ -19,10 +19,10 @@ namespace mpmfast {
 struct VtuArray {
   std::string name;
   std::string type;                     ///< as in the file: "Float64", "Float32", "UInt32" …
-  std::size_t components = 1;           ///< values of one point
+  std::size_t components = 1;           ///< values of one tuple
   std::vector<std::string> names = {};  ///< of the components; empty where they have none
-  std::size_t tuples = 0;
-  std::uint64_t offset = 0;  ///< bytes, into the appended data
+  std::size_t tuples = 0;               ///< points, where it is not of the whole file
+  std::uint64_t offset = 0;             ///< bytes, into the appended data
 };
 
 /// One VTU file of points, whole in memory; an array is unpacked when it is asked for.
@@ -34,7 +34,8 @@ class VtuReader {
   std::size_t size() const { return size_; }
   /// In the order of the file.
   const std::vector<VtuArray>& point_data() const { return point_data_; }
-  /// Of the point data, "Points" or an array of the cells; nothing when there is no such array.
+  /// Of the point data, "Points", an array of the cells or one of the whole file; nothing when there is no
+  /// such array.
   const VtuArray* find(std::string_view name) const;
 
   /// Three coordinates a point, m.

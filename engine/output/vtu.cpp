@@ -60,9 +60,11 @@ void VtuFile::add_cells() {
 }
 
 std::string VtuFile::array_tag(std::string_view type, std::string_view name, std::size_t components,
-                               std::span<const std::string_view> component_names, PackedArray data) {
+                               std::span<const std::string_view> component_names, PackedArray data,
+                               std::optional<std::size_t> tuples) {
   std::string tag = fmt::format("        <DataArray type=\"{}\" Name=\"{}\"", type, name);
   if (components > 1) tag += fmt::format(" NumberOfComponents=\"{}\"", components);
+  if (tuples) tag += fmt::format(" NumberOfTuples=\"{}\"", *tuples);
   for (std::size_t k = 0; k < component_names.size(); ++k)
     tag += fmt::format(" ComponentName{}=\"{}\"", k, component_names[k]);
   tag += fmt::format(" format=\"appended\" offset=\"{}\"/>\n", offset_);
@@ -82,8 +84,8 @@ void VtuFile::write(const std::filesystem::path& path, double time) const {
       order);
   fmt::format_to(out,
                  "    <FieldData>\n      <DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-                 "format=\"ascii\">{}</DataArray>\n    </FieldData>\n",
-                 time);
+                 "format=\"ascii\">{}</DataArray>\n{}    </FieldData>\n",
+                 time, field_data_);
   fmt::format_to(out, "    <Piece NumberOfPoints=\"{0}\" NumberOfCells=\"{0}\">\n", points_);
   fmt::format_to(out, "      <PointData>\n{}      </PointData>\n", point_data_);
   fmt::format_to(out, "      <Points>\n{}      </Points>\n", point_tag_);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -68,6 +69,15 @@ class VtuFile {
         name, [&](std::size_t i, T* out) { std::copy_n(&values[n * i], n, out); }, components);
   }
 
+  /// Of the whole file, not of its points. @param components  values of one tuple
+  template <class T>
+  void add_field_data(std::string_view name, const std::vector<T>& values, std::size_t components = 1) {
+    PackedArray array;
+    array.append({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
+    field_data_ +=
+        array_tag(vtu_type<T>(), name, components, {}, std::move(array), values.size() / components);
+  }
+
   void write(const std::filesystem::path& path, double time) const;
 
  private:
@@ -82,12 +92,14 @@ class VtuFile {
     return array;
   }
   /// Appends the data and returns the XML element that points to it.
+  /// @param tuples  that the element names, as those of a whole file must
   std::string array_tag(std::string_view type, std::string_view name, std::size_t components,
-                        std::span<const std::string_view> component_names, PackedArray data);
+                        std::span<const std::string_view> component_names, PackedArray data,
+                        std::optional<std::size_t> tuples = std::nullopt);
   void add_cells();
 
   std::size_t points_;
-  std::string point_tag_, cell_tags_, point_data_;
+  std::string point_tag_, cell_tags_, point_data_, field_data_;
   std::vector<std::string> appended_;  ///< heads and blocks: put together they would be there twice
   std::size_t offset_ = 0;
 };

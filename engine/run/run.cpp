@@ -229,7 +229,7 @@ class Run {
   void write_frame() {
     step_.find_stresses();
     const auto& state = step_.state();
-    if (series_) series_->append(state.particles, state.time);
+    if (series_) series_->append(state.particles, state.time, crack_lines());
     if (grid_series_ && state.step > 0) {  // before the first step nodes know nothing
       write_grid(grid_series_->next(), step_, scene_);
       grid_series_->add(state.time);
@@ -237,14 +237,19 @@ class Run {
     counters_.last_frame_step = step_.state().step;
   }
 
-  void draw(const std::string& which) {
-    if (scene_.output.picture == "none") return;
-    step_.find_stresses();
+  Polylines crack_lines() const {
     Polylines cracks;
     for (const auto& crack : step_.cracks().lines()) {
       cracks.emplace_back();
       for (const auto& x : crack.points) cracks.back().push_back(x.template head<2>());
     }
+    return cracks;
+  }
+
+  void draw(const std::string& which) {
+    if (scene_.output.picture == "none") return;
+    step_.find_stresses();
+    const Polylines cracks = crack_lines();
     for (const std::string& field : {std::string("body"), scene_.output.picture})
       draw_particles(options_.folder / fmt::format("picture_{}_{}.png", which, field),
                      step_.state().particles, scene_, field, step_.state().time, cracks);

@@ -151,6 +151,7 @@ def check_plane(browser, program, folder, shots):
     names = ["left", "right"]
     check_bodies(browser, "plane", "#picture canvas")
     check_key(browser, "plane")
+    check_cracks(browser, "plane", "#picture canvas")
     check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
     check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
     check_charts(browser, "plane", "J/m")
@@ -203,6 +204,20 @@ def check_without_webgl(browser, folder):
     check("Rounded for this page" in notes, "space: notices are lost where there is no WebGL")
     check("Drag" not in notes, "space: dragging is explained where there is nothing to drag")
     browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+
+def check_cracks(browser, name, canvas):
+    """The crack of a frame is drawn over its particles, and its stress intensities have a chart."""
+    lines = browser.execute_script("return player.frames.linesOf(player.frame)")
+    check(len(lines) == 1 and len(lines[0]) > 1, f"{name}: the frame has the lines {lines}")
+    before = pixels(browser, canvas)[1]
+    browser.execute_script("kept = player.frames.lines; player.frames.lines = undefined; player.go(player.frame)")
+    check(pixels(browser, canvas)[1] != before, f"{name}: the crack is not drawn")
+    browser.execute_script("player.frames.lines = kept; player.go(player.frame)")
+    check(pixels(browser, canvas)[1] == before, f"{name}: the crack is not drawn again")
+    browser.find_element(By.XPATH, "//*[@id='histories']//button[text()='stress intensities']").click()
+    check(pixels(browser, "#histories .chart canvas")[0] > 10, f"{name}: the chart of stress intensities is blank")
+    browser.find_element(By.XPATH, "//*[@id='histories']//button[text()='energies']").click()
 
 
 def check_failed(browser, program, folder, shots):

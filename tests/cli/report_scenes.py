@@ -11,6 +11,7 @@ materials:
 bodies:
   - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: soft, velocity: [30 m/s, 0 m/s]}
   - {name: right, box: {from: [5.5 mm, 1 mm], to: [10 mm, 6 mm]}, material: stiff, velocity: [-30 m/s, 0 m/s]}
+cracks: [{name: slit, body: right, line: [[7 mm, 3 mm], [8 mm, 4.5 mm]]}]
 output: {frames: 6, history: 30, picture: von_mises}
 """
 SPACE = """

@@ -125,6 +125,23 @@ class VtkReads(unittest.TestCase):
                 fastest = max(abs(arrays["velocity"]).max(), 1e-30)
                 self.assertAlmostEqual(speed, float(row[f"{name}.v{letter}"]), delta=2e-6 * fastest)
 
+    def test_cracks(self):
+        with tempfile.TemporaryDirectory() as work:
+            out = pathlib.Path(work) / "run"
+            command = [program, "run", f"{source}/configs/dcb.yaml", "--out", out, "--progress", "none"]
+            subprocess.run(command + ["--until", "1 us", "--set", "output.frames=1000"], check=True, stdout=subprocess.DEVNULL)
+            reader = vtkXMLUnstructuredGridReader()
+            reader.SetFileName(str(out / "particles" / "000000.vtu"))
+            reader.Update()
+            data = reader.GetOutput().GetFieldData()
+            points, lengths = (vtk_to_numpy(data.GetArray(name)) for name in ["crack_points", "crack_lengths"])
+            self.assertEqual(points.shape, (lengths.sum(), 3))
+            self.assertEqual(len(lengths), 1)
+            with open(out / "history.csv") as history:
+                row = next(csv.DictReader(history))
+            crack = next(name for name in row if name.endswith(".end.J_J_per_m2"))[:-len(".J_J_per_m2")]
+            self.assertEqual((float(row[f"{crack}.x_m"]), float(row[f"{crack}.y_m"]), 0), tuple(points[-1]))
+
     def test_plane(self):
         self.run_and_compare("uniaxial.yaml", "output.frames=4", "output.history=4")
 

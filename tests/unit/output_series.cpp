@@ -125,6 +125,33 @@ TEST_CASE("particles read back from a frame are those that were written") {
   check_round_trip<3>(Space::three_dimensional, {Quantity::internal_energy, Quantity::dissipated_energy});
 }
 
+TEST_CASE("the cracks of a frame are read back as they were written, and none where there are none") {
+  const TemporaryFolder folder;
+  const Scene scene = small_scene(Space::plane_strain);
+  ParticleSeries<2> series(folder.path(), scene);
+  const Polylines lines{{Vec<2>(0.1, 1.0 / 3), Vec<2>(2, -1e-30), Vec<2>(0, 4)},
+                        {Vec<2>(5, 6), Vec<2>(7, 8)}};
+  series.append(particles_in_order<2>(ascending(9)), 0, lines);
+  series.append(particles_in_order<2>(ascending(9)), 1);
+  const auto first = folder.path() / "particles/000000.vtu", second = folder.path() / "particles/000001.vtu";
+  CHECK(read_lines(VtuReader(first), first) == lines);
+  CHECK(read_lines(VtuReader(second), second).empty());
+  CHECK(VtuReader(first).size() == 9);
+  CHECK(VtuReader(first).time() == 0);
+
+  VtuFile file(std::vector<double>{0, 0, 0});  // a line of more points than there are
+  file.add_field_data(kLinePoints, std::vector<double>{1, 2, 0}, 3);
+  file.add_field_data(kLineLengths, std::vector<std::uint32_t>{2});
+  file.add_field_data("empty", std::vector<double>{});
+  file.write(first, 0);
+  CHECK(VtuReader(first).read<double>("empty").empty());
+  file = VtuFile(std::vector<double>{0, 0, 0});
+  file.add_field_data(kLinePoints, std::vector<double>{1, 2, 0}, 3);
+  file.add_field_data(kLineLengths, std::vector<std::uint32_t>{0});
+  file.write(first, 0);
+  CHECK_THROWS_AS(read_lines(VtuReader(first), first), FileError);
+}
+
 TEST_CASE("a frame of another scene is refused") {
   const TemporaryFolder folder;
   Scene scene = small_scene(Space::plane_strain);

@@ -71,6 +71,34 @@ TEST_CASE("a page holds all frames and fields of a run that fits") {
   CHECK_FALSE(run.json.contains("ids"));
 }
 
+TEST_CASE("a page has the cracks of each frame, without points that change nothing that is seen") {
+  const TemporaryFolder folder;
+  const Scene scene = small_scene(Space::plane_strain);
+  const Particles<2> particles = particles_in_order<2>(shuffled(kParticles));
+  ParticleSeries<2> series(folder.path(), scene);
+  const double x = particles.column(Quantity::position, 0)[0], y = particles.column(Quantity::position, 1)[0];
+  const Vec<2> from(x, y), corner(x + 0.3, y + 1e-9), to(x + 0.3, y + 0.4);
+  series.append(particles, 0,
+                {{from, from + 0.5 * (corner - from), corner, corner + 0.2 * (to - corner), to}});
+  series.append(particles, 1);
+  const PackedRun run = pack(folder.path(), scene, {10'000'000});
+  REQUIRE(run.json["lines"].size() == 2);
+  CHECK(run.json["lines"][1].empty());
+  const auto& line = run.json["lines"][0][0];
+  REQUIRE(line.size() == 6);  // from, corner, to
+  const auto place = [&](std::size_t point, std::size_t axis) {
+    const auto& column = run.json["places"][axis];
+    return column["lower"].get<double>() +
+           column["spacing"].get<double>() * line[2 * point + axis].get<double>();
+  };
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double half_step = 0.5 * run.json["places"][axis]["spacing"].get<double>();
+    CHECK(std::abs(place(0, axis) - from[static_cast<int>(axis)]) <= 1.001 * half_step);
+    CHECK(std::abs(place(1, axis) - corner[static_cast<int>(axis)]) <= 1.001 * half_step);
+    CHECK(std::abs(place(2, axis) - to[static_cast<int>(axis)]) <= 1.001 * half_step);
+  }
+}
+
 TEST_CASE("rigid bodies have a speed on a page, and no stress") {
   const TemporaryFolder folder;
   write_frames(folder.path(), small_scene(Space::plane_strain));

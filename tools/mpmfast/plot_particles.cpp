@@ -81,11 +81,18 @@ class Series {
 
   std::size_t size() const { return frames_.size(); }
   double time(std::size_t k) const { return frames_[k].time; }
-  Particles<Dim> read(std::size_t k) const {
-    return read_frame<Dim>(VtuReader(frames_[k].file), frames_[k].file, scene_);
+  Particles<Dim> read(std::size_t k) const { return read(k, VtuReader(frames_[k].file)); }
+  Canvas paint(std::size_t k, const std::string& field, const Framing& framing, PictureFormat format) const {
+    const VtuReader file(frames_[k].file);
+    return paint_particles(read(k, file), scene_, field, time(k), framing, format,
+                           read_lines(file, frames_[k].file));
   }
 
  private:
+  Particles<Dim> read(std::size_t k, const VtuReader& file) const {
+    return read_frame<Dim>(file, frames_[k].file, scene_);
+  }
+
   const Scene& scene_;
   std::vector<SeriesFrame> frames_;
 };
@@ -131,12 +138,11 @@ class ParticlePlot {
   }
 
   void draw_frame(const std::string& field, std::size_t k, std::optional<Range> colours) {
-    const Particles<Dim> particles = series_.read(k);
-    Framing framing = framing_of(particles, scene_, field);
+    Framing framing = framing_of(series_.read(k), scene_, field);
     if (colours) framing.values = colours;
     const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, k));
     const PictureFormat format = picture_format(path).value_or(PictureFormat::png);
-    paint_particles(particles, scene_, field, series_.time(k), framing, format).write(path);
+    series_.paint(k, field, framing, format).write(path);
     fmt::print("picture          {}\n", path.string());
   }
 
@@ -147,7 +153,7 @@ class ParticlePlot {
     if (colours) framing.values = colours;
     std::optional<AnimatedPng> animation;
     for (std::size_t k = 0; k < series_.size(); ++k) {
-      Canvas canvas = paint_particles(series_.read(k), scene_, field, series_.time(k), framing);
+      Canvas canvas = series_.paint(k, field, framing, PictureFormat::png);
       if (!animation) animation.emplace(canvas.width(), canvas.height(), kRate);
       animation->add(canvas.pixels());
     }

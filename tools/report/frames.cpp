@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/errors.hpp"
+#include "engine/output/read_frame.hpp"
 #include "frame_constants.hpp"
 #include "frame_survey.hpp"
 #include "pack.hpp"
@@ -79,6 +80,7 @@ class FramePacker {
     return out;
   }
   Json describe(const FrameColumn& column, Chunks& chunks) const;
+  Json describe_lines() const;
 
   FrameSurvey survey_;
   const std::optional<Scene>& scene_;
@@ -87,6 +89,7 @@ class FramePacker {
   FrameConstants constants_;
   std::vector<std::pair<std::string, std::string>> constant_columns_;  ///< name, packed
   std::vector<FrameColumn> places_, gradient_, fields_;
+  std::vector<Polylines> lines_;  ///< by frame
 };
 
 void FramePacker::plan_columns(bool fine, double steps_per_particle) {
@@ -117,6 +120,7 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
 
 void FramePacker::read_frame(std::size_t frame) {
   const FrameFile file(survey_.frames[frame].file);
+  lines_.push_back(read_lines(file.reader(), survey_.frames[frame].file));
   const Places places = find_places(file.reader(), survey_);
   note_constants(file, places, scene_, dimension_, constants_);
   for (FrameColumn* column : all_columns()) {
@@ -124,6 +128,49 @@ void FramePacker::read_frame(std::size_t frame) {
     for (std::size_t k = 0; k < places.in_file.size(); ++k)
       column->values[frame * width_ + places.in_page[k]] = column->levels.nearest(values[places.in_file[k]]);
   }
+}
+
+/// The points without which a line is off by more than so much, m.
+std::vector<Vec<2>> without_needless(const std::vector<Vec<2>>& line, double most) {
+  std::vector<Vec<2>> out;
+  for (std::size_t from = 0; from < line.size();) {
+    out.push_back(line[from]);
+    std::size_t to = from + 1;
+    const auto reaches = [&](std::size_t end) {
+      const Vec<2> way = line[end] - line[from];
+      for (std::size_t k = from + 1; k < end; ++k) {
+        const double share = std::clamp((line[k] - line[from]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+        if (!((line[from] + share * way - line[k]).norm() <= most)) return false;
+      }
+      return true;
+    };
+    while (to + 1 < line.size() && reaches(to + 1)) ++to;
+    from = to;
+  }
+  return out;
+}
+
+/// Of each frame its cracks, each x and y of its points, in steps of the places.
+Json FramePacker::describe_lines() const {
+  constexpr double kMostSteps = 4000;  // across all frames: finer than a screen
+  double widest = 0;
+  for (const Extent& side : survey_.box)
+    if (!side.empty()) widest = std::max(widest, side.upper - side.lower);
+  Json frames = Json::array();
+  for (const Polylines& lines : lines_) {
+    Json all = Json::array();
+    for (const auto& line : lines) {
+      Json points = Json::array();
+      for (const Vec<2>& x : without_needless(line, widest / kMostSteps))
+        for (std::size_t d = 0; d < 2; ++d) {
+          const Levels& levels = places_[d].levels;
+          points.push_back(std::llround((x[static_cast<int>(d)] - levels.lower()) / levels.spacing()));
+        }
+      all.push_back(std::move(points));
+    }
+    frames.push_back(std::move(all));
+  }
+  return frames;
 }
 
 Json FramePacker::describe(const FrameColumn& column, Chunks& chunks) const {
@@ -162,6 +209,8 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
   }
   for (const FrameColumn& column : places_) used += column.packed.bytes.size();
   for (const FrameColumn& column : places_) json["places"].push_back(describe(column, chunks));
+  if (std::any_of(lines_.begin(), lines_.end(), [](const Polylines& lines) { return !lines.empty(); }))
+    json["lines"] = describe_lines();
   json["fields"] = Json::array();
   std::vector<std::string> dropped;
   const auto take_field = [&](std::size_t k) {

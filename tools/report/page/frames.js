@@ -22,6 +22,17 @@ class Frames {
     return level === column.none ? NaN : column.lower + column.spacing * level;
   }
 
+  // The cracks of a frame, each a list of places.
+  linesOf(frame) {
+    const [x, y] = this.axes, lines = [];
+    for (const steps of this.lines?.[frame] ?? []) {
+      const line = [];
+      for (let k = 0; k + 1 < steps.length; k += 2) line.push([x.lower + x.spacing * steps[k], y.lower + y.spacing * steps[k + 1]]);
+      lines.push(line);
+    }
+    return lines;
+  }
+
   // Half of the edges of a domain, m: F by its undeformed sides, row by row.
   halfEdges(frame, particle, out) {
     const x = this.sideX[particle] / 2, y = this.sideY[particle] / 2;

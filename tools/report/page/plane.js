@@ -52,7 +52,29 @@ class PlaneView {
     this.fillParticles(ratio);
     c.imageSmoothingEnabled = false;
     c.drawImage(this.raster, p.left, p.top, this.raster.width / ratio, this.raster.height / ratio);
+    this.drawLines(c, p);
     this.drawAxes(c, p);
+  }
+
+  // Cracks of the frame, over what they part.
+  drawLines(c, p) {
+    const lines = this.frames.linesOf(this.frame);
+    if (lines.length === 0) return;
+    c.save();
+    c.beginPath();
+    c.rect(p.left, p.top, p.right - p.left, p.bottom - p.top);
+    c.clip();
+    c.lineJoin = 'round';
+    for (const [colour, width] of [['#ffffff', 3], ['#000000', 1.25]]) {
+      c.strokeStyle = colour;
+      c.lineWidth = width;
+      for (const line of lines) {
+        c.beginPath();
+        line.forEach(([x, y], k) => k === 0 ? c.moveTo(...this.toPage(x, y)) : c.lineTo(...this.toPage(x, y)));
+        c.stroke();
+      }
+    }
+    c.restore();
   }
 
   fillParticles(ratio) {
