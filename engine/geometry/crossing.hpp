@@ -3,6 +3,7 @@
 /// @file Lines in the plane that cross: which side of a crack is a point on, seen from another?
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -58,6 +59,7 @@ class Ways {
     count_ = 0;
   }
   void add(const Point2& to) {
+    assert(count_ < kMost);
     x_[count_] = to[0];
     y_[count_++] = to[1];
   }

@@ -1,6 +1,9 @@
 #include "engine/output/read_frame.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include <array>
 
@@ -103,17 +106,22 @@ Particles<Dim> read_frame(const VtuReader& file, const std::filesystem::path& pa
 }
 
 Polylines read_lines(const VtuReader& file, const std::filesystem::path& path) {
+  if (!file.find_of_file(kLineLengths)) return {};
+  const std::vector<double> points = file.read_of_file<double>(kLinePoints);
+  const std::vector<std::uint32_t> lengths = file.read_of_file<std::uint32_t>(kLineLengths);
+  const std::uint64_t all = std::accumulate(lengths.begin(), lengths.end(), std::uint64_t{0});
+  const auto finite = [](double x) { return std::isfinite(x); };
+  if (file.find_of_file(kLinePoints)->components != 3 || points.size() != 3 * all ||
+      !std::all_of(points.begin(), points.end(), finite))
+    throw FileError(
+        fmt::format("cannot read {}: its cracks have other points than they say, or such that are no numbers",
+                    path.string()));
   Polylines lines;
-  if (!file.find(kLineLengths)) return lines;
-  const std::vector<double> points = file.read<double>(kLinePoints);
   std::size_t at = 0;
-  for (const std::uint32_t length : file.read<std::uint32_t>(kLineLengths)) {
+  for (const std::uint32_t length : lengths) {
     auto& line = lines.emplace_back();
-    for (std::uint32_t k = 0; k < length && at + 3 <= points.size(); ++k, at += 3)
-      line.emplace_back(points[at], points[at + 1]);
+    for (std::uint32_t k = 0; k < length; ++k, at += 3) line.emplace_back(points[at], points[at + 1]);
   }
-  if (at != points.size() || file.find(kLinePoints)->components != 3)
-    throw FileError(fmt::format("cannot read {}: its cracks have other points than they say", path.string()));
   return lines;
 }
 

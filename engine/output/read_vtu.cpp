@@ -148,12 +148,13 @@ void VtuReader::read_header() {
     std::size_t tuples = 0;
     if (!read_number(std::string_view(node.attribute("NumberOfTuples").value()), tuples))
       refuse("the length of an array of its FieldData is no number");
-    others_.push_back(read_array(node, "FieldData", tuples));
+    of_file_.push_back(read_array(node, "FieldData", tuples));
   }
   read_arrays("PointData", point_data_);
   read_arrays("Points", others_);
   read_arrays("Cells", others_);
-  if (named("Points", "Float64").components != 3) refuse("its points have no three coordinates");
+  if (checked(find("Points"), "Points", "Float64").components != 3)
+    refuse("its points have no three coordinates");
 }
 
 const VtuArray* VtuReader::find(std::string_view name) const {
@@ -163,8 +164,14 @@ const VtuArray* VtuReader::find(std::string_view name) const {
   return nullptr;
 }
 
-const VtuArray& VtuReader::named(std::string_view name, std::string_view type) const {
-  const VtuArray* array = find(name);
+const VtuArray* VtuReader::find_of_file(std::string_view name) const {
+  for (const VtuArray& array : of_file_)
+    if (array.name == name) return &array;
+  return nullptr;
+}
+
+const VtuArray& VtuReader::checked(const VtuArray* array, std::string_view name,
+                                   std::string_view type) const {
   if (array == nullptr || array->type != type) refuse(fmt::format("no array '{}' of {}", name, type));
   return *array;
 }

@@ -34,9 +34,10 @@ class VtuReader {
   std::size_t size() const { return size_; }
   /// In the order of the file.
   const std::vector<VtuArray>& point_data() const { return point_data_; }
-  /// Of the point data, "Points", an array of the cells or one of the whole file; nothing when there is no
-  /// such array.
+  /// Of the point data, "Points" or an array of the cells; nothing when there is no such array.
   const VtuArray* find(std::string_view name) const;
+  /// Of the whole file, with as many values as it says.
+  const VtuArray* find_of_file(std::string_view name) const;
 
   /// Three coordinates a point, m.
   std::vector<double> points() const { return read<double>("Points"); }
@@ -45,7 +46,12 @@ class VtuReader {
   /// The values as they were written. Throws FileError when there is no such array of this type.
   template <class T>
   std::vector<T> read(std::string_view name) const {
-    return unpack<T>(named(name, vtu_type<T>()));
+    return unpack<T>(checked(find(name), name, vtu_type<T>()));
+  }
+
+  template <class T>
+  std::vector<T> read_of_file(std::string_view name) const {
+    return unpack<T>(checked(find_of_file(name), name, vtu_type<T>()));
   }
 
  private:
@@ -61,7 +67,7 @@ class VtuReader {
     return std::vector<double>(values.begin(), values.end());
   }
   void read_header();
-  const VtuArray& named(std::string_view name, std::string_view type) const;
+  const VtuArray& checked(const VtuArray* array, std::string_view name, std::string_view type) const;
   /// The size of the unpacked array, after its blocks were found to lie in the file and to make up that size.
   std::uint64_t checked_bytes(const VtuArray& array) const;
   void unpack_bytes(const VtuArray& array, unsigned char* out) const;
@@ -72,7 +78,7 @@ class VtuReader {
   std::string_view appended_;  ///< of the text
   double time_ = 0;
   std::size_t size_ = 0;
-  std::vector<VtuArray> point_data_, others_;
+  std::vector<VtuArray> point_data_, others_, of_file_;
 };
 
 /// A frame of a series.

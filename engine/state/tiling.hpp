@@ -54,7 +54,7 @@ struct SortBuffers {
   std::size_t bytes() const {
     return (key.capacity() + spare.capacity()) * sizeof(std::uint64_t) +
            (order.capacity() + order_spare.capacity()) * sizeof(std::uint32_t) +
-           next.capacity() * sizeof(Places);
+           next.capacity() * sizeof(Places) + ranges.capacity() * sizeof(ranges[0]);
   }
 };
 

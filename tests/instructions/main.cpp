@@ -91,9 +91,9 @@ struct Count {
 };
 
 /// Of the third step; the first allocates.
-template <int dim>
+template <int Dim>
 Count count_in(const Scene& scene) {
-  Step<dim> step(scene);
+  Step<Dim> step(scene);
   for (int k = 0; k < 2; ++k) step.advance(step.stable_dt());
   instructions::start_counting();
   step.advance(step.stable_dt());

@@ -144,10 +144,18 @@ TEST_CASE("the cracks of a frame are read back as they were written, and none wh
   file.add_field_data(kLineLengths, std::vector<std::uint32_t>{2});
   file.add_field_data("empty", std::vector<double>{});
   file.write(first, 0);
-  CHECK(VtuReader(first).read<double>("empty").empty());
+  CHECK_THROWS_AS(read_lines(VtuReader(first), first), FileError);
+  CHECK(VtuReader(first).read_of_file<double>("empty").empty());
   file = VtuFile(std::vector<double>{0, 0, 0});
   file.add_field_data(kLinePoints, std::vector<double>{1, 2, 0}, 3);
   file.add_field_data(kLineLengths, std::vector<std::uint32_t>{0});
+  file.add_field_data("Points", std::vector<double>{1, 2, 3, 4, 5, 6}, 3);  // of the file: no point moves
+  file.write(first, 0);
+  CHECK_THROWS_AS(read_lines(VtuReader(first), first), FileError);
+  CHECK(VtuReader(first).points() == std::vector<double>{0, 0, 0});
+  file = VtuFile(std::vector<double>{0, 0, 0});
+  file.add_field_data(kLinePoints, std::vector<double>{1, std::nan(""), 0}, 3);
+  file.add_field_data(kLineLengths, std::vector<std::uint32_t>{1});
   file.write(first, 0);
   CHECK_THROWS_AS(read_lines(VtuReader(first), first), FileError);
 }

@@ -55,7 +55,7 @@ TEST_CASE("a crack whose sides are tied is none, in every basis and update") {
       advance(one, 40);
       advance(other, 40);
       CHECK(one.contact_counters().nodes_peak > 20);
-      CHECK(one.cracks().counters().regroups > 2);
+      CHECK(one.cracks().counters().groupings > 2);
       CHECK(difference(one, other) < 1e-12);
     }
 }

@@ -81,18 +81,16 @@ class Series {
 
   std::size_t size() const { return frames_.size(); }
   double time(std::size_t k) const { return frames_[k].time; }
-  Particles<Dim> read(std::size_t k) const { return read(k, VtuReader(frames_[k].file)); }
-  Canvas paint(std::size_t k, const std::string& field, const Framing& framing, PictureFormat format) const {
+  struct Frame {
+    Particles<Dim> particles;
+    Polylines cracks;
+  };
+  Frame read(std::size_t k) const {
     const VtuReader file(frames_[k].file);
-    return paint_particles(read(k, file), scene_, field, time(k), framing, format,
-                           read_lines(file, frames_[k].file));
+    return {read_frame<Dim>(file, frames_[k].file, scene_), read_lines(file, frames_[k].file)};
   }
 
  private:
-  Particles<Dim> read(std::size_t k, const VtuReader& file) const {
-    return read_frame<Dim>(file, frames_[k].file, scene_);
-  }
-
   const Scene& scene_;
   std::vector<SeriesFrame> frames_;
 };
@@ -138,22 +136,25 @@ class ParticlePlot {
   }
 
   void draw_frame(const std::string& field, std::size_t k, std::optional<Range> colours) {
-    Framing framing = framing_of(series_.read(k), scene_, field);
+    const auto [particles, cracks] = series_.read(k);
+    Framing framing = framing_of(particles, scene_, field);
     if (colours) framing.values = colours;
     const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, k));
     const PictureFormat format = picture_format(path).value_or(PictureFormat::png);
-    series_.paint(k, field, framing, format).write(path);
+    paint_particles(particles, scene_, field, series_.time(k), framing, format, cracks).write(path);
     fmt::print("picture          {}\n", path.string());
   }
 
   void animate(const std::string& field, std::optional<Range> colours) {
     Framing framing;
     for (std::size_t k = 0; k < series_.size(); ++k)
-      framing.include(framing_of(series_.read(k), scene_, field));
+      framing.include(framing_of(series_.read(k).particles, scene_, field));
     if (colours) framing.values = colours;
     std::optional<AnimatedPng> animation;
     for (std::size_t k = 0; k < series_.size(); ++k) {
-      Canvas canvas = series_.paint(k, field, framing, PictureFormat::png);
+      const auto [particles, cracks] = series_.read(k);
+      Canvas canvas =
+          paint_particles(particles, scene_, field, series_.time(k), framing, PictureFormat::png, cracks);
       if (!animation) animation.emplace(canvas.width(), canvas.height(), kRate);
       animation->add(canvas.pixels());
     }

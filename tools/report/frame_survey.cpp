@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "engine/errors.hpp"
+#include "engine/output/read_frame.hpp"
 
 namespace mpmfast {
 
@@ -29,7 +30,9 @@ void merge(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& mo
   all = std::move(both);
 }
 
-void look_at(const FrameFile& file, std::size_t frames, FrameSurvey& survey) {
+void look_at(const FrameFile& file, const std::filesystem::path& path, std::size_t frames,
+             FrameSurvey& survey) {
+  Polylines cracks = read_lines(file.reader(), path);
   const std::size_t stride = file.size() * frames / kSample + 1;
   merge(survey.ids, shown_ids(file.reader(), survey.particle_stride));
   const std::vector<double> points = file.reader().points();
@@ -43,6 +46,7 @@ void look_at(const FrameFile& file, std::size_t frames, FrameSurvey& survey) {
   const auto gradient = gradient_fields();
   for (std::size_t k = 0; k < gradient.size(); ++k)
     survey.gradient[k].include(gradient[k].values(file), stride);
+  survey.cracks.push_back(std::move(cracks));
 }
 
 }  // namespace
@@ -66,7 +70,7 @@ FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t pa
       const FrameFile file(frame.file);
       if (survey.frames.empty()) survey.fields = frame_fields(file.reader(), dimension, picture, rigid);
       survey.extents.resize(survey.fields.size());
-      look_at(file, frames.size(), survey);
+      look_at(file, frame.file, frames.size(), survey);
       survey.frames.push_back(frame);
     } catch (const FileError& error) {
       notices.push_back(fmt::format("A frame is left out: {}.", error.what()));

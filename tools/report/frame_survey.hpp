@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/output/lines.hpp"
 #include "engine/output/read_vtu.hpp"
 #include "frame_fields.hpp"
 
@@ -31,6 +32,7 @@ struct FrameSurvey {
   std::vector<Extent> extents;     ///< of the fields
   std::array<Extent, 3> box;       ///< m, of the particles' centres
   std::array<Extent, 4> gradient;  ///< F in the plane: xx xy yx yy
+  std::vector<Polylines> cracks;   ///< of each of the frames
   std::size_t particle_stride = 1;
 };
 

@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/errors.hpp"
-#include "engine/output/read_frame.hpp"
 #include "frame_constants.hpp"
 #include "frame_survey.hpp"
 #include "pack.hpp"
@@ -89,7 +88,6 @@ class FramePacker {
   FrameConstants constants_;
   std::vector<std::pair<std::string, std::string>> constant_columns_;  ///< name, packed
   std::vector<FrameColumn> places_, gradient_, fields_;
-  std::vector<Polylines> lines_;  ///< by frame
 };
 
 void FramePacker::plan_columns(bool fine, double steps_per_particle) {
@@ -120,7 +118,6 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
 
 void FramePacker::read_frame(std::size_t frame) {
   const FrameFile file(survey_.frames[frame].file);
-  lines_.push_back(read_lines(file.reader(), survey_.frames[frame].file));
   const Places places = find_places(file.reader(), survey_);
   note_constants(file, places, scene_, dimension_, constants_);
   for (FrameColumn* column : all_columns()) {
@@ -157,7 +154,7 @@ Json FramePacker::describe_lines() const {
   for (const Extent& side : survey_.box)
     if (!side.empty()) widest = std::max(widest, side.upper - side.lower);
   Json frames = Json::array();
-  for (const Polylines& lines : lines_) {
+  for (const Polylines& lines : survey_.cracks) {
     Json all = Json::array();
     for (const auto& line : lines) {
       Json points = Json::array();
@@ -209,7 +206,8 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
   }
   for (const FrameColumn& column : places_) used += column.packed.bytes.size();
   for (const FrameColumn& column : places_) json["places"].push_back(describe(column, chunks));
-  if (std::any_of(lines_.begin(), lines_.end(), [](const Polylines& lines) { return !lines.empty(); }))
+  if (std::any_of(survey_.cracks.begin(), survey_.cracks.end(),
+                  [](const Polylines& lines) { return !lines.empty(); }))
     json["lines"] = describe_lines();
   json["fields"] = Json::array();
   std::vector<std::string> dropped;

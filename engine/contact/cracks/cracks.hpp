@@ -75,8 +75,8 @@ struct TipLoad;
 enum class Seen { same, parted, outside };
 
 struct CrackCounters {
-  std::uint64_t regroups = 0;  ///< because of sides that changed
-  std::uint64_t third = 0;     ///< times that a particle saw a node behind a third crack
+  std::uint64_t groupings = 0;  ///< of the particles by their sides, after sorts and between them
+  std::uint64_t third = 0;      ///< times that a particle saw a node behind a third crack
 };
 
 /// Sides are those of the material, not of the node (NN §1.1 calls what no crack hides from a node field
@@ -101,10 +101,10 @@ class Cracks {
   Seen look(State<Dim>& state, const Supports<Dim>& supports);
 
   /// Groups the particles that see the same sides, and numbers the slots anew.
-  void group(State<Dim>& state) const;
+  void group(State<Dim>& state);
 
-  /// Marks the tiles that reach nodes which cracks part (ParticleTile::cracked), as `look` does, after a
-  /// sort.
+  /// Marks the tiles that reach nodes which cracks part (ParticleTile::cracked), as `look` does, once tiles
+  /// are others.
   void mark(State<Dim>& state) const;
 
   /// Which crack parts two fields of a node, and its unit normal from the first to the second.

@@ -138,7 +138,7 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
       for (const int k : room.reached) {
         const Segment* segment = room.near[static_cast<std::size_t>(k)];
         const Point2 from = in_plane<Dim>(segment->from), to = in_plane<Dim>(segment->to);
-        const bool goes_on = segment - 1 == before && before->crack == segment->crack;
+        const bool goes_on = before && segment == before + 1 && before->crack == segment->crack;
         left_of_from = goes_on ? left_of_to : ways.left_of_ways(from);
         left_of_to = ways.left_of_ways(to);
         before = segment;
@@ -338,13 +338,12 @@ Seen Cracks<Dim>::look(State<Dim>& state, const Supports<Dim>& supports) {
   list_segments();
   list_crossed(state, supports);
   list_nodes(state);
-  const Seen seen = list_sides(state, supports);
-  counters_.regroups += seen != Seen::same;
-  return seen;
+  return list_sides(state, supports);
 }
 
 template <int Dim>
-void Cracks<Dim>::group(State<Dim>& state) const {
+void Cracks<Dim>::group(State<Dim>& state) {
+  ++counters_.groupings;
   auto& tiling = state.tiling;
   tiling.start_groups();
   std::vector<Told<Dim>> groups;

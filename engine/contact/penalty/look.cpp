@@ -151,6 +151,7 @@ bool Penalty<Dim>::look_around(const Listing& listing, Room& room) const {
     const Ball& other = ball(listed(at));
     if (room.around.empty() || room.around.back().body != other.body) {  // those of a body follow each other
       room.around.push_back({other.body, at, at, {}, 0});
+      std::fill_n(room.around.back().nearest, kPoints, at);
       std::fill(least, least + kPoints, kInfinity);
     }
     Around& around = room.around.back();

@@ -7,7 +7,7 @@ function shownUnit(unit) { return report.units[unit] ?? unit; }
 
 // Nobody writes ks, Mm or mPa.
 function usualPrefix(prefix, unit) {
-  if (unit === 'Pa' || unit === 'Pa m^1/2') return ['T', 'G', 'M', 'k', ''].includes(prefix);
+  if (unit === 'Pa' || unit === 'Pa \u221am') return ['T', 'G', 'M', 'k', ''].includes(prefix);
   if (['J', 'N', 'J/m', 'N/m', 'J/m^2', 'J/m^3', 'W'].includes(unit)) return prefix !== 'n';
   if (unit === 'm' && prefix === 'k') return true;
   return ['', 'm', '\u00b5', 'n'].includes(prefix);
@@ -17,7 +17,7 @@ function usualPrefix(prefix, unit) {
 // Lengths have one unit on the whole page.
 function displayUnit(size, unit) {
   if (unit === 'm' && report.length) return report.length;
-  if (!['m', 's', 'Pa', 'Pa m^1/2', 'J', 'N', 'J/m', 'N/m', 'W', 'J/m^2', 'J/m^3'].includes(unit) || !(size > 0) || !isFinite(size))
+  if (!['m', 's', 'Pa', 'Pa \u221am', 'J', 'N', 'J/m', 'N/m', 'W', 'J/m^2', 'J/m^3'].includes(unit) || !(size > 0) || !isFinite(size))
     return {name: prettyUnit(unit), size: 1};
   let smallest = {name: prettyUnit(unit), size: 1};
   for (const [prefix, factor] of PREFIXES) {
@@ -29,7 +29,7 @@ function displayUnit(size, unit) {
 }
 
 function prettyUnit(unit) {
-  return unit.replace('^1/2', '\u00bd').replace('^2', '\u00b2').replace('^3', '\u00b3').replaceAll('*', '\u00b7');
+  return unit.replace('^2', '\u00b2').replace('^3', '\u00b3').replaceAll('*', '\u00b7');
 }
 
 function significant(value, digits = 4) {

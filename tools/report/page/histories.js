@@ -5,7 +5,7 @@ const USUAL = [
   {name: 'mean stress', label: 'mean stress', unit: 'Pa', matches: name => name.includes('.mean_stress_')},
   {name: 'stress against strain', label: 'mean stress', unit: 'Pa', matches: name => name.includes('.mean_stress_'), against: name => name.endsWith('.strain')},
   {name: 'forces', label: 'force', unit: 'N', matches: name => name.includes('.force_')},
-  {name: 'stress intensities', label: 'stress intensity', unit: 'Pa m^1/2', matches: name => /\.KI+_Pa_sqrt_m$/.test(name)},
+  {name: 'stress intensities', label: 'stress intensity', unit: 'Pa \u221am', matches: name => /\.KI+_Pa_sqrt_m$/.test(name)},
   {name: 'crack lengths', label: 'length', unit: 'm', matches: name => name.endsWith('.length_m')},
   {name: 'momentum', label: 'momentum', unit: 'kg m/s', matches: name => name.startsWith('momentum_')},
   {name: 'velocities', label: 'velocity', unit: 'm/s', matches: name => /\.v[xyz]$/.test(name)},
@@ -14,7 +14,7 @@ const isThere = (usual, names) => names.some(usual.matches) && (!usual.against |
 const MOST_CURVES = 10;  // more cannot be told apart
 
 function columnUnit(name) {
-  const units = [[/_Pa_sqrt_m$/, 'Pa m^1/2'], [/_J_per_m2$/, 'J/m^2'], [/_m2$/, 'm^2'], [/_Pa$/, 'Pa'], [/_J$/, 'J'], [/_Nm$/, 'N m'], [/_N$/, 'N'], [/_kg$/, 'kg'], [/_m$/, 'm'], [/_s$/, 's'],
+  const units = [[/_Pa_sqrt_m$/, 'Pa \u221am'], [/_J_per_m2$/, 'J/m^2'], [/_m2$/, 'm^2'], [/_Pa$/, 'Pa'], [/_J$/, 'J'], [/_Nm$/, 'N m'], [/_N$/, 'N'], [/_kg$/, 'kg'], [/_m$/, 'm'], [/_s$/, 's'],
     [/momentum_[xyz]$/, 'kg m/s'], [/\.v[xyz]$/, 'm/s']];
   return shownUnit(units.find(([end]) => end.test(name))?.[1] ?? '');
 }
