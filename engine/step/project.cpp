@@ -1,6 +1,7 @@
 /// Where particles are, and what they bring to the nodes.
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "engine/state/slots.hpp"
@@ -58,23 +59,29 @@ void Step<Dim>::number_slots() {
 
 namespace {
 
-template <int Dim>
-void clear_geometry(Nodes<Dim>& nodes, std::int64_t begin, std::int64_t count) {
-  for (const Nodal q :
-       {Nodal::volume, Nodal::volume_gradient, Nodal::mass_position, Nodal::mass_displacement})
+constexpr std::array kGeometry{Nodal::volume, Nodal::volume_gradient, Nodal::mass_position,
+                               Nodal::mass_displacement};
+constexpr std::array kDisplacements{Nodal::mass_offset, Nodal::mass_slope};
+
+template <int Dim, class Quantities>
+void clear(Nodes<Dim>& nodes, const Quantities& quantities, std::int64_t begin, std::int64_t count) {
+  for (const Nodal q : quantities)
     for (int k = 0; k < nodes.width(q); ++k)
       std::memset(nodes.column(q, k) + begin, 0, static_cast<std::size_t>(count) * sizeof(double));
 }
 
-/// Elsewhere nothing is added, and nobody reads.
+/// What is only added near cracks, and only read there.
 template <int Dim>
-void clear_geometry_near_cracks(State<Dim>& state) {
+void clear_near_cracks(State<Dim>& state, bool geometry) {
   const auto& tiling = state.tiling;
   for (std::size_t k = 0; k < tiling.node_tiles.size(); ++k) {
     const auto& over = tiling.node_tiles[k].particle_tile;
-    if (std::any_of(over, over + kCorners<Dim>,
-                    [&](int t) { return t >= 0 && tiling.tiles[static_cast<std::size_t>(t)].cracked; }))
-      clear_geometry(state.nodes, static_cast<std::int64_t>(k) * kTileNodes<Dim>, kTileNodes<Dim>);
+    if (std::none_of(over, over + kCorners<Dim>,
+                     [&](int t) { return t >= 0 && tiling.tiles[static_cast<std::size_t>(t)].cracked; }))
+      continue;
+    const auto begin = static_cast<std::int64_t>(k) * kTileNodes<Dim>;
+    if (geometry) clear(state.nodes, kGeometry, begin, kTileNodes<Dim>);
+    clear(state.nodes, kDisplacements, begin, kTileNodes<Dim>);
   }
 }
 
@@ -85,23 +92,20 @@ void Step<Dim>::project() {
   for (int attempt = 0; attempt < 2; ++attempt) {
     const bool inside = clock_.time(Pass::project, [&] {
       auto& nodes = state_.nodes;
+      const bool cracked = plan_.cracks_alone || (cracks_.active() && !plan_.bridges);  // those displaced
       for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-        const auto bytes = static_cast<std::size_t>(end - begin) * sizeof(double);
-        const auto clear = [&](Nodal q, int components) {
-          if (!nodes.has(q)) return;
-          for (int k = 0; k < components; ++k) std::memset(nodes.column(q, k) + begin, 0, bytes);
-        };
-        for (Nodal q : {Nodal::mass, Nodal::occupied}) clear(q, 1);
-        for (Nodal q : {Nodal::momentum, Nodal::force, Nodal::mass_offset}) clear(q, Dim);
-        clear(Nodal::mass_slope, Dim * Dim);
-        if (!plan_.cracks_alone) clear_geometry<Dim>(nodes, begin, end - begin);
+        const std::int64_t count = end - begin;
+        clear(nodes, std::array{Nodal::mass, Nodal::momentum, Nodal::force, Nodal::occupied}, begin, count);
+        if (!plan_.cracks_alone) clear(nodes, kGeometry, begin, count);
+        if (!cracked) clear(nodes, kDisplacements, begin, count);
         if (plan_.paired)
-          for (int d = 0; d < Dim; ++d) std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0, bytes);
+          for (int d = 0; d < Dim; ++d)
+            std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0,
+                        static_cast<std::size_t>(count) * sizeof(double));
       });
-      if (plan_.cracks_alone) clear_geometry_near_cracks(state_);
+      if (cracked) clear_near_cracks(state_, plan_.cracks_alone);
       const bool all_inside = passes_->project(state_, plan_.force_with_mass);
-      if (all_inside && plan_.geometry)
-        passes_->project_geometry(state_, plan_.cracks_alone, plan_.cracks_alone || !plan_.bridges);
+      if (all_inside && plan_.geometry) passes_->project_geometry(state_, plan_.cracks_alone, cracked);
       if (all_inside && extension_.active()) passes_->occupy(state_);
       return all_inside;
     });
