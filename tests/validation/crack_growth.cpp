@@ -47,6 +47,24 @@ TEST_CASE("a crack that grows takes its toughness, no more, and keeps to its lin
   }
 }
 
+TEST_CASE("a crack that grows into another goes no further, and the balance closes") {
+  std::string text = short_beam("{toughness: 1 J/m^2, rule: energy}");
+  text.replace(text.find("cracks: [") + 9, 0,
+               "{name: bar, body: beam, line: [[11 mm, 4.75 mm], [11 mm, 7.75 mm]], law: frictionless}, ");
+  text.replace(text.find("0.35 ms"), 7, "0.45 ms");
+  const Outcome out = run(scene_from(text));
+  REQUIRE(out.failure.empty());
+  const auto& length = out.history.at("slit.length_m");
+  const auto last = [&](const char* name) { return out.history.at(name).back(); };
+  MESSAGE("length ", length.back(), " took ", last("interface_J"), " left ",
+          last("kinetic_J") + last("stored_J") + last("interface_J") - last("boundary_work_J"), " of ",
+          last("boundary_work_J"));
+  CHECK(length.back() == doctest::Approx(11e-3).epsilon(1e-3).scale(0));
+  CHECK(last("interface_J") == doctest::Approx(3e-3).epsilon(0.1).scale(0));
+  CHECK(last("kinetic_J") + last("stored_J") + last("interface_J") ==
+        doctest::Approx(last("boundary_work_J")).epsilon(0.01).scale(0));
+}
+
 /// Two halves of one body fly apart until no node sees both, come back from walls and meet.
 TEST_CASE("what a crack has parted meets again and does not enter itself") {
   const Scene scene = scene_from(R"(
