@@ -1,4 +1,4 @@
-// Ways that cross the segments of a crack, or not.
+// Ways that cross the segments of a crack, or not: in optimised builds too, which may fuse products.
 
 #include <doctest/doctest.h>
 
