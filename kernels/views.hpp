@@ -56,7 +56,7 @@ struct ParticleTile {
   int slot[kCorners<Dim>];  ///< first slot of each node tile under the window
   int others = 0;           ///< tiles of the same place and field that follow
   bool cracked = false;     ///< its particles reach nodes where others are behind a crack
-  /// Where nodes take the side of a crack: the slot of each under the window; −1: no particle reaches it
+  /// Where nodes take the side of a crack: the slot of each under the window; else null.
   const int* node_slot = nullptr;
 };
 

@@ -233,7 +233,7 @@ template <int Dim>
 void Tiling<Dim>::number_sides() {
   std::size_t mapped = 0;
   for (std::size_t t = 0; t < tiles.size(); ++t) mapped += sides_of(t) != nullptr;
-  node_slots_.assign(mapped * kWindowNodes<Dim>, -1);
+  node_slots_.resize(mapped * kWindowNodes<Dim>);
   int* next = node_slots_.data();
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     const SideMap<Dim>* sides = sides_of(t);
@@ -241,7 +241,6 @@ void Tiling<Dim>::number_sides() {
     if (!sides) continue;
     for (int w = 0; w < kWindowNodes<Dim>; ++w) {
       const int side = sides->side[static_cast<std::size_t>(w)];
-      if (side < 0) continue;
       NodeIndex<Dim> node;
       for (int d = 0, rest = w; d < Dim; ++d, rest /= kWindowSide)
         node[d] = tiles[t].window[d] + rest % kWindowSide;

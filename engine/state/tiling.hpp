@@ -22,7 +22,6 @@ namespace mpmfast {
 /// What sides of cracks the particles of a group see at the nodes of their window (engine/contact/cracks).
 template <int Dim>
 struct SideMap {
-  static constexpr std::int8_t kNone = -1;  ///< no particle of the group reaches the node
   std::array<std::int8_t, kWindowNodes<Dim>> side;
 };
 
@@ -65,6 +64,11 @@ class Tiling {
   void set_domain(const std::array<int, 3>& nodes);
   /// Boundary points lie in runs of their own, behind those of the particles inside.
   void part_surfaces() { kinds_ = 2; }
+
+  /// Where particles go is to be known after each sort.
+  void follow_moves() { follows_ = true; }
+  /// The number that a particle has since the last sort, by the one that it had before.
+  std::uint32_t moved(std::uint32_t before) const { return stayed_ ? before : buffers_.order_spare[before]; }
 
   /// Fields that are the sides of another behind cracks: the first of each, −1 where it has none.
   void set_sides(const std::vector<int>& first_side) { first_side_ = first_side; }
@@ -169,6 +173,7 @@ class Tiling {
   void sort(Particles<Dim>& particles);
   void sort_places(Particles<Dim>& particles);
   void put_in_order(Particles<Dim>& particles);
+  void note_moves(std::size_t particles);
   void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
   void number_slots();
@@ -183,6 +188,7 @@ class Tiling {
   int kinds_ = 1;   ///< of runs that a body may have in a tile
   int bodies_ = 1;  ///< times kinds_
   int groups_ = 1;
+  bool follows_ = false, stayed_ = true;  ///< stayed: the last sort found all in order
   std::vector<int> first_side_;           ///< by field; empty: no cracks
   std::vector<std::uint64_t> mapped_;     ///< keys of the tiles with maps (field, place, group), rising
   std::vector<SideMap<Dim>> maps_;        ///< likewise

@@ -109,7 +109,8 @@ void Tiling<Dim>::set_groups(const ParticleTile<Dim>& tile, const std::vector<Si
 
 template <int Dim>
 void Tiling<Dim>::sort(Particles<Dim>& particles) {
-  if (std::is_sorted(buffers_.key.begin(), buffers_.key.end())) return;
+  stayed_ = std::is_sorted(buffers_.key.begin(), buffers_.key.end());
+  if (stayed_) return;
   const std::size_t n = particles.size();
   buffers_.order.resize(n);
   std::uint64_t largest = 0;
@@ -148,6 +149,7 @@ void Tiling<Dim>::sort_places(Particles<Dim>& particles) {
     buffers_.ranges.push_back({from, to});
   }
   permute(key.data(), buffers_);
+  stayed_ = false;
   put_in_order(particles);
 }
 
@@ -158,6 +160,16 @@ void Tiling<Dim>::put_in_order(Particles<Dim>& particles) {
     for (int k = 0; k < Particles<Dim>::components(q); ++k) permute(particles.column(q, k), buffers_);
   permute(particles.id().data(), buffers_);
   permute(particles.body().data(), buffers_);
+  if (follows_) note_moves(particles.size());
+}
+
+template <int Dim>
+void Tiling<Dim>::note_moves(std::size_t particles) {
+  auto& to = buffers_.order_spare;
+  to.resize(particles);
+  std::iota(to.begin(), to.end(), 0U);
+  for (const auto& range : buffers_.ranges)
+    for (std::uint32_t i = range[0]; i < range[1]; ++i) to[buffers_.order[i]] = i;
 }
 
 /// Keeps the particles whose rising numbers are in buffers_.order, with their keys.
@@ -187,6 +199,8 @@ template void Tiling<2>::sort_places(Particles<2>&);
 template void Tiling<3>::sort_places(Particles<3>&);
 template void Tiling<2>::put_in_order(Particles<2>&);
 template void Tiling<3>::put_in_order(Particles<3>&);
+template void Tiling<2>::note_moves(std::size_t);
+template void Tiling<3>::note_moves(std::size_t);
 template void Tiling<2>::keep_ordered(Particles<2>&);
 template void Tiling<3>::keep_ordered(Particles<3>&);
 

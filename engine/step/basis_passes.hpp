@@ -72,7 +72,12 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleRun<Dim> any{};
     const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
     const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
-    return {[all](std::size_t p) { return Basis::first_node(all, static_cast<int>(p)); }, Basis::kMaxSupport};
+    return {[all](std::size_t p, double way) {
+              ChunkGeometry<Dim> behind = all;  // farther from an origin that lies so much behind
+              for (double& x : behind.origin) x -= way;
+              return Basis::first_node(behind, static_cast<int>(p));
+            },
+            Basis::kMaxSupport};
   }
 
   bool project(State<Dim>& state, bool with_force) override {

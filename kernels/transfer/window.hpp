@@ -114,16 +114,14 @@ template <int Dim, int NC>
                                              Window<Dim, NC>& window) {
   for (int at = 0; at < kWindowNodes<Dim>; ++at)
     for (int c = 0; c < 4 * window.kQuads; ++c)
-      window.quad(c / 4, at)[c % 4] =
-          c < NC && node_slot[at] >= 0 ? static_cast<Real>(columns.column[c][node_slot[at]]) : Real{0};
+      window.quad(c / 4, at)[c % 4] = c < NC ? static_cast<Real>(columns.column[c][node_slot[at]]) : Real{0};
 }
 template <int Dim, int NC>
 [[gnu::noinline, gnu::cold]] void flush_nodes(Window<Dim, NC>& window, const int* node_slot,
                                               const NodeColumns<NC>& columns) {
   for (int c = 0; c < NC; ++c)
     for (int at = 0; columns.column[c] && at < kWindowNodes<Dim>; ++at)
-      if (node_slot[at] >= 0)
-        columns.column[c][node_slot[at]] += static_cast<double>(window.quad(c / 4, at)[c % 4]);
+      columns.column[c][node_slot[at]] += static_cast<double>(window.quad(c / 4, at)[c % 4]);
 }
 
 /// Fills the window of a tile (ParticleTile), and adds it to the columns.

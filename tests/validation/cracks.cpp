@@ -109,6 +109,42 @@ TEST_CASE("a crack moves with its body: that of a block that flies and spins lie
   CHECK(farthest < 0.1e-3);  // the spin stretches the block by 0.04 mm
 }
 
+/// How wide a crack in a plate opens that is let go while it stretches, and flies, in the mean over the
+/// crack.
+double widest_in_flight(const std::string& velocity) {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [64 mm, 64 mm], cell: 1 mm}
+time: {end: 1 ms}
+materials: {rubber: {model: neo_hookean, density: 2600 kg/m^3, young: 50 MPa, poisson: 0.3}}
+bodies:
+  - {name: plate, box: {from: [2 mm, 2 mm], to: [42 mm, 42 mm]}, material: rubber, velocity: )" +
+                                 velocity + R"(}
+cracks: [{body: plate, line: [[14.3 mm, 22 mm], [30.4 mm, 22 mm]], law: frictionless}]
+)");
+  Step<2> step(scene);
+  auto& particles = step.state().particles;
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    particles.column(Quantity::velocity, 1)[p] += 60 * (particles.column(Quantity::position, 1)[p] - 22e-3);
+  double widest = 0;
+  while (step.state().time < 0.21e-3) {
+    step.advance(step.stable_dt());
+    const CrackLine<2>& line = step.cracks().lines()[0];
+    double sum = 0;
+    for (std::size_t k = 0; k < line.points.size(); ++k) sum += line.sides[0][k][1] - line.sides[1][k][1];
+    widest = std::max(widest, sum / static_cast<double>(line.points.size()));
+  }
+  return widest;
+}
+
+TEST_CASE(
+    "a crack opens as wide in flight as at rest, though its ends are looked for every quarter of a cell") {
+  const double rest = widest_in_flight("[0 m/s, 0 m/s]"), flight = widest_in_flight("[60 m/s, 21 m/s]");
+  CHECK(rest > 0.15e-3);
+  CHECK(flight ==
+        doctest::Approx(rest).epsilon(0.02).scale(0));  // measured 1.1 %; 0.8 % with a look every step
+}
+
 TEST_CASE("the steps of a cracked body are the same bits on any number of threads") {
   const auto end = [](int threads) {
     const Outcome out =

@@ -244,6 +244,7 @@ void Cracks<Dim>::visit(Archive& archive) {
     }
   }
   archive.number("cracks/drifted", drifted_);
+  archive.number("cracks/moved", moved_);
   visit_nodes(archive);
 }
 

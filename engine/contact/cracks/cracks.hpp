@@ -3,6 +3,7 @@
 /// @file Cracks: surfaces inside of bodies, as lines of points that move with them. On the nodes near, the
 /// particles of one body that lie on different sides of a crack have velocity fields of their own (NN §1.1).
 
+#include <algorithm>
 #include <array>
 #include <bitset>
 #include <cmath>
@@ -60,7 +61,8 @@ struct CrackedNode {
 /// The nodes on which particles have weight: from the first on, so many along each axis.
 template <int Dim>
 struct Supports {
-  std::function<NodeIndex<Dim>(std::size_t)> first;
+  /// (particle, way) → the first, if it were farther by the way along each axis, m
+  std::function<NodeIndex<Dim>(std::size_t, double)> first;
   int nodes = 0;
 };
 
@@ -91,11 +93,14 @@ class Cracks {
   const std::vector<CrackLine<Dim>>& lines() const { return lines_; }
   const CrackCounters& counters() const { return counters_; }
 
-  /// Is what was seen last out of date? Where nothing has moved by a hundred-thousandth of a cell since, a
-  /// particle may take a node for one of the side that it left by less.
-  bool look_due(double cell) const { return drifted_ >= 1e-5 * cell; }
+  /// Is what was seen last out of date? Particles do not change sides, and a look counts the nodes that they
+  /// come to soon: only at ends of cracks, and where a line bends, is it old by what has moved since. Sooner
+  /// at first: an end that lay on a node at the start is beside it once anything has moved.
+  bool look_due(double cell) const {
+    return drifted_ >= std::min(kDrift * cell, std::max(1e-5 * cell, 0.5 * moved_));
+  }
   /// Everything has moved by so much at most, m.
-  void drift(double way) { drifted_ += way; }
+  void drift(double way) { drifted_ += way, moved_ += way; }
 
   /// Finds what sides the particles see.
   Seen look(State<Dim>& state, const Supports<Dim>& supports);
@@ -154,10 +159,22 @@ class Cracks {
     int crack, way;  ///< +1: to its left
     Vec<Dim> normal;
   };
+  static constexpr double kDrift = 0.25;  ///< cells between looks
+  static constexpr double kAhead = 0.32;  ///< cells that a look leads: domains may grow beside what they move
+
+  /// The nodes on which a particle has weight until the next look: from the first on.
+  struct Reach {
+    NodeIndex<Dim> first, nodes;
+  };
+  static Reach reach_ahead(const Supports<Dim>& supports, std::size_t particle, double cell) {
+    const NodeIndex<Dim> first = supports.first(particle, -kAhead * cell);
+    return {first,
+            supports.first(particle, kAhead * cell) - first + NodeIndex<Dim>::Constant(supports.nodes)};
+  }
   /// What a particle sees of the nodes under its tile's window.
   struct Sides {
     std::uint32_t particle;
-    WindowBits<Dim> reach;                 ///< where it has weight
+    WindowBits<Dim> reach;                 ///< where it has weight, or soon
     std::array<WindowBits<Dim>, 2> right;  ///< of these, right of the node's first and second crack
   };
   /// Boxes in the plane, many of which are asked at once whether they overlap another.
@@ -195,6 +212,7 @@ class Cracks {
   void cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
              Room& room, std::vector<Crossed>& out) const;
   void list_nodes(const State<Dim>& state);
+  static std::array<WindowBits<Dim>, 2> uncrossed(const WindowNodes& under);
   Seen see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
   Seen list_sides(State<Dim>& state, const Supports<Dim>& supports);
 
@@ -214,6 +232,7 @@ class Cracks {
   std::vector<Room> rooms_;                            ///< of each thread
   CrackCounters counters_;
   double drifted_ = HUGE_VAL;  ///< by so much at most since the last look, m
+  double moved_ = 0;           ///< since the start
 };
 
 extern template class Cracks<2>;

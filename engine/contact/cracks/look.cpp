@@ -110,7 +110,6 @@ void Cracks<Dim>::list_around(const State<Dim>& state, const ParticleTile<Dim>& 
 template <int Dim>
 void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, const ParticleTile<Dim>& tile,
                         Room& room, std::vector<Crossed>& out) const {
-  const int n = supports.nodes, count = power(n, Dim);
   const double cell = state.grid.cell;
   list_around(state, tile, room.near);
   if (room.near.empty()) return;
@@ -119,19 +118,21 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
       const Vec<Dim> x = state.particles.vector(Quantity::position, p);
-      const NodeIndex<Dim> begin = supports.first(p);
-      const auto at = [&](int d, int k) { return state.grid.origin[d] + (begin[d] + k) * cell; };
+      const auto [begin, nodes] = reach_ahead(supports, p, cell);
+      const auto at = [&, first = begin](int d, int k) {
+        return state.grid.origin[d] + (first[d] + k) * cell;
+      };
       Point2 low, high;
       for (std::size_t d = 0; d < 2; ++d) {
         const int axis = static_cast<int>(d);
         low[d] = std::min(at(axis, 0), x[axis]);
-        high[d] = std::max(at(axis, n - 1), x[axis]);
+        high[d] = std::max(at(axis, nodes[axis] - 1), x[axis]);
       }
       room.boxes.list_overlapping(low, high, room.reached);
       if (room.reached.empty()) continue;
       Ways& ways = room.ways;
       ways.start(in_plane<Dim>(x));
-      for (int k = 0; k < count; ++k) ways.add({at(0, k % n), at(1, k / n % n)});
+      for (int k = 0; k < nodes.prod(); ++k) ways.add({at(0, k % nodes[0]), at(1, k / nodes[0] % nodes[1])});
       const std::size_t own = out.size();
       const Segment* before = nullptr;
       Ways::Bits left_of_from = 0, left_of_to = 0;
@@ -147,7 +148,7 @@ void Cracks<Dim>::cross(const State<Dim>& state, const Supports<Dim>& supports, 
         for (Ways::Bits crossed = (left_of_from ^ left_of_to) & other; crossed != 0; crossed &= crossed - 1) {
           const int bit = std::countr_zero(crossed), way = left >> bit & 1 ? 1 : -1;
           NodeIndex<Dim> node = begin;
-          for (int d = 0, rest = bit; d < Dim; ++d, rest /= n) node[d] += rest % n;
+          for (int d = 0, rest = bit; d < Dim; rest /= nodes[d++]) node[d] += rest % nodes[d];
           const auto known =
               std::find_if(out.begin() + static_cast<std::ptrdiff_t>(own), out.end(),
                            [&](const auto& one) { return one.node == node && one.crack == segment->crack; });
@@ -222,25 +223,16 @@ void Cracks<Dim>::list_nodes(const State<Dim>& state) {
 
 namespace {
 
-/// Of a window, the nodes that a map tells of, and which of them are right of a node's first and second
-/// crack.
+/// Of a window, the nodes that are right of their first and second crack, as a map tells.
 template <int Dim>
-struct Told {
-  WindowBits<Dim> known;
-  std::array<WindowBits<Dim>, 2> right;
-};
+using Told = std::array<WindowBits<Dim>, 2>;
 
 template <int Dim>
 Told<Dim> told_by(const SideMap<Dim>* map) {
-  Told<Dim> told;
-  if (!map) told.known.set();
-  for (std::size_t w = 0; map && w < map->side.size(); ++w) {
-    const int side = map->side[w];
-    if (side < 0) continue;
-    told.known.set(w);
-    for (std::size_t j = 0; j < 2; ++j) told.right[j][w] = side >> j & 1;
-  }
-  return told;
+  Told<Dim> right;
+  for (std::size_t w = 0; map && w < map->side.size(); ++w)
+    for (std::size_t j = 0; j < 2; ++j) right[j][w] = map->side[w] >> j & 1;
+  return right;
 }
 
 /// Number of a node in a window; −1: it is outside.
@@ -255,20 +247,31 @@ int place_in_window(const NodeIndex<Dim>& node, const ParticleTile<Dim>& tile) {
   return w;
 }
 
-/// The nodes of a window in a support of so many along each axis.
+/// Of the nodes from the first on, so many along each axis, those of a window.
 template <int Dim>
-WindowBits<Dim> reach_of(const NodeIndex<Dim>& first, int nodes, const ParticleTile<Dim>& tile) {
-  WindowBits<Dim> reach;
-  for (int k = 0; k < power(nodes, Dim); ++k) {
+WindowBits<Dim> reached_of(const NodeIndex<Dim>& first, const NodeIndex<Dim>& nodes,
+                           const ParticleTile<Dim>& tile) {
+  WindowBits<Dim> bits;
+  for (int k = 0; k < nodes.prod(); ++k) {
     NodeIndex<Dim> node = first;
-    for (int d = 0, rest = k; d < Dim; ++d, rest /= nodes) node[d] += rest % nodes;
+    for (int d = 0, rest = k; d < Dim; rest /= nodes[d++]) node[d] += rest % nodes[d];
     const int w = place_in_window(node, tile);
-    if (w >= 0) reach.set(static_cast<std::size_t>(w));
+    if (w >= 0) bits.set(static_cast<std::size_t>(w));
   }
-  return reach;
+  return bits;
 }
 
 }  // namespace
+
+/// The nodes right of their first and second crack: sides of what no way crosses to.
+template <int Dim>
+std::array<WindowBits<Dim>, 2> Cracks<Dim>::uncrossed(const WindowNodes& under) {
+  std::array<WindowBits<Dim>, 2> right;
+  for (std::size_t w = 0; w < under.size(); ++w)
+    for (std::size_t j = 0; under[w] && j < right.size(); ++j)
+      right[j][w] = under[w]->crack[j] >= 0 && !under[w]->is_left(static_cast<int>(j));
+  return right;
+}
 
 /// The sides that the particles of a tile see.
 template <int Dim>
@@ -279,28 +282,18 @@ Seen Cracks<Dim>::see(State<Dim>& state, const Supports<Dim>& supports, std::siz
   WindowNodes under;
   tile.cracked = find_under(tile, under);
   if (!tile.cracked && !map) return Seen::same;
-  std::array<WindowBits<Dim>, 2> right;  // of what no way crosses to
-  for (std::size_t w = 0; w < under.size(); ++w)
-    for (std::size_t j = 0; under[w] && j < right.size(); ++j)
-      right[j][w] = under[w]->crack[j] >= 0 && !under[w]->is_left(static_cast<int>(j));
-  const Told<Dim> told = told_by(map);
-  NodeIndex<Dim> corner;
-  for (int d = 0; d < Dim; ++d) corner[d] = tile.window[d];
-  const WindowBits<Dim> at_corner = reach_of(corner, supports.nodes, tile);
+  const Told<Dim> right = uncrossed(under), told = told_by(map);
   Seen seen = Seen::same;
   const Crossed *next = crossed_[t].data(), *end = next + crossed_[t].size();
   for (int r = tile.run_begin; r < tile.run_end; ++r) {
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
-      const NodeIndex<Dim> first = supports.first(p);
-      const int begin = place_in_window(first, tile),
-                last = place_in_window<Dim>(first + NodeIndex<Dim>::Constant(supports.nodes - 1), tile);
-      const bool inside = begin >= 0 && last >= 0;
-      if (!inside) seen = Seen::outside;
-      Sides sides{
-          p,
-          inside ? at_corner << static_cast<std::size_t>(begin) : reach_of(first, supports.nodes, tile),
-          {}};
+      const NodeIndex<Dim> first = supports.first(p, 0);
+      if (place_in_window(first, tile) < 0 ||
+          place_in_window<Dim>(first + NodeIndex<Dim>::Constant(supports.nodes - 1), tile) < 0)
+        seen = Seen::outside;
+      const Reach ahead = reach_ahead(supports, p, state.grid.cell);
+      Sides sides{p, reached_of(ahead.first, ahead.nodes, tile), {}};
       for (std::size_t j = 0; j < right.size(); ++j) sides.right[j] = right[j] & sides.reach;
       for (; next != end && next->particle == p; ++next) {
         const int w = place_in_window(next->node, tile);
@@ -308,7 +301,7 @@ Seen Cracks<Dim>::see(State<Dim>& state, const Supports<Dim>& supports, std::siz
           if (under[static_cast<std::size_t>(w)]->crack[j] == next->crack)
             sides.right[j][static_cast<std::size_t>(w)] = next->way > 0;
       }
-      const auto other = (sides.right[0] ^ told.right[0]) | (sides.right[1] ^ told.right[1]) | ~told.known;
+      const auto other = (sides.right[0] ^ told[0]) | (sides.right[1] ^ told[1]);
       if ((other & sides.reach).any()) seen = std::max(seen, Seen::parted);
       if ((sides.right[0] | sides.right[1]).any()) out.push_back(sides);
     }
@@ -346,18 +339,23 @@ void Cracks<Dim>::group(State<Dim>& state) {
   ++counters_.groupings;
   auto& tiling = state.tiling;
   tiling.start_groups();
-  std::vector<Told<Dim>> groups;
+  struct Group {
+    WindowBits<Dim> reach;
+    Told<Dim> right;
+  };
+  std::vector<Group> groups;
   std::vector<SideMap<Dim>> maps;
+  WindowNodes under;
   /// The first of the groups whose particles see the same sides as one does, or a new one.
   const auto group_in = [&](const Sides& sides) {
     std::size_t g = 0;
-    const auto fits = [&](const Told<Dim>& told) {
-      const auto other = (told.right[0] ^ sides.right[0]) | (told.right[1] ^ sides.right[1]);
-      return (other & told.known & sides.reach).none();
+    const auto fits = [&](const Group& group) {
+      const auto other = (group.right[0] ^ sides.right[0]) | (group.right[1] ^ sides.right[1]);
+      return (other & group.reach & sides.reach).none();
     };
     while (g < groups.size() && !fits(groups[g])) ++g;
     if (g == groups.size()) groups.emplace_back();
-    groups[g].known |= sides.reach;
+    groups[g].reach |= sides.reach;
     for (std::size_t j = 0; j < 2; ++j) groups[g].right[j] |= sides.right[j];
     return static_cast<int>(g);
   };
@@ -369,11 +367,16 @@ void Cracks<Dim>::group(State<Dim>& state) {
     if (groups.empty()) continue;
     if (groups.size() >= static_cast<std::size_t>(Tiling<Dim>::kMostGroups))
       throw RunFailure("too many cracks within a few cells");
+    find_under(tiling.tiles[first], under);
+    const Told<Dim> beyond = uncrossed(under);  // what none of a group reaches
     maps.resize(groups.size());
-    for (std::size_t g = 0; g < groups.size(); ++g)
-      for (std::size_t w = 0; w < maps[g].side.size(); ++w)
-        maps[g].side[w] = static_cast<std::int8_t>(
-            !groups[g].known[w] ? SideMap<Dim>::kNone : groups[g].right[0][w] + 2 * groups[g].right[1][w]);
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      const auto& [reach, right] = groups[g];
+      for (std::size_t w = 0; w < maps[g].side.size(); ++w) {
+        const Told<Dim>& told = reach[w] ? right : beyond;
+        maps[g].side[w] = static_cast<std::int8_t>(told[0][w] + 2 * told[1][w]);
+      }
+    }
     tiling.set_groups(tiling.tiles[first], maps);
   }
   tiling.regroup(state.particles, state.body_field);
