@@ -37,6 +37,12 @@ class Contact {
 
   /// Normals and separations of all entries: they hold for both corrections.
   void find_geometry(State<Dim>& state, ContactFitter<Dim>& basis);
+  /// The particles have been sorted: those that fits have kept have other numbers.
+  void follow(const Tiling<Dim>& tiling);
+  /// Particles have left: what fits have kept of them is void.
+  void forget_fits() { list_.fits.assign(list_.fits.size(), {}); }
+  /// Particles have moved with the velocities of the nodes.
+  void drift(const State<Dim>& state, double dt);
 
   /// On nodes where conditions prescribe components of the velocities contact acts along the others only.
   void leave_to(const Conditions<Dim>& conditions);
@@ -82,6 +88,7 @@ class Contact {
   void add_pairs(const ContactNode<Dim>& node);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
+  void visit_fits(Archive& archive);
   void remember();
   void recall(const State<Dim>& state);
   void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);
@@ -202,8 +209,7 @@ class Contact {
                              Correction correction, const Law& law, double area_time) const;
   bool may_part(const ContactNode<Dim>& node) const;
   bool is_bridged(const ContactNode<Dim>& node) const;
-  bool lasts(const ContactEntry<Dim>& entry) const;
-  double closing_of(const ContactEntry<Dim>& entry) const;
+  void judge(const ContactNode<Dim>& node);
   bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;
   bool holds_slip(const ContactEntry<Dim>& entry, Correction correction) const;
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
@@ -245,12 +251,14 @@ class Contact {
   bool geometry_;                ///< some law asks for normals and separations
   bool bridges_;                 ///< some law joins surfaces by springs
   bool bonds_;                   ///< some law joins them by bonds that break
+  bool keeps_fits_;              ///< normals outlast a step
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;        ///< of the entries
   std::vector<Together> together_;         ///< of each thread
   std::vector<Memory> memory_;             ///< of the last step, in order of the keys
   std::vector<Bridge<Dim>> last_bridges_;  ///< likewise
   std::vector<Bond<Dim>> last_bonds_;      ///< likewise
+  std::vector<KeptFit<Dim>> last_fits_;    ///< likewise
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

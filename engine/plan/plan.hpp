@@ -36,6 +36,7 @@ struct Plan {
   bool first_correction = true;   ///< contact is corrected before the strain too, not only after the momenta
   bool one_set = false;           ///< which pairs touch is decided once a step, for both corrections and v′
   bool contact_geometry = false;  ///< some law asks for normals and separations
+  bool keeps_fits = false;        ///< normals outlast a step
   bool bridges = false;           ///< some pair is joined by springs
   bool cracks_alone = false;      ///< contact is that of the sides of cracks: only what reaches them has any
   bool displacements = false;     ///< are projected with their slopes: for the jumps of interfaces and cracks

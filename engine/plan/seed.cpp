@@ -204,6 +204,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
       state.field_base[static_cast<std::size_t>(plan.first_side[f] + side)] = static_cast<int>(f);
   if (std::any_of(plan.sides.begin(), plan.sides.end(), [](int sides) { return sides > 0; }))
     state.tiling.set_sides(plan.first_side);
+  if (plan.keeps_fits) state.tiling.follow_moves();
   for (const auto& m : scene.materials)
     state.materials.push_back(make_material(m, scene.grid.cell, plan.heat));
 

@@ -82,6 +82,7 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   double of_node = sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + sizeof(ContactEntry<Dim>) + kMemory;
   const double ahead =
       static_cast<double>(ContactSlabs<Dim>::kNodesAThread) * static_cast<double>(state.threads);
+  if (scene.contact.refit > 0) of_node += 2 * sizeof(KeptFit<Dim>);
   if (choice.smooth) {
     of_node += sizeof(RawNormal<Dim>) + 4 * sizeof(double);
     const int shapes = choice.separate ? shape_size<Dim>(choice.extent) : 0;

@@ -123,6 +123,7 @@ void Step<Dim>::advance(double dt, bool stresses) {
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
+  contact_.drift(state_, dt);
   move_rigid_end(dt);
   if (cracks_.active()) cracks_.move(state_, dt);
   let_leave();

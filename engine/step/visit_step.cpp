@@ -46,6 +46,36 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
+/// Normals that outlast a step, and the particles that were foremost.
+template <int Dim>
+void Contact<Dim>::visit_fits(Archive& archive) {
+  if (!keeps_fits_) return;
+  list_.fits.resize(keys_.size());
+  constexpr std::size_t kWidth = 2 * Dim + 4;
+  std::vector<double> fits(kWidth * keys_.size());
+  const auto for_each_fit = [&](const auto& f) {
+    for (std::size_t k = 0; k < keys_.size(); ++k) f(list_.fits[k], fits.data() + kWidth * k);
+  };
+  for_each_fit([](const auto& fit, double* out) {
+    std::copy_n(fit.raw.data(), Dim, out);
+    std::copy_n(fit.normal.data(), Dim, out + Dim);
+    out += 2 * Dim;
+    *out++ = fit.foremost[0], *out++ = fit.foremost[1];
+    *out++ = fit.drift;
+    *out = fit.known + 2 * fit.touches + 4 * fit.doubted;
+  });
+  archive.column("contact/fits", fits.data(), fits.size());
+  for_each_fit([](auto& fit, const double* in) {
+    std::copy_n(in, Dim, fit.raw.data());
+    std::copy_n(in + Dim, Dim, fit.normal.data());
+    in += 2 * Dim;
+    for (auto& particle : fit.foremost) particle = static_cast<std::int32_t>(*in++);
+    fit.drift = *in++;
+    const int flags = static_cast<int>(*in);
+    fit.known = flags & 1, fit.touches = flags & 2, fit.doubted = flags & 4;
+  });
+}
+
 /// The next step asks the last one's entries for how they touch (bits: touching, stuck), their planes, how
 /// they are pressed alone (remember), their jumps and what is left of their bonds.
 template <int Dim>
@@ -102,6 +132,7 @@ void Contact<Dim>::visit(Archive& archive) {
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());
   archive.column("contact/planes", planes.data(), planes.size());
+  visit_fits(archive);
   for_each_entry([](auto& entry, std::uint8_t touch, double spring, const double* plane) {
     entry.spring = spring;
     entry.touching = touch & 1;
@@ -134,6 +165,8 @@ void Step<Dim>::visit(Archive& archive) {
   if (cracks_.active()) cracks_.mark(state_);
 }
 
+template void Contact<2>::visit_fits(Archive&);
+template void Contact<3>::visit_fits(Archive&);
 template void Contact<2>::visit(Archive&);
 template void Contact<3>::visit(Archive&);
 template void Step<2>::visit(Archive&);

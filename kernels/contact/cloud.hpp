@@ -25,6 +25,7 @@ template <int Dim>
 struct CloudColumns {
   const double* xi[Dim];           ///< relative to the node, cells
   const double* shape[Dim * Dim];  ///< of the domains, as their extent asks (domain_shape), cells; else null
+  const double* number;            ///< of the particles, where there are shapes; else null
   int count;
 
   CloudColumns part(int first, int particles) const {
@@ -32,6 +33,7 @@ struct CloudColumns {
     for (auto& column : c.xi) column += first;
     for (auto& column : c.shape)
       if (column) column += first;
+    if (number) c.number += first;
     c.count = particles;
     return c;
   }

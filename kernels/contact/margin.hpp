@@ -11,6 +11,7 @@
 
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
+#include "kernels/simd/foremost.hpp"
 
 namespace mpmfast {
 
@@ -23,44 +24,23 @@ struct Margin {
 
 namespace detail {
 
-/// The entry of each class that lies furthest along side · direction.
+/// The entry of each class that lies furthest along side · direction; −1: a class is empty.
 template <int Dim>
-struct Foremost {
-  int a = -1, b = -1;
+struct Support {
+  int a, b;
 
-  Foremost(const CloudView<Dim>& cloud, const Vec<Dim>& direction) {
-    const Lanes none = broadcast<Lanes>(-std::numeric_limits<double>::infinity());
-    Lanes best_a = none, best_b = none, at_a = broadcast<Lanes>(-1.0), at_b = at_a, at;
-    for (int i = 0; i < kLanes; ++i) at[i] = i;
+  Support(const CloudView<Dim>& cloud, const Vec<Dim>& direction) {
+    Foremost of_a, of_b;
     for (int k = 0; k < cloud.count; k += kLanes) {
       const Lanes side = load_lanes(cloud.side + k);
       Lanes s = load_lanes(cloud.xi[0] + k) * direction[0];
       for (int d = 1; d < Dim; ++d) s += load_lanes(cloud.xi[d] + k) * direction[d];
       s *= side;
-      const auto in_a = (side < 0.0) & (s > best_a), in_b = (side > 0.0) & (s > best_b);
-      best_a = in_a ? s : best_a;
-      at_a = in_a ? at : at_a;
-      best_b = in_b ? s : best_b;
-      at_b = in_b ? at : at_b;
-      at += static_cast<double>(kLanes);
+      of_a.take(s, side < 0.0);
+      of_b.take(s, side > 0.0);
     }
-    a = best_index(best_a, at_a);
-    b = best_index(best_b, at_b);
-  }
-
- private:
-  /// Which of the lanes' entries has the largest value.
-  static int best_index(Lanes value, Lanes at) {
-    if constexpr (kLanes > 4) choose<4>(value, at);
-    if constexpr (kLanes > 2) choose<2>(value, at);
-    choose<1>(value, at);
-    return static_cast<int>(at[0]);
-  }
-  template <int Distance>
-  static void choose(Lanes& value, Lanes& at) {
-    const Lanes other = swap_lanes<Distance>(value), other_at = swap_lanes<Distance>(at);
-    at = other > value ? other_at : at;
-    value = larger(value, other);
+    a = of_a.found().at;
+    b = of_b.found().at;
   }
 };
 
@@ -172,7 +152,7 @@ inline Margin<Dim> widest_margin(const CloudView<Dim>& cloud, const Vec<Dim>& gu
   detail::Simplex<Dim> simplex;
   Vec<Dim> v = -guess;  // from the hull of b to that of a
   while (result.iterations < kPasses) {
-    const detail::Foremost<Dim> foremost(cloud, v);
+    const detail::Support<Dim> foremost(cloud, v);
     ++result.iterations;
     if (foremost.a < 0 || foremost.b < 0) return result;
     const Vec<Dim> w = entry(foremost.a) - entry(foremost.b);

@@ -9,6 +9,7 @@
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/simd/foremost.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
@@ -76,22 +77,20 @@ inline V extent_along(const V (&shape)[shape_size<Dim>(E)], const Vec<Dim>& n) {
   }
 }
 
-/// How far the surface of some particles reaches along the unit vector n, max_p (ξ_p·n + R_p), cells; −∞ if
-/// there are none. Two surfaces a and b with n from a to b are d = −reach_b(−n) − reach_a(n) apart (N20
-/// Eq. 24).
+/// How far the surface of some particles reaches along the unit vector n, max_p (ξ_p·n + R_p), cells, and
+/// which of them does; −∞ if there are none. Two surfaces a and b with n from a to b are d = −reach_b(−n) −
+/// reach_a(n) apart (N20 Eq. 24).
 template <Extent E, int Dim>
-inline double reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n) {
-  const Lanes none = broadcast<Lanes>(-std::numeric_limits<double>::infinity());
-  Lanes furthest = none, index;
-  for (int i = 0; i < kLanes; ++i) index[i] = i;
+inline Foremost::Found reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n) {
+  Foremost furthest;
   for (int k = 0; k < particles.count; k += kLanes) {
     Lanes shape[shape_size<Dim>(E)];
     for (int e = 0; e < shape_size<Dim>(E); ++e) shape[e] = load_lanes(particles.shape[e] + k);
     Lanes ahead = extent_along<E, Dim>(shape, n);
     for (int d = 0; d < Dim; ++d) ahead += load_lanes(particles.xi[d] + k) * n[d];
-    furthest = larger(furthest, index < static_cast<double>(particles.count - k) ? ahead : none);
+    furthest.take(ahead, lanes_before(particles.count - k));
   }
-  return largest_of(furthest);
+  return furthest.found();
 }
 
 /// From the nodal mean positions e = (x − x_i)·n of each side, in cells: the surfaces are taken to touch

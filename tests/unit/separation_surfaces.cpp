@@ -66,7 +66,7 @@ double reach_of(const Cloud<Dim>& cloud, const std::vector<double>& radii, doubl
   };
   for (int d = 0; d < Dim; ++d) columns.xi[d] = finish(xi[d]);
   for (int e = 0; e < kShape; ++e) columns.shape[e] = finish(shape[e]);
-  return reach_along<Extent::radial>(columns, n);
+  return reach_along<Extent::radial>(columns, n).value;
 }
 
 template <int Dim>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace mpmfast {
@@ -183,6 +184,10 @@ void Contact<Dim>::recall(const State<Dim>& state) {
     last_bonds_.swap(list_.bonds);
     list_.bonds.assign(list_.entries.size(), {});
   }
+  if (keeps_fits_) {
+    last_fits_.swap(list_.fits);
+    list_.fits.assign(list_.entries.size(), {});
+  }
   const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
   auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (const auto& node : list_.nodes)
@@ -207,11 +212,36 @@ void Contact<Dim>::recall(const State<Dim>& state) {
         bond.before = before.way;
         bond.offset_before = before.offset;
       }
+      if (keeps_fits_) list_.fits[static_cast<std::size_t>(e)] = last_fits_[last->entry];
       entry.touched = last->touching;
       entry.stuck_before = last->stuck;
       entry.spring_before = last->spring;
       std::memcpy(entry.plane, last->plane, sizeof entry.plane);
     }
+}
+
+template <int Dim>
+void Contact<Dim>::follow(const Tiling<Dim>& tiling) {
+  for (KeptFit<Dim>& fit : list_.fits)
+    for (std::int32_t& particle : fit.foremost)
+      if (particle >= 0)
+        particle = static_cast<std::int32_t>(tiling.moved(static_cast<std::uint32_t>(particle)));
+}
+
+/// What the fields of an entry's node have moved by, which is what the particles around have.
+template <int Dim>
+void Contact<Dim>::drift(const State<Dim>& state, double dt) {
+  if (!keeps_fits_) return;
+  for (const auto& node : list_.nodes) {
+    double squared = 0;
+    for (int f = node.field_begin; f < node.field_end; ++f)
+      squared = std::max(
+          squared,
+          state.nodes.vector(Nodal::velocity, list_.fields[static_cast<std::size_t>(f)].slot).squaredNorm());
+    const double way = dt * std::sqrt(squared);
+    for (int e = node.entry_begin; e < node.entry_end; ++e)
+      list_.fits[static_cast<std::size_t>(e)].drift += way;
+  }
 }
 
 template class Contact<2>;

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/contact/nodal/kept_fit.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/contact/nodal/slabs.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
@@ -69,7 +70,9 @@ class ContactFit {
     for (auto& room : rooms_) {
       room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
       room.tally = {};
+      room.stack = -1;
     }
+    find_due(contact, spec.refit, state.grid.cell, due_);
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     slabs_.cut(state, contact, choice.smooth);
@@ -97,9 +100,10 @@ class ContactFit {
       room.clouds[at].begin = 0;
     }
     slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      if (!due_[k]) return reuse(state, choice, mean, node, contact);
       Room& room = own_room();
       CloudRoom<Dim>& clouds = room.clouds[at];
-      if (k == 0 || contact.nodes[k - 1].stack != node.stack) find_candidates(state, view, contact, k, room);
+      if (room.stack != node.stack) find_candidates(state, view, contact, k, room);
       collect(state.grid, contact, node, room.candidates, clouds);
       const auto cloud = clouds.columns(clouds.begin, clouds.count);
       const FieldRanges fields = ranges(node, cloud.count);
@@ -109,20 +113,43 @@ class ContactFit {
         const bool fell_back =
             fits && fit(choice, spec.warm_start, room.view(room.particles_of(cloud, fields, entry)), entry,
                         room.tally);
+        std::array<std::int32_t, 2> foremost{-1, -1};
         if (choice.separate)
-          entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry);
+          entry.separation = state.grid.cell * separation(choice.extent, cloud, fields, entry, foremost);
         const bool touches = fits && (!choice.separate || entry.separation < 0 || entry.touched);
         const bool doubted = touches && fell_back;
         room.tally.touching += touches;
         if (choice.smooth)
-          raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry, doubted);
+          raw_[static_cast<std::size_t>(e)] =
+              mean.raw(node, entry, entry.normal, entry.separation < 0, doubted);
         else
           room.tally.doubtful += doubted;
+        if (!contact.fits.empty()) {
+          const bool known = !choice.separate || (foremost[0] >= 0 && foremost[1] >= 0);
+          contact.fits[static_cast<std::size_t>(e)] = {entry.normal, entry.normal,         foremost, 0,
+                                                       known,        entry.separation < 0, doubted};
+        }
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
       clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
     });
+  }
+
+  /// The normal and the foremost particles of the last fit.
+  void reuse(const State<Dim>& state, const FitChoice& choice, const NormalMean<Dim>& mean,
+             const ContactNode<Dim>& node, ContactList<Dim>& contact) {
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      auto& entry = contact.entries[static_cast<std::size_t>(e)];
+      const KeptFit<Dim>& fit = contact.fits[static_cast<std::size_t>(e)];
+      entry.normal = fit.normal;
+      if (choice.separate)
+        with_extent(choice.extent, [&]<Extent E>() {
+          entry.separation = state.grid.cell * kept_separation<E>(state, node.node, fit);
+        });
+      if (choice.smooth)
+        raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry, fit.raw, fit.touches, fit.doubted);
+    }
   }
 
   Room& own_room() { return rooms_[static_cast<std::size_t>(omp_get_thread_num())]; }
@@ -139,7 +166,8 @@ class ContactFit {
 
   /// What one thread works in.
   struct Room {
-    Candidates<Dim> candidates;          ///< of the stack in hand
+    int stack;                           ///< in hand; −1: none
+    Candidates<Dim> candidates;          ///< near it
     std::vector<CloudRoom<Dim>> clouds;  ///< of the slabs that are kept at once
     CloudRoom<Dim> pair;
     std::vector<double> side;    ///< classes of the particles in hand
@@ -192,32 +220,41 @@ class ContactFit {
     }
   };
 
-  /// N20 Eq. 24, cells; infinite if a class is empty.
-  static double separation(Extent extent, const CloudColumns<Dim>& cloud, const FieldRanges& fields,
-                           const ContactEntry<Dim>& entry) {
+  template <class F>
+  static void with_extent(Extent extent, F f) {
     switch (extent) {
       case Extent::radial:
-        return separation<Extent::radial>(cloud, fields, entry);
+        return f.template operator()<Extent::radial>();
       case Extent::ellipsoid:
-        return separation<Extent::ellipsoid>(cloud, fields, entry);
+        return f.template operator()<Extent::ellipsoid>();
       case Extent::parallelepiped:
-        return separation<Extent::parallelepiped>(cloud, fields, entry);
+        return f.template operator()<Extent::parallelepiped>();
     }
-    return 0;
   }
 
-  template <Extent E>
-  static double separation(const CloudColumns<Dim>& cloud, const FieldRanges& fields,
-                           const ContactEntry<Dim>& entry) {
-    const Vec<Dim> ahead = entry.normal, back = -entry.normal;
-    const auto part = [&](std::pair<int, int> range) {
-      return cloud.part(range.first, range.second - range.first);
-    };
-    const auto own = fields(entry.a);
-    const double front = reach_along<E>(part(own), ahead);
-    if (entry.b >= 0) return -front - reach_along<E>(part(fields(entry.b)), back);
-    return -front - std::max(reach_along<E>(part({0, own.first}), back),
-                             reach_along<E>(part({own.second, cloud.count}), back));
+  /// N20 Eq. 24, cells; infinite if a class is empty.
+  /// @param foremost  particles: of a along the normal, of the rest against it; −1: none
+  static double separation(Extent extent, const CloudColumns<Dim>& cloud, const FieldRanges& fields,
+                           const ContactEntry<Dim>& entry, std::array<std::int32_t, 2>& foremost) {
+    double apart = 0;
+    with_extent(extent, [&]<Extent E>() {
+      const auto reach = [&](std::pair<int, int> range, const Vec<Dim>& n) {
+        const auto part = cloud.part(range.first, range.second - range.first);
+        Foremost::Found found = reach_along<E>(part, n);
+        if (found.at >= 0) found.at = static_cast<int>(part.number[found.at]);
+        return found;
+      };
+      const Vec<Dim> back = -entry.normal;
+      const auto own = fields(entry.a);
+      const auto front = reach(own, entry.normal);
+      auto rest = entry.b >= 0 ? reach(fields(entry.b), back) : reach({0, own.first}, back);
+      if (entry.b < 0)
+        if (const auto behind = reach({own.second, cloud.count}, back); behind.value > rest.value)
+          rest = behind;
+      apart = -front.value - rest.value;
+      foremost = {front.at, rest.at};
+    });
+    return apart;
   }
 
   /// Where the cloud of a node was left.
@@ -226,14 +263,14 @@ class ContactFit {
     std::size_t begin;
   };
 
-  /// Particles near the contact nodes of a stack, whose first one is given.
-  static void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
-                              const ContactList<Dim>& contact, std::size_t first, Room& room) {
+  /// Particles near the contact nodes of a stack that are due, whose first one is given.
+  void find_candidates(const State<Dim>& state, const ParticleView<Dim>& view,
+                       const ContactList<Dim>& contact, std::size_t first, Room& room) {
     const auto& tiling = state.tiling;
-    const int s = contact.nodes[first].stack;
+    const int s = room.stack = contact.nodes[first].stack;
     NodeBox<Dim> box{contact.nodes[first].node, contact.nodes[first].node};
     for (std::size_t k = first; k < contact.nodes.size() && contact.nodes[k].stack == s; ++k)
-      for (int d = 0; d < Dim; ++d) {
+      for (int d = 0; due_[k] && d < Dim; ++d) {
         box.low[d] = std::min(box.low[d], contact.nodes[k].node[d]);
         box.high[d] = std::max(box.high[d], contact.nodes[k].node[d]);
       }
@@ -319,6 +356,7 @@ class ContactFit {
               ContactList<Dim>& contact) {
     const std::size_t at = slab % slabs_.at_once();
     slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
+      if (!due_[k]) return;
       Room& room = own_room();
       const Kept& kept = kept_[k];
       const auto cloud =
@@ -331,9 +369,11 @@ class ContactFit {
         room.tally.doubtful += raw.doubted && !is_borne_out(raw, sum);
         const double length = sum.norm();
         if (length > 0 && !entry.settled) entry.normal = sum / length;
+        KeptFit<Dim> none, &fit = contact.fits.empty() ? none : contact.fits[static_cast<std::size_t>(e)];
+        fit.normal = entry.normal;
         if (choice.separate)
-          entry.separation =
-              state.grid.cell * separation(choice.extent, cloud, ranges(node, cloud.count), entry);
+          entry.separation = state.grid.cell *
+                             separation(choice.extent, cloud, ranges(node, cloud.count), entry, fit.foremost);
       }
     });
   }
@@ -354,6 +394,7 @@ class ContactFit {
   std::vector<Room> rooms_;
   std::vector<RawNormal<Dim>> raw_;
   std::vector<Kept> kept_;
+  std::vector<std::uint8_t> due_;  ///< by contact node: it is fitted in this step
   ContactSlabs<Dim> slabs_;
   std::vector<int> first_;  ///< as ContactList::fields: where its particles begin in their cloud
 };

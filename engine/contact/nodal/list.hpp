@@ -2,6 +2,7 @@
 
 /// @file The nodes where velocity fields meet, and what is known of the contact there.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,11 +25,13 @@ struct ContactEntry {
   Vec<Dim> normal;            ///< unit, from a to the rest; zero: unknown, no contact
   double separation = 0;      ///< m, negative: overlap
   double advanced = 0;        ///< the separation that a correction judges by, m
+  double closing = 0;         ///< the approach that closes its gap by the end of the step, m/s
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
   bool settled = false;       ///< the normal is found: no regression
   bool beyond = false;        ///< both are on the right of another crack of the node
   std::int16_t crack = -1;    ///< whose sides they are
   bool touched = false;       ///< in contact at the end of the last step
+  bool lasts = false;         ///< it stays in contact until a force pulls it apart
   bool held = false;          ///< by the first correction
   bool touching = false;      ///< in contact at the second correction
   bool stuck = false;         ///< the second correction leaves no slip
@@ -45,6 +48,17 @@ struct ContactEntry {
   Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_pulled = Vec<Dim>::Zero(),
            slip_end = Vec<Dim>::Zero();
   Vec<Dim> passed = Vec<Dim>::Zero();  ///< Δp_a that the second counts as a force, beside its own
+};
+
+/// What a fit leaves to the steps after it, while hardly anything near has moved (ContactSpec::refit).
+template <int Dim>
+struct KeptFit {
+  Vec<Dim> raw = Vec<Dim>::Zero();               ///< normal of the node's own cloud
+  Vec<Dim> normal = Vec<Dim>::Zero();            ///< the mean over the nodes around, where that is asked for
+  std::array<std::int32_t, 2> foremost{-1, -1};  ///< particles: of a furthest along the normal, of b back
+  double drift = 0;                              ///< the fields have moved by so much at most since, m
+  bool known = false;
+  bool touches = false, doubted = false;  ///< as RawNormal
 };
 
 /// What springs do at an entry whose law joins surfaces by them.
@@ -123,6 +137,7 @@ struct ContactList {
   std::vector<ContactEntry<Dim>> entries;
   std::vector<Bridge<Dim>> bridges;  ///< as `entries`; none where no law has springs
   std::vector<Bond<Dim>> bonds;      ///< as `entries`; none where no law breaks
+  std::vector<KeptFit<Dim>> fits;    ///< as `entries`; none where each step fits anew
   std::vector<int> node_at;          ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };

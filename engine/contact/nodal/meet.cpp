@@ -128,15 +128,21 @@ double Contact<Dim>::area(const State<Dim>& state, const ContactNode<Dim>& node,
   return std::max(0.0, std::min(own, rest));
 }
 
-/// Does the pair stay in contact until a force pulls it apart? Held by its velocities, a surface drifts from
+/// Which pairs last, and what closes their gaps.
+///
+/// A pair stays in contact until a force pulls it apart. Held by its velocities, a surface drifts from
 /// where the particles' extents say that it is; to close such a gap δ against N would lose N δ, time and
 /// again. A gap that would not close if the pair were let go is none of this kind: that pair carries a load
 /// where bodies do not touch (beside a round contact, at the ends of a sliding block).
 template <int Dim>
-bool Contact<Dim>::lasts(const ContactEntry<Dim>& entry) const {
+void Contact<Dim>::judge(const ContactNode<Dim>& node) {
   constexpr double kLeast = 0.05, kMost = 0.3;  // cells
-  return one_set_ && entry.touched &&
-         entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    entry.lasts = one_set_ && entry.touched &&
+                  entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
+    entry.closing = entry.lasts ? 0 : std::max(0.0, entry.separation) / dt_;
+  }
 }
 
 /// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),
@@ -159,16 +165,10 @@ double Contact<Dim>::spring_of(const State<Dim>& state, const ContactNode<Dim>& 
   return entry.touched ? entry.spring_before + kNew * (now - entry.spring_before) : now;
 }
 
-/// The approach that closes a gap by the end of the step, m/s: an impulse of the set leaves it.
-template <int Dim>
-double Contact<Dim>::closing_of(const ContactEntry<Dim>& entry) const {
-  return lasts(entry) ? 0 : std::max(0.0, entry.separation) / dt_;
-}
-
 /// Is the pair held whichever way it goes?
 template <int Dim>
 bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correction) const {
-  return correction != Correction::final && lasts(entry);
+  return correction != Correction::final && entry.lasts;
 }
 
 /// Is the slip of the pair held where friction is no force: has it stuck at the last step's second
@@ -177,7 +177,7 @@ bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correcti
 template <int Dim>
 bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correction) const {
   if (!holds_sticking_) return false;
-  return correction == Correction::initial  ? lasts(entry) && entry.stuck_before
+  return correction == Correction::initial  ? entry.lasts && entry.stuck_before
          : correction == Correction::strain ? entry.stuck
                                             : false;
 }
@@ -192,7 +192,7 @@ bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& n
   const double mass = state.nodes.column(Nodal::mass)[slot];
   if (entry.impulse.dot(entry.normal) < -least * mass) return true;
   if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
-  return closing_of(entry) - slip_of(state, node, entry).dot(entry.normal) <= least;
+  return entry.closing - slip_of(state, node, entry).dot(entry.normal) <= least;
 }
 
 /// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within
@@ -203,7 +203,7 @@ bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& n
 /// @param normal  the impulse
 template <int Dim>
 double Contact<Dim>::force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const {
-  const double closing = closing_of(entry);
+  const double closing = entry.closing;
   if (!one_set_ || first_correction_stays_ || !entry.alone || !(normal < 0) || !(closing > 0)) return normal;
   const double before = -entry.slip_start.dot(entry.normal), held = -entry.slip_held.dot(entry.normal);
   const double forces = meeting.stick.dot(entry.normal) / meeting.reduced - held;

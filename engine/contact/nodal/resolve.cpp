@@ -50,7 +50,8 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& c
       first_correction_stays_(plan.first_correction_stays),
       first_share_(plan.first_share),
       geometry_(plan.contact_geometry),
-      bridges_(plan.bridges) {
+      bridges_(plan.bridges),
+      keeps_fits_(plan.keeps_fits) {
   together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   laws_.push_back(law_on(spec_.law, scene));
   for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
@@ -82,6 +83,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     if (bridges_ && correction == Correction::final) bridge(state, dt, node);
     see_slips(state, correction, node);
+    judge(node);
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
       outcome = resolve_pairs(state, correction, dt, node);
@@ -175,12 +177,12 @@ Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const M
   if constexpr (Law::scope == LawScope::bonded)
     if (entry.separation < law.longest_gap() && law.holds({-along, needed, meeting.reduced, area_time}))
       return {meeting.stick, Hinders::slip};
-  const bool last = lasts(entry), closes = separation < 0 || last;
+  const bool last = entry.lasts, closes = separation < 0 || last;
   if (correction == Correction::initial ? !closes
       : correction == Correction::final ? !closes && !entry.held
                                         : !entry.touching)
     return {Vec<Dim>::Zero(), Hinders::nothing};
-  const double normal = along + meeting.reduced * closing_of(entry);
+  const double normal = along + meeting.reduced * entry.closing;
   if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
   // Friction that slides is a force of the second correction: what is held for the strain alone must be a
   // projection.
@@ -252,7 +254,7 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
     entry.advanced = separation_of(entry, meeting, dt);
     with_law(laws, node, entry, [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
-      const bool in_set = one_set_ && (lasts(entry) || entry.held || entry.touching);
+      const bool in_set = one_set_ && (entry.lasts || entry.held || entry.touching);
       const bool apart = !(entry.advanced < 0) && !in_set;
       if (Law::scope == LawScope::nowhere || Law::scope == LawScope::bridged) return;
       if (Law::scope == LawScope::contact && apart) return;
@@ -262,7 +264,7 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
       if (!one_set_) return;
       auto& contact = solver.contacts.back();
-      contact.closing = closing_of(entry);
+      contact.closing = entry.closing;
       contact.both_ways = both_ways(entry, correction);
     });
   }

@@ -75,10 +75,11 @@ class NormalMean {
     return places;
   }
 
-  RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, bool doubted) const {
+  RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, const Vec<Dim>& normal,
+                     bool touches, bool doubted) const {
     const double w = pairs_ ? weight(node, entry.a, entry.b) : weight(node, entry.a);
     const int a = field(node, entry.a), b = entry.b < 0 ? 0 : field(node, entry.b) + 1;
-    return {w * entry.normal, entry.separation < 0, doubted, a, a * (state_.fields() + 1) + b};
+    return {w * normal, touches, doubted, a, a * (state_.fields() + 1) + b};
   }
 
   /// Sums of the entries of a node over the touching ones of the nodes around and this one, weighted by the

@@ -47,7 +47,7 @@ void describe_normal(Keys& map, int dimension, ContactSpec& contact) {
 }
 
 void describe_regression(Keys& map, ContactSpec& contact) {
-  constexpr Limit kTolerance{"in (0, 1)", 0, 1, true, true};
+  constexpr Limit kTolerance{"in (0, 1)", 0, 1, true, true}, kHalf{"in [0, 0.5]", 0, 0.5, false, false};
   map.key("penalty", "Regression: holds the plane back, in units of the cell.", contact.penalty,
           Number{Measure::number, kNotNegative});
   map.key("offset_penalty", "The same for the plane's offset.", contact.offset_penalty,
@@ -56,6 +56,8 @@ void describe_regression(Keys& map, ContactSpec& contact) {
           Number{Measure::number, kTolerance});
   map.key("max_iterations", "Regression: at most so many passes.", contact.max_iterations, Whole{1, 1000});
   map.key("warm_start", "A regression starts from the plane of the last step.", contact.warm_start);
+  map.key("refit", "Cells that what is near may move before a node's normal is found anew; 0: in every step.",
+          contact.refit, Number{Measure::number, kHalf});
 }
 
 /// Which nodes and pairs touch.

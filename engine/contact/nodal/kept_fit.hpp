@@ -1,0 +1,68 @@
+#pragma once
+
+/// @file Which nodes are fitted anew, and the separations of the others: a normal hardly turns while what is
+/// near moves by a few hundredths of a cell, and the same particles lie foremost.
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "engine/contact/nodal/list.hpp"
+#include "engine/state/state.hpp"
+#include "kernels/contact/separation.hpp"
+
+namespace mpmfast {
+
+/// Marks the contact nodes that are to be fitted anew: where fields have moved by `refit` cells since, where
+/// an entry is new, and beside one of these what will be due soon, since the particles near a stack are
+/// gathered together.
+template <int Dim>
+void find_due(const ContactList<Dim>& contact, double refit, double cell, std::vector<std::uint8_t>& due) {
+  due.assign(contact.nodes.size(), true);
+  if (contact.fits.empty()) return;
+  const auto drift_of = [&](const ContactNode<Dim>& node) {
+    double most = 0;
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      const bool kept = contact.fits[at].known && !contact.entries[at].settled;
+      most = std::max(most, kept ? contact.fits[at].drift : kInfinity);
+    }
+    return most;
+  };
+  for (std::size_t begin = 0, end = 0; begin < contact.nodes.size(); begin = end) {
+    bool any = false;
+    for (; end < contact.nodes.size() && contact.nodes[end].stack == contact.nodes[begin].stack; ++end)
+      any |= drift_of(contact.nodes[end]) >= refit * cell;
+    for (std::size_t k = begin; k < end; ++k)
+      due[k] = any && drift_of(contact.nodes[k]) >= 0.5 * refit * cell;
+  }
+}
+
+/// How far one particle reaches from a node along the unit vector n, cells (reach_along).
+template <Extent E, int Dim>
+double reach_of(const State<Dim>& state, std::size_t p, const NodeIndex<Dim>& node, const Vec<Dim>& n) {
+  const auto& particles = state.particles;
+  const auto& half_size = state.bodies[static_cast<std::size_t>(particles.body()[p])].half_size;
+  double edges[Dim * Dim], shape[shape_size<Dim>(E)], ahead = 0;
+  for (int e = 0; e < Dim * Dim; ++e)
+    edges[e] = particles.column(Quantity::deformation_gradient, e)[p] *
+               (half_size[e % Dim] * state.grid.inverse_cell);
+  domain_shape<E, Dim>(edges, shape);
+  for (int d = 0; d < Dim; ++d)
+    ahead += ((particles.column(Quantity::position, d)[p] - state.grid.origin[d]) * state.grid.inverse_cell -
+              node[d]) *
+             n[d];
+  return ahead + extent_along<E, Dim>(shape, n);
+}
+
+/// The separation by the particles that lay foremost when the normal was found, cells.
+template <Extent E, int Dim>
+double kept_separation(const State<Dim>& state, const NodeIndex<Dim>& node, const KeptFit<Dim>& fit) {
+  const auto reach = [&](int side, const Vec<Dim>& n) {
+    return reach_of<E, Dim>(state, static_cast<std::size_t>(fit.foremost[static_cast<std::size_t>(side)]),
+                            node, n);
+  };
+  return -reach(0, fit.normal) - reach(1, -fit.normal);
+}
+
+}  // namespace mpmfast
