@@ -43,7 +43,7 @@ void Step<Dim>::look_at_cracks(bool sorted) {
     clock_.time(Pass::sort, [&] { cracks_.group(state_); });
     number_slots();
   }
-  if (seen != Seen::same || sorted) cracks_.mark(state_);
+  cracks_.mark(state_, supports);
 }
 
 /// What follows from slots that have been numbered anew.

@@ -162,7 +162,7 @@ void Step<Dim>::visit(Archive& archive) {
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
   penalty_.forget_tiles();
-  if (cracks_.active()) cracks_.mark(state_);
+  if (cracks_.active()) cracks_.mark(state_, passes_->supports(state_));
 }
 
 template void Contact<2>::visit_fits(Archive&);

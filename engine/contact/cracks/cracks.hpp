@@ -108,9 +108,9 @@ class Cracks {
   /// Groups the particles that see the same sides, and numbers the slots anew.
   void group(State<Dim>& state);
 
-  /// Marks the tiles that reach nodes which cracks part (ParticleTile::cracked), as `look` does, once tiles
-  /// are others.
-  void mark(State<Dim>& state) const;
+  /// Marks the tiles that reach nodes which cracks part, or soon will (ParticleTile::cracked), once tiles are
+  /// others: they alone bring what tells the sides apart.
+  void mark(State<Dim>& state, const Supports<Dim>& supports) const;
 
   /// Which crack parts two fields of a node, and its unit normal from the first to the second.
   struct Parting {
@@ -213,7 +213,8 @@ class Cracks {
              Room& room, std::vector<Crossed>& out) const;
   void list_nodes(const State<Dim>& state);
   static std::array<WindowBits<Dim>, 2> uncrossed(const WindowNodes& under);
-  Seen see(State<Dim>& state, const Supports<Dim>& supports, std::size_t tile, std::vector<Sides>& out) const;
+  Seen see(const State<Dim>& state, const Supports<Dim>& supports, std::size_t tile,
+           std::vector<Sides>& out) const;
   Seen list_sides(State<Dim>& state, const Supports<Dim>& supports);
 
   const Scene* scene_;

@@ -275,13 +275,12 @@ std::array<WindowBits<Dim>, 2> Cracks<Dim>::uncrossed(const WindowNodes& under) 
 
 /// The sides that the particles of a tile see.
 template <int Dim>
-Seen Cracks<Dim>::see(State<Dim>& state, const Supports<Dim>& supports, std::size_t t,
+Seen Cracks<Dim>::see(const State<Dim>& state, const Supports<Dim>& supports, std::size_t t,
                       std::vector<Sides>& out) const {
-  auto& tile = state.tiling.tiles[t];
+  const auto& tile = state.tiling.tiles[t];
   const SideMap<Dim>* map = state.tiling.sides_of(t);
   WindowNodes under;
-  tile.cracked = find_under(tile, under);
-  if (!tile.cracked && !map) return Seen::same;
+  if (!find_under(tile, under) && !map) return Seen::same;
   const Told<Dim> right = uncrossed(under), told = told_by(map);
   Seen seen = Seen::same;
   const Crossed *next = crossed_[t].data(), *end = next + crossed_[t].size();
@@ -383,9 +382,24 @@ void Cracks<Dim>::group(State<Dim>& state) {
 }
 
 template <int Dim>
-void Cracks<Dim>::mark(State<Dim>& state) const {
-  WindowNodes seen;
-  for (auto& tile : state.tiling.tiles) tile.cracked = find_under(tile, seen);
+void Cracks<Dim>::mark(State<Dim>& state, const Supports<Dim>& supports) const {
+  auto& tiling = state.tiling;
+  const auto tiles = static_cast<std::int64_t>(tiling.tiles.size());
+#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8)
+  for (std::int64_t t = 0; t < tiles; ++t) {
+    auto& tile = tiling.tiles[static_cast<std::size_t>(t)];
+    WindowNodes under;
+    tile.cracked = false;
+    if (!find_under(tile, under)) continue;
+    WindowBits<Dim> cracked;
+    for (std::size_t w = 0; w < under.size(); ++w) cracked[w] = under[w] != nullptr;
+    const std::uint32_t begin = tiling.runs[static_cast<std::size_t>(tile.run_begin)].begin,
+                        end = tiling.runs[static_cast<std::size_t>(tile.run_end - 1)].end;
+    for (std::uint32_t p = begin; p < end && !tile.cracked; ++p) {
+      const Reach ahead = reach_ahead(supports, p, state.grid.cell);
+      tile.cracked = (reached_of(ahead.first, ahead.nodes, tile) & cracked).any();
+    }
+  }
 }
 
 // Here: the members that this file defines.
