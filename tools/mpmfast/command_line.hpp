@@ -29,6 +29,8 @@ struct CommandLine {
   std::string x_label, y_label;      ///< of a plot, without units; empty if not given
   int threads = 0;
   int jobs = 1;
+  std::vector<std::string> launcher;  ///< of a study: its words
+  int restarts = 2;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;
