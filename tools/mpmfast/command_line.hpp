@@ -29,15 +29,15 @@ struct CommandLine {
   std::string x_label, y_label;      ///< of a plot, without units; empty if not given
   int threads = 0;
   int jobs = 1;
-  std::vector<std::string> launcher;  ///< of a study: its words
-  int restarts = 2;
   std::uint64_t steps = std::numeric_limits<std::uint64_t>::max();
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;
   bool force = false;
-  bool markdown = false;  ///< the reference page in place of the schema
-  bool verbose = false;   ///< of a check: all bodies, passes and columns
-  std::string text;       ///< the whole command, quoted for a shell
+  bool markdown = false;              ///< the reference page in place of the schema
+  bool verbose = false;               ///< of a check: all bodies, passes and columns
+  std::vector<std::string> launcher;  ///< of a study: its words
+  int restarts = 2;                   ///< of a run that it loses
+  std::string text;                   ///< the whole command, quoted for a shell
 
   std::vector<Override> overrides() const;
 };
