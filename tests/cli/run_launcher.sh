@@ -32,7 +32,7 @@ chmod +x lose
 write_study() {
   cat >scene_study.yaml <<'STUDY'
 scene: scene.yaml
-set: {time.end: 20 us}
+set: {time.end: 20 us, output.picture: none}
 variants:
   - {name: quiet}
   - {name: refused, set: {time.cfl: 0.2}}
