@@ -26,7 +26,8 @@ namespace {
 
 /// The option values as text; our own checks give messages that people can read.
 struct RawOptions {
-  std::string scene, out, topic, like, threads, jobs, steps, until, title, x = "time_s", progress = "auto";
+  std::string scene, out, topic, like, threads, jobs, launcher, restarts, steps, until, title,
+      x = "time_s", progress = "auto";
   std::string frame, range, x_label, y_label;
   std::vector<std::string> set, folders, columns, fields, labels;
   bool force = false, markdown = false, verbose = false;
@@ -77,8 +78,21 @@ void add_study_options(CLI::App& command, RawOptions& raw) {
   add_progress(command, raw);
   command
       .add_option("--jobs", raw.jobs,
-                  "Runs side by side, a thread each (default 1; more spoil the wall times of a chart)")
+                  "Runs side by side, here a thread each (default 1; more spoil the wall times of a chart)")
       ->check(CLI::Validator(check_jobs, ""))
+      ->type_name("N");
+  CLI::Option* launcher =
+      command
+          .add_option("--launcher", raw.launcher,
+                      "Start each run by this command, such as \"srun -n1 -c{threads} -J {name}\"; a run "
+                      "has 1 thread if --threads is not given")
+          ->check(CLI::Validator(check_launcher, ""))
+          ->type_name("COMMAND");
+  command
+      .add_option("--restarts", raw.restarts,
+                  "How often a run that the launcher loses is started again; 2 if not given")
+      ->check(CLI::Validator(check_restarts, ""))
+      ->needs(launcher)
       ->type_name("N");
   command.add_flag("--force", raw.force, "Run also what has ended already");
 }
@@ -247,6 +261,8 @@ CommandLine make_line(const Commands& commands, const RawOptions& raw) {
   line.markdown = raw.markdown;
   if (!raw.threads.empty()) read_whole(raw.threads, line.threads);
   if (!raw.jobs.empty()) read_whole(raw.jobs, line.jobs);
+  if (!raw.launcher.empty()) line.launcher = *shell_words(raw.launcher);
+  if (!raw.restarts.empty()) read_whole(raw.restarts, line.restarts);
   if (!raw.steps.empty()) read_whole(raw.steps, line.steps);
   if (!raw.until.empty()) line.until = std::get<double>(parse_quantity(raw.until, Measure::time));
   if (raw.progress == "plain") line.progress = ProgressStyle::plain;

@@ -33,9 +33,11 @@ struct CommandLine {
   double until = std::numeric_limits<double>::infinity();  ///< s
   ProgressStyle progress = ProgressStyle::automatic;
   bool force = false;
-  bool markdown = false;  ///< the reference page in place of the schema
-  bool verbose = false;   ///< of a check: all bodies, passes and columns
-  std::string text;       ///< the whole command, quoted for a shell
+  bool markdown = false;              ///< the reference page in place of the schema
+  bool verbose = false;               ///< of a check: all bodies, passes and columns
+  std::vector<std::string> launcher;  ///< of a study: its words
+  int restarts = 2;                   ///< of a run that it loses
+  std::string text;                   ///< the whole command, quoted for a shell
 
   std::vector<Override> overrides() const;
 };

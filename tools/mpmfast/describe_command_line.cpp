@@ -67,10 +67,10 @@ the command line or the scene is wrong; nothing was written
 the run failed; the message says step, time, particle, body, place and cause, and what there was is kept
 .TP
 4
-a file could not be read or written
+a file could not be read or written, or a launcher lost runs of a study
 .TP
-129, 130, 143
-stopped by SIGHUP, SIGINT or SIGTERM after a step; \fBmpmfast resume\fR goes on
+129, 130, 138, 143
+stopped by SIGHUP, SIGINT, SIGUSR1 or SIGTERM after a step; \fBmpmfast resume\fR goes on
 .SH FILES
 An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.json\fR (figures and warnings),
 \fIhistory.csv\fR, \fIparticles.pvd\fR (opens in ParaView), \fIcheckpoint.h5\fR and pictures.

@@ -6,6 +6,8 @@
 
 #include "engine/quantities/quantity.hpp"
 #include "engine/run/threads.hpp"
+#include "shell_text.hpp"
+#include "tools/study/launcher.hpp"
 
 namespace mpmfast {
 
@@ -26,6 +28,18 @@ std::string check_jobs(std::string& text) {
   int value = 0;
   if (read_whole(text, value) && value >= 1 && value <= kMostThreads) return "";
   return fmt::format("not a number of runs (1 to {}), got '{}'", kMostThreads, text);
+}
+
+std::string check_launcher(std::string& text) {
+  const auto words = shell_words(text);
+  const std::string mistake = words ? launcher_mistake(*words) : "a quote is not closed";
+  return mistake.empty() ? "" : fmt::format("{}, got '{}'", mistake, text);
+}
+
+std::string check_restarts(std::string& text) {
+  int value = 0;
+  if (read_whole(text, value) && value >= 0) return "";
+  return fmt::format("not a number of restarts (0 or more), got '{}'", text);
 }
 
 std::string check_steps(std::string& text) {

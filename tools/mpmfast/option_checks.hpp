@@ -18,6 +18,8 @@ bool read_whole(const std::string& text, Number& out) {
 // CLI11 wants a text that a check might change; ours do not.
 std::string check_threads(std::string& text);
 std::string check_jobs(std::string& text);
+std::string check_launcher(std::string& text);
+std::string check_restarts(std::string& text);
 std::string check_steps(std::string& text);
 std::string check_until(std::string& text);
 std::string check_progress(std::string& text);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 #include "complain.hpp"
 
@@ -24,6 +25,12 @@ std::string status_text(const Progress& progress) {
                                 count_text(progress.particle_steps_per_second));
   if (progress.seconds_left > 0) out += fmt::format("  {} left", clock_text(progress.seconds_left));
   return out + fmt::format("  energy {:+.2g} %", 100 * progress.energy_error);
+}
+
+std::string bar_text(const Progress& progress) {
+  constexpr std::size_t kCells = 20;
+  const auto full = static_cast<std::size_t>(share_of(progress) * kCells);
+  return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + status_text(progress);
 }
 
 std::size_t terminal_width() {
@@ -66,7 +73,7 @@ ProgressDisplay::ProgressDisplay(ProgressStyle style)
 
 void ProgressDisplay::show(const Progress& progress) {
   if (silent_) return;
-  if (bar_) return redraw(progress);
+  if (bar_) return redraw(bar_text(progress));
   const double share = share_of(progress), waited = progress.wall - last_wall_;
   if ((share - last_share_ >= 0.05 && waited >= 2) || waited >= 60) {
     print_line(progress);
@@ -75,11 +82,18 @@ void ProgressDisplay::show(const Progress& progress) {
   }
 }
 
-void ProgressDisplay::redraw(const Progress& progress) {
-  constexpr std::size_t kCells = 20;
-  const auto full = static_cast<std::size_t>(share_of(progress) * kCells);
-  std::string line =
-      "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + status_text(progress);
+void ProgressDisplay::show(const std::string& text, bool news) {
+  if (silent_) return;
+  if (bar_) return redraw(text);
+  if (news) complain("    {}\n", text);
+}
+
+void ProgressDisplay::clear() {
+  if (drawn_) complain("\r\x1b[K");
+  drawn_ = false;
+}
+
+void ProgressDisplay::redraw(std::string line) {
   line.resize(std::min(line.size(), terminal_width() - 1));  // a wrapped line could not be redrawn
   complain("\r{}\x1b[K", line);
   drawn_ = true;

@@ -15,11 +15,15 @@ class ProgressDisplay {
  public:
   explicit ProgressDisplay(ProgressStyle style);
   void show(const Progress& progress);
+  /// A line about many runs: redrawn on a terminal, elsewhere printed if it is news.
+  void show(const std::string& text, bool news);
+  /// Takes the redrawn line away.
+  void clear();
   /// Leaves the redrawn line; what follows starts on a line of its own.
   void finish();
 
  private:
-  void redraw(const Progress& progress);
+  void redraw(std::string line);
   void print_line(const Progress& progress);
 
   bool silent_, bar_;

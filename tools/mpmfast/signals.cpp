@@ -12,7 +12,7 @@ namespace {
 volatile std::sig_atomic_t received = 0;
 static_assert(std::is_same_v<std::sig_atomic_t, int>);
 
-constexpr std::array<int, 3> kStops{SIGINT, SIGTERM, SIGHUP};
+constexpr std::array<int, 4> kStops{SIGINT, SIGTERM, SIGHUP, SIGUSR1};
 
 void remember(int number) {
   received = number;

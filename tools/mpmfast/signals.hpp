@@ -1,7 +1,8 @@
 #pragma once
 
-/// @file SIGINT, SIGTERM and SIGHUP (a terminal that closes) ask the run to stop after the step; a second one
-/// kills. A limit on the size of files (SIGXFSZ) is left to the write that meets it, a closed pipe to nobody.
+/// @file SIGINT, SIGTERM, SIGHUP (a terminal that closes) and SIGUSR1 (which schedulers hand on) ask the run
+/// to stop after the step; a second one kills. A limit on the size of files (SIGXFSZ) is left to the write
+/// that meets it, a closed pipe to nobody.
 
 namespace mpmfast {
 

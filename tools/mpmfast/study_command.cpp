@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <utility>
 
 #include "commands.hpp"
 #include "complain.hpp"
@@ -19,23 +20,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string counts_text(const StudyCounts& counts) {
+  return fmt::format("{} under way, {} done, {} failed{}, {} to come", counts.under_way, counts.done,
+                     counts.failed, counts.lost > 0 ? fmt::format(", {} lost", counts.lost) : "",
+                     counts.to_come);
+}
+
 StudyOptions options_of(const CommandLine& line, ProgressDisplay& display) {
   StudyOptions options;
   options.folder = line.out.empty() ? fs::path("runs") / fs::path(line.scene).stem() : fs::path(line.out);
   options.threads = line.threads;
   options.jobs = line.jobs;
+  options.launcher = line.launcher;
+  options.program = fs::read_symlink("/proc/self/exe");
+  options.restarts = line.restarts;
   options.force = line.force;
   options.command = line.text;
   options.stop_signal = stop_signal();
   const bool quiet = line.progress == ProgressStyle::none;
   options.progress = [&display](const Progress& progress) { display.show(progress); };
-  options.starting = [quiet](const StudyRun& run, std::size_t index, std::size_t count) {
+  options.starting = [&display, quiet](const StudyRun& run, std::size_t index, std::size_t count) {
+    display.clear();
     if (!quiet) complain("[{}/{}] {}\n", index, count, run.name);
   };
   options.ended = [&display, quiet](const StudyRun&, const std::string& note) {
     display.finish();
     if (!quiet) complain("    {}\n", note);
   };
+  options.again = [&display, quiet](const StudyRun& run, const std::string& note) {
+    display.clear();
+    if (!quiet) complain("{}: {}\n", run.name, note);
+  };
+  if (!line.launcher.empty())
+    options.counted = [&display, ended = std::size_t{0}](const StudyCounts& counts) mutable {
+      const std::size_t before = std::exchange(ended, counts.done + counts.failed + counts.lost);
+      display.show(counts_text(counts), ended != before);
+    };
   return options;
 }
 
@@ -68,8 +88,11 @@ int study_command(const CommandLine& line) {
              progress.kept, progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
   if (const auto failed = failures(results); failed > 0)
     fmt::print("failed           {} of {} variants (study.csv says why)\n", failed, results.variants.size());
+  if (progress.lost > 0)
+    fmt::print("lost             {} of {} runs (said above); the same command tries them again\n",
+               progress.lost, progress.ran + progress.kept);
   for (const std::string& why : missing) complain("mpmfast: {}\n", why);
-  if (!progress.stopped) return 0;
+  if (!progress.stopped) return progress.lost > 0 ? kExitFile : 0;
   const int signal = *stop_signal();
   return kExitSignal +
          (signal != 0 ? signal : SIGTERM);  // none came to us: a program of the study was stopped

@@ -191,7 +191,7 @@ class Expansion {
   const Study& study_;
   Problems problems_;
   std::vector<Diagnostic> of_scenes_;
-  std::set<std::string> folders_;
+  std::set<std::string> folders_{"study"};  ///< taken: study.yaml is the study itself
   StudyRuns runs_;
 };
 

@@ -1,22 +1,19 @@
 #include "other_program.hpp"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <string>
 #include <vector>
 
+#include "child.hpp"
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/hash.hpp"
+#include "engine/output/output.hpp"
 #include "engine/scene/text/diagnostic.hpp"
-
-extern char** environ;
 
 namespace mpmfast {
 
@@ -25,15 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 
 // Exit statuses of the command line.
-constexpr std::array<std::pair<int, const char*>, 5> kEndings{
-    {{0, "finished"}, {3, "failed"}, {129, "stopped"}, {130, "stopped"}, {143, "stopped"}}};
+constexpr std::array<std::pair<int, const char*>, 6> kEndings{
+    {{0, "finished"}, {3, "failed"}, {129, "stopped"}, {130, "stopped"}, {138, "stopped"}, {143, "stopped"}}};
 
-/// @return the exit status, 128 + N after signal N
-int wait_for(pid_t child) {
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return -1;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+void add_common(std::vector<std::string>& words, int threads) {
+  words.insert(words.end(), {"--progress", "none"});
+  if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
 }
 
 }  // namespace
@@ -48,7 +42,7 @@ void check_programs(const Study& study) {
     for (const Choice& choice : axis.choices) {
       if (!choice.program) continue;
       const fs::path path = program_path(study, *choice.program);
-      if (access(path.c_str(), X_OK) != 0 || fs::is_directory(path))
+      if (find_program(path).empty())
         problems.add(choice.program->place, choice.program->path,
                      fmt::format("no program '{}' that could be run", path.string()));
     }
@@ -56,6 +50,7 @@ void check_programs(const Study& study) {
 }
 
 std::string order_text(const StudyRun& run) {
+  if (run.program.empty()) return fmt::format("# for {}\n{}", program_text(), run.scene.resolved_yaml);
   std::ifstream file(run.program, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   if (!file || bytes.empty()) throw_file_error("read the program", run.program);
@@ -65,23 +60,27 @@ std::string order_text(const StudyRun& run) {
 
 fs::path order_file(const StudyRun& run, const fs::path& folder) { return folder / (run.folder + ".yaml"); }
 
-std::string run_by_program(const StudyRun& run, const fs::path& folder, int threads) {
+std::vector<std::string> run_words(const fs::path& program, const fs::path& order, const fs::path& folder,
+                                   int threads) {
+  std::vector<std::string> words{program.string(), "run",           order.string(),
+                                 "--out",          folder.string(), "--force"};
+  add_common(words, threads);
+  return words;
+}
+
+std::vector<std::string> resume_words(const fs::path& program, const fs::path& folder, int threads) {
+  std::vector<std::string> words{program.string(), "resume", folder.string()};
+  add_common(words, threads);
+  return words;
+}
+
+std::string run_by_program(const StudyRun& run, const fs::path& folder, int threads,
+                           const volatile int* stop_signal) {
   const fs::path scene = order_file(run, folder);
   write_aside(scene, order_text(run));
-  std::vector<std::string> words{run.program.string(),           "run",     scene.string(), "--out",
-                                 (folder / run.folder).string(), "--force", "--progress",   "none"};
-  if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t quiet;  // its summary is in run.json; its messages are for the user
-  posix_spawn_file_actions_init(&quiet);
-  posix_spawn_file_actions_addopen(&quiet, 1, "/dev/null", 1 /* O_WRONLY */, 0);
-  pid_t child = 0;
-  const int error = posix_spawn(&child, run.program.c_str(), &quiet, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&quiet);
-  if (error != 0) throw_file_error("start the program", run.program, error);
-  const int status = wait_for(child);
+  ChildOptions options;  // its summary is in run.json; its messages are for the user
+  options.stop_signal = stop_signal;
+  const int status = run_child(run_words(run.program, scene, folder / run.folder, threads), options);
   for (const auto& [code, ending] : kEndings)
     if (status == code) return ending;
   throw FileError(

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 #include "engine/step/step.hpp"
+#include "launcher.hpp"
 #include "other_program.hpp"
 #include "study_results.hpp"
 
@@ -28,7 +30,15 @@ std::vector<const StudyRun*> all_of(const StudyRuns& runs) {
   return out;
 }
 
-int threads_of(const StudyOptions& options) { return options.jobs > 1 ? 1 : options.threads; }
+bool has_launcher(const StudyOptions& options) { return !options.launcher.empty(); }
+
+bool is_one_by_one(const StudyOptions& options) { return options.jobs <= 1 && !has_launcher(options); }
+
+/// Threads that a run has, and that an earlier one must have had; 0: any number.
+int threads_of(const StudyOptions& options) {
+  if (has_launcher(options)) return 0;
+  return options.jobs > 1 ? 1 : options.threads;
+}
 
 RunOptions options_of(const StudyRun& run, const StudyOptions& options) {
   RunOptions out;
@@ -36,9 +46,14 @@ RunOptions options_of(const StudyRun& run, const StudyOptions& options) {
   out.force = true;  // what an unfinished run left is replaced
   out.threads = threads_of(options);
   out.command = options.command;
-  if (options.jobs <= 1) out.progress = options.progress;
+  if (is_one_by_one(options)) out.progress = options.progress;
   out.stop_signal = options.stop_signal;
   return out;
+}
+
+Launch launch_of(const StudyOptions& options) {
+  return {options.launcher, options.program,    options.folder, std::max(1, options.threads),
+          options.restarts, options.stop_signal};
 }
 
 /// The runs in their order, taken by one worker or several.
@@ -73,7 +88,8 @@ class StudyQueue {
     if (options_.stop_signal && *options_.stop_signal) progress_.stopped = true;
     if (progress_.stopped || failure_ || next_ == runs_.size()) return nullptr;
     const StudyRun* run = runs_[next_++];
-    if (options_.starting && options_.jobs <= 1) options_.starting(*run, next_, runs_.size());
+    if (options_.starting && is_one_by_one(options_)) options_.starting(*run, next_, runs_.size());
+    tell_counts();
     return run;
   }
 
@@ -82,18 +98,43 @@ class StudyQueue {
     const bool kept = earlier.ended && !options_.force;
     const std::string again =
         options_.force || earlier.note.empty() ? "" : fmt::format(" (again: {})", earlier.note);
-    const std::string status = kept ? "" : status_of(run, earlier.stopped && !options_.force);
+    const Launched ending = kept ? Launched{false, false, earlier.note} : end_of(run, earlier);
     const std::lock_guard lock(mutex_);
     ++(kept ? progress_.kept : progress_.ran);
     ++ended_;
-    if (status == "stopped") progress_.stopped = true;
-    if (options_.starting && options_.jobs > 1) options_.starting(run, ended_, runs_.size());
-    if (options_.ended) options_.ended(run, kept ? "kept: " + earlier.note : status + again);
+    if (ending.stopped) progress_.stopped = true;
+    if (ending.lost) ++progress_.lost;
+    if (!ending.stopped) ++(ending.lost ? counts_.lost : failed(ending) ? counts_.failed : counts_.done);
+    if (options_.starting && !is_one_by_one(options_)) options_.starting(run, ended_, runs_.size());
+    if (options_.ended) options_.ended(run, (kept ? "kept: " : "") + ending.note + again);
+    tell_counts();
   }
 
-  /// Runs it: "finished, 0.25 s", "failed: why".
+  /// Runs it, here or elsewhere.
+  Launched end_of(const StudyRun& run, const EarlierRun& earlier) {
+    if (!has_launcher(options_)) {
+      const std::string status = status_of(run, earlier.stopped && !options_.force);
+      return {false, status == "stopped", status};
+    }
+    return run_launched(run, launch_of(options_), options_.force, [&](const std::string& why) {
+      const std::lock_guard lock(mutex_);
+      if (options_.again) options_.again(run, why);
+    });
+  }
+
+  static bool failed(const Launched& ending) { return ending.note.starts_with("failed"); }
+
+  /// Under the lock.
+  void tell_counts() {
+    counts_.under_way = next_ - ended_;
+    counts_.to_come = runs_.size() - next_;
+    if (options_.counted) options_.counted(counts_);
+  }
+
+  /// Runs it here: "finished, 0.25 s", "failed: why".
   std::string status_of(const StudyRun& run, bool go_on) const {
-    if (!run.program.empty()) return run_by_program(run, options_.folder, threads_of(options_));
+    if (!run.program.empty())
+      return run_by_program(run, options_.folder, threads_of(options_), options_.stop_signal);
     const RunOptions how = options_of(run, options_);
     try {
       const bool saved = std::filesystem::exists(how.folder / "checkpoint.h5");
@@ -110,6 +151,7 @@ class StudyQueue {
   const StudyOptions& options_;
   std::mutex mutex_;  ///< over what follows, and the callbacks
   std::size_t next_ = 0, ended_ = 0;
+  StudyCounts counts_;
   StudyProgress progress_;
   std::exception_ptr failure_;
 };

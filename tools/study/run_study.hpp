@@ -1,28 +1,39 @@
 #pragma once
 
-/// @file Runs the variants of a study, one after another or side by side, each in a folder of its own.
+/// @file Runs the variants of a study, one after another or side by side, here or where a launcher starts
+/// them, each in a folder of its own.
 
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "engine/run/run.hpp"
 #include "study.hpp"
 
 namespace mpmfast {
 
+/// Where the runs of a study stand.
+struct StudyCounts {
+  std::size_t under_way = 0, done = 0, failed = 0, lost = 0, to_come = 0;
+};
+
 struct StudyOptions {
   std::filesystem::path folder;
-  int threads = 0;     ///< 0: as a single run; 1 when there are several jobs
+  int threads = 0;     ///< 0: as a single run; 1 when there are several jobs here, or a launcher
   int jobs = 1;        ///< runs side by side; their wall times are then of a busy machine
   bool force = false;  ///< also what has ended already
   std::string command;
+  std::vector<std::string> launcher;  ///< starts the runs elsewhere (Launch::words); empty: they run here
+  std::filesystem::path program;      ///< what it starts: mpmfast, by an absolute path
+  int restarts = 2;                   ///< of a run that the launcher loses
   const volatile int* stop_signal = nullptr;
-  /// All may be empty; called by one run at a time. With several jobs `progress` is not called. `note` says
-  /// how a run ended.
+  /// All may be empty; called by one run at a time. With several jobs or a launcher `progress` is not called.
+  /// `note` says how a run ended, or why it is started again.
   std::function<void(const StudyRun&, std::size_t index, std::size_t count)> starting;
   std::function<void(const Progress&)> progress;
-  std::function<void(const StudyRun&, const std::string& note)> ended;
+  std::function<void(const StudyRun&, const std::string&note)> ended, again;
+  std::function<void(const StudyCounts&)> counted;
 };
 
 /// Is the folder absent, empty, or that of a study?
@@ -37,10 +48,12 @@ void try_set_up(const StudyRuns& runs, const StudyOptions& options);
 
 struct StudyProgress {
   std::size_t ran = 0, kept = 0;  ///< kept: what an earlier start had ended
+  std::size_t lost = 0;           ///< by the launcher, as often as they were started
   bool stopped = false;           ///< by a signal
 };
 
-/// Runs what has not ended; a run that fails physically is kept as far as it got. Throws FileError.
+/// Runs what has not ended; a run that fails physically is kept as far as it got, one that a launcher loses
+/// holds up no other. Throws FileError.
 StudyProgress run_study(const StudyRuns& runs, const StudyOptions& options);
 
 }  // namespace mpmfast

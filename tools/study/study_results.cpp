@@ -163,8 +163,11 @@ void mark_front(const Study& study, const StudyRuns& runs, std::vector<StudyResu
   }
 }
 
-/// Why a run of this program does not count; empty if it does.
+/// Why an earlier run does not count; empty if it does.
 std::string what_differs(const StudyRun& run, const fs::path& folder, const nlohmann::json& json) {
+  if (!run.program.empty())
+    return read_text(order_file(run, folder)) == order_text(run) ? ""
+                                                                 : "the scene or the program was another";
   if (read_text(folder / run.folder / "scene.yaml") != run.scene.resolved_yaml)
     return "the scene was another";
   constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
@@ -180,15 +183,9 @@ std::string what_differs(const StudyRun& run, const fs::path& folder, const nloh
 EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads) {
   const auto json = read_summary(folder / run.folder);
   if (!json) return {};
-  const std::string status = json->value("status", "");
-  if (status != "finished" && status != "failed")
-    return {false, run.program.empty() && what_differs(run, folder, *json).empty(), "it was stopped before"};
-  if (!run.program.empty()) {
-    if (read_text(order_file(run, folder)) != order_text(run))
-      return {false, false, "the scene or the program was another"};
-  } else if (const std::string other = what_differs(run, folder, *json); !other.empty()) {
-    return {false, false, other};
-  }
+  const std::string status = json->value("status", ""), other = what_differs(run, folder, *json);
+  if (status != "finished" && status != "failed") return {false, other.empty(), "it was stopped before"};
+  if (!other.empty()) return {false, false, other};
   if (threads > 0 && json->value("threads", 0) != threads) return {false, false, "the threads were others"};
   if (status == "failed") return {true, false, fmt::format("failed: {}", json->value("reason", ""))};
   return {true, false, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
