@@ -55,7 +55,7 @@ struct ParticleTile {
   int window[Dim];          ///< node coordinates of the window's first node
   int slot[kCorners<Dim>];  ///< first slot of each node tile under the window
   int others = 0;           ///< tiles of the same place and field that follow
-  bool cracked = false;     ///< its particles reach nodes where others are behind a crack
+  bool cracked = false;     ///< its particles reach nodes where others are behind a crack, or soon will
   /// Where nodes take the side of a crack: the slot of each under the window; else null.
   const int* node_slot = nullptr;
 };

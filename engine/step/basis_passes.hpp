@@ -67,6 +67,7 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   Supports<Dim> supports(const State<Dim>& state) const override {
+    static_assert(power(Basis::kMaxSupport + 1, 2) <= Ways::kMost);        // of all that a look ahead reaches
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     const ParticleTile<Dim> nowhere{};
     const ParticleRun<Dim> any{};

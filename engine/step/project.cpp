@@ -77,9 +77,12 @@ void clear_near_cracks(State<Dim>& state, bool geometry) {
   const auto& tiling = state.tiling;
   for (std::size_t k = 0; k < tiling.node_tiles.size(); ++k) {
     const auto& over = tiling.node_tiles[k].particle_tile;
-    if (std::none_of(over, over + kCorners<Dim>,
-                     [&](int t) { return t >= 0 && tiling.tiles[static_cast<std::size_t>(t)].cracked; }))
-      continue;
+    const auto is_cracked = [&](int t) {  // it, or another group at its place
+      if (t < 0) return false;
+      const auto tile = tiling.tiles.begin() + t;
+      return std::any_of(tile, tile + 1 + tile->others, [](const auto& group) { return group.cracked; });
+    };
+    if (std::none_of(over, over + kCorners<Dim>, is_cracked)) continue;
     const auto begin = static_cast<std::int64_t>(k) * kTileNodes<Dim>;
     if (geometry) clear(state.nodes, kGeometry, begin, kTileNodes<Dim>);
     clear(state.nodes, kDisplacements, begin, kTileNodes<Dim>);

@@ -21,10 +21,11 @@ struct CloudRoom {
 
   std::vector<double> xi[Dim];           ///< relative to the node, cells
   std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
-  std::vector<double> number;            ///< of the particles, where they have shapes
+  std::vector<double> number;            ///< of the particles, if asked for
   int shapes = 0;                        ///< how many are in use
-  std::size_t begin = 0;                 ///< where the cloud in hand begins
-  int count = 0;                         ///< its particles
+  bool numbered = false;
+  std::size_t begin = 0;  ///< where the cloud in hand begins
+  int count = 0;          ///< its particles
 
   /// Room for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
@@ -33,7 +34,7 @@ struct CloudRoom {
     const std::size_t room = needed + needed / 4 + kFewest;
     for (auto& c : xi) c.resize(room);
     for (int e = 0; e < shapes; ++e) shape[e].resize(room);
-    if (shapes > 0) number.resize(room);
+    if (numbered) number.resize(room);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.
@@ -61,7 +62,7 @@ struct CloudRoom {
     CloudColumns<Dim> c{};
     for (int d = 0; d < Dim; ++d) c.xi[d] = xi[d].data() + first;
     for (int e = 0; e < shapes; ++e) c.shape[e] = shape[e].data() + first;
-    if (shapes > 0) c.number = number.data() + first;
+    if (numbered) c.number = number.data() + first;
     c.count = particles;
     return c;
   }
@@ -87,8 +88,9 @@ struct Candidates {
   std::vector<double> domain[Dim * Dim];  ///< m; half-edge vectors of CPDI domains, else not written
   std::vector<double> shape[Dim * Dim];   ///< of the domains F diag(R0), as the extent asks, cells
   std::vector<double> reach[Dim];         ///< of the support, cells
-  std::vector<double> number;             ///< of the particles; written as shapes are
+  std::vector<double> number;             ///< of the particles, if asked for
   std::optional<Extent> extent;           ///< that separations go by; none: no shapes
+  bool numbered = false;
   int count = 0;
 
   int shapes() const { return extent ? shape_size<Dim>(*extent) : 0; }
@@ -107,7 +109,7 @@ struct Candidates {
     grow(domain);
     grow(reach);
     for (int e = 0; e < shapes(); ++e) shape[e].resize(2 * needed);
-    if (extent) number.resize(2 * needed);
+    if (numbered) number.resize(2 * needed);
   }
 
   /// Writes the shapes of the chosen ones of some domains after the last candidate.
@@ -164,6 +166,8 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
         edges[e] = load_lanes(c.particles->deformation[e] + begin + k) * scale;
       }
       out.store_shapes(edges, bits);
+    }
+    if (out.numbered) {
       Lanes number;
       for (int i = 0; i < kLanes; ++i) number[i] = static_cast<double>(begin) + k + i;
       store_chosen(&out.number[at], number, bits);
@@ -224,7 +228,7 @@ inline void append_covering(const Candidates<Dim>& from, const typename Candidat
     for (int d = 0; d < Dim; ++d) store_chosen(&room.xi[d][at], xi[d], bits);
     for (int e = 0; e < room.shapes; ++e)
       store_chosen(&room.shape[e][at], load_lanes(&from.shape[e][begin + static_cast<std::size_t>(k)]), bits);
-    if (room.shapes > 0)
+    if (room.numbered)
       store_chosen(&room.number[at], load_lanes(&from.number[begin + static_cast<std::size_t>(k)]), bits);
     room.count += std::popcount(bits);
   }

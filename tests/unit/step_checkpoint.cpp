@@ -179,6 +179,8 @@ TEST_CASE("every method of contact goes on to the bit") {
         "contact: {normal: smoothed_logistic_regression, law: stick}\nmethod: {update: fmpm(3)}\n",
         "contact: {normal: average_gradient, separation: displacement}\nmethod: {update: pic}\n",
         "contact: {friction: 0.3, refit: 0.2}\nmethod: {basis: lcpdi}\n",
+        "contact: {fields: pairs, refit: 0.2, rigid_bias: 10}\n",
+        "contact: {normal: average_gradient, separation: ellipsoid_support, refit: 0.2}\n",
         "contact: {corrections: 1, friction: 0.2}\nmethod: {update: xpic(2), own_filter: true}\n",
         "contact: {fields: pairs, pairs: [{between: [a, b], friction: 0.4}]}\nmethod: {basis: qcpdi}\n",
         "contact: {law: adhesion, normal_strength: 1 MPa, shear_strength: 1 MPa}\nmethod: {basis: linear}\n",

@@ -94,8 +94,8 @@ class Cracks {
   const CrackCounters& counters() const { return counters_; }
 
   /// Is what was seen last out of date? Particles do not change sides, and a look counts the nodes that they
-  /// come to soon: only at ends of cracks, and where a line bends, is it old by what has moved since. Sooner
-  /// at first: an end that lay on a node at the start is beside it once anything has moved.
+  /// come to soon: only at ends of cracks, in a line's normals and where it bends is it old by what has
+  /// moved. Sooner at first: an end that lay on a node at the start is beside it once anything has moved.
   bool look_due(double cell) const {
     return drifted_ >= std::min(kDrift * cell, std::max(1e-5 * cell, 0.5 * moved_));
   }

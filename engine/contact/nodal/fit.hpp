@@ -69,6 +69,7 @@ class ContactFit {
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     for (auto& room : rooms_) {
       room.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
+      room.candidates.numbered = choice.separate && !contact.fits.empty();
       room.tally = {};
       room.stack = -1;
     }
@@ -97,6 +98,7 @@ class ContactFit {
     const std::size_t at = slab % slabs_.at_once();
     for (auto& room : rooms_) {
       room.clouds[at].shapes = room.candidates.shapes();
+      room.clouds[at].numbered = room.candidates.numbered;
       room.clouds[at].begin = 0;
     }
     slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
@@ -124,11 +126,12 @@ class ContactFit {
               mean.raw(node, entry, entry.normal, entry.separation < 0, doubted);
         else
           room.tally.doubtful += doubted;
-        if (!contact.fits.empty()) {
-          const bool known = !choice.separate || (foremost[0] >= 0 && foremost[1] >= 0);
-          contact.fits[static_cast<std::size_t>(e)] = {entry.normal, entry.normal,         foremost, 0,
-                                                       known,        entry.separation < 0, doubted};
-        }
+        if (contact.fits.empty()) continue;
+        // A lump is what is there: another in its place has the same name.
+        const bool known =
+            fits && entry.b >= 0 && (!choice.separate || (foremost[0] >= 0 && foremost[1] >= 0));
+        contact.fits[static_cast<std::size_t>(e)] = {entry.normal, entry.normal,         foremost, 0,
+                                                     known,        entry.separation < 0, doubted};
       }
       if (!choice.smooth) return;
       kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
@@ -142,8 +145,8 @@ class ContactFit {
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = contact.entries[static_cast<std::size_t>(e)];
       const KeptFit<Dim>& fit = contact.fits[static_cast<std::size_t>(e)];
-      entry.normal = fit.normal;
-      if (choice.separate)
+      if (entry.crack < 0) entry.normal = fit.normal;
+      if (choice.separate && entry.crack < 0)
         with_extent(choice.extent, [&]<Extent E>() {
           entry.separation = state.grid.cell * kept_separation<E>(state, node.node, fit);
         });
@@ -241,7 +244,7 @@ class ContactFit {
       const auto reach = [&](std::pair<int, int> range, const Vec<Dim>& n) {
         const auto part = cloud.part(range.first, range.second - range.first);
         Foremost::Found found = reach_along<E>(part, n);
-        if (found.at >= 0) found.at = static_cast<int>(part.number[found.at]);
+        if (found.at >= 0 && part.number) found.at = static_cast<int>(part.number[found.at]);
         return found;
       };
       const Vec<Dim> back = -entry.normal;

@@ -24,8 +24,8 @@ void find_due(const ContactList<Dim>& contact, double refit, double cell, std::v
     double most = 0;
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
-      const bool kept = contact.fits[at].known && !contact.entries[at].settled;
-      most = std::max(most, kept ? contact.fits[at].drift : kInfinity);
+      if (contact.entries[at].crack >= 0) continue;  // its normal is the line's
+      most = std::max(most, contact.fits[at].known ? contact.fits[at].drift : kInfinity);
     }
     return most;
   };
