@@ -8,7 +8,7 @@ import sys
 import time
 
 from mutation import choose, page, places, trial
-from mutation.suite import Suite
+from mutation.suite import PROGRAMS, SCRIPTS, Suite
 from mutation.tree import Tree
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -28,6 +28,8 @@ def arguments(words):
     parser.add_argument("--resume", action="store_true", help="go on: mutants that are killed stay so, others meet the tests "
                         "that are new or that they have not met")
     parser.add_argument("--patience", type=float, default=30, help="seconds of tests that a mutant must survive (default 30)")
+    parser.add_argument("--tests", nargs="+", choices=[*PROGRAMS, *SCRIPTS], default=[*PROGRAMS, *SCRIPTS], metavar="PROGRAM",
+                        help="with these alone, to go on with the others later: " + " ".join([*PROGRAMS, *SCRIPTS]))
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes side by side")
     parser.add_argument("--page", type=pathlib.Path, help="write the page there too")
     parser.add_argument("--only", type=int, nargs="+", help="with --resume: these mutants again, whatever became of them")
@@ -48,14 +50,13 @@ def main(words):
     def say(text):
         print(f"[{time.monotonic() - began:6.0f} s] {text}", file=sys.stderr, flush=True)
     state = read_state(out, asked)
-    tree = Tree(ROOT, out, asked.jobs)
+    tree = Tree(ROOT, out, asked.jobs, state.get("looked_at", False))
 
-    def keep(mutants):
-        state["mutants"] = [as_json(m) for m in mutants]
+    def keep(mutants, looked_at):
+        state["mutants"], state["looked_at"] = [as_json(m) for m in mutants], looked_at
         write(out / "state.json", state)
-    mutants = tree.build([as_mutant(m) for m in state["mutants"]], say, keep)
-    keep(mutants)
-    suite = Suite(tree, out, asked.jobs)
+    suite = Suite(tree, out, asked.jobs, asked.tests)
+    mutants = tree.build([as_mutant(m) for m in state["mutants"]], suite.targets(), say, keep)
     state["tests"] = suite.record(state["tests"], say)
     write(out / "state.json", state)
     trial.try_all(mutants[:asked.count], state, suite, asked, say, lambda: write(out / "state.json", state))

@@ -20,18 +20,22 @@ MEMORY = 6 << 30
 class Suite:
     """The cases of a build; a case is a program and a name, or a script."""
 
-    def __init__(self, tree, out, jobs):
-        self.tree, self.out, self.jobs = tree, out, jobs
+    def __init__(self, tree, out, jobs, programs):
+        self.tree, self.out, self.jobs, self.programs = tree, out, jobs, programs
         self.counter = itertools.count()
+
+    def targets(self):
+        """What must be built."""
+        return [p for p in self.programs if p in PROGRAMS] + (["mpmfast"] if set(self.programs) & set(SCRIPTS) else [])
 
     def files(self):
         """(program, file of tests) of all that is run: slow cases are not."""
-        for program, folders in PROGRAMS.items():
-            for folder in folders.split():
+        for program in self.targets():
+            for folder in PROGRAMS.get(program, "").split():
                 for path in sorted((self.tree.tree / "tests" / folder).glob("*.cpp")):
                     if "TEST_CASE" in path.read_text() and self.holds(program, path):
                         yield program, path
-        for script in SCRIPTS:
+        for script in filter(self.programs.__contains__, SCRIPTS):
             yield script, self.tree.tree / "tests/cli" / f"{script}.sh"
 
     def holds(self, program, path):
@@ -48,7 +52,7 @@ class Suite:
     def record(self, known, say):
         """What each case asks for: {file: {hash, cases: {name: {seconds, passed, asked}}}}; files that did not change
         keep what is known of them."""
-        recorded, todo = {}, []
+        recorded, todo = dict(known), []
         for program, path in self.files():
             key, text = f"{program}:{path.stem}", hashlib.sha256(path.read_bytes()).hexdigest()
             if key in known and known[key]["hash"] == text:

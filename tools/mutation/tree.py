@@ -9,7 +9,6 @@ import shlex
 import subprocess
 
 HERE = pathlib.Path(__file__).parent
-TARGETS = ["unit_tests", "short_tests", "validation_tests", "library_tests", "mpmfast"]
 # Assertions of the libraries stand for what the sanitizers find in the ordinary tests.
 FLAGS = "-O2 -g0 -D_GLIBCXX_ASSERTIONS -Werror=vla -fmax-errors=0"
 # Objects whose sources instantiate what kernels/ and engine/ have in headers.
@@ -20,7 +19,8 @@ PLACE = re.compile(r"^(/[^\s:]+|\.\.?/[^\s:]+):(\d+):(?:\d+:)?")
 class Tree:
     """The copy in `out/tree` and its build in `out/bin`."""
 
-    def __init__(self, root, out, jobs):
+    def __init__(self, root, out, jobs, looked_at=False):
+        self.looked_at = looked_at
         self.root, self.tree, self.bin, self.jobs = pathlib.Path(root), out / "tree", out / "bin", jobs
         self.log = out / "build.log"
         # The commit would be asked for, and each new one would build much again.
@@ -67,13 +67,14 @@ class Tree:
             raise SystemExit(f"tools/mutate: {command[0]} failed: see {self.log}")
         return done
 
-    def build(self, mutants, say, keep):
-        """Builds the tests with all mutants that compile, and returns these; keep(mutants) where some are left out."""
+    def build(self, mutants, targets, say, keep):
+        """Builds the tests with all mutants that compile, and returns these; keep(mutants, whether all headers were looked
+        at) where some are left out."""
         self.copy()
         self.write_sources(mutants)
         self.configure()
         commands = [c for c in json.loads((self.bin / "compile_commands.json").read_text()) if LOOKED_AT.search(c["command"])]
-        if (self.bin / "mpmfast").exists():
+        if self.looked_at:
             commands = []
         self.run(["ninja", "-C", self.bin, "-j", self.jobs, "engine/CMakeFiles/mpmfast_quantities.dir/cmake_pch.hxx.gch"])
         while commands:  # headers with templates: each that changes later has them built again
@@ -81,14 +82,15 @@ class Tree:
             commands, output = self.broken(commands)
             if commands:
                 mutants = self.without_broken(mutants, output, say)
-                keep(mutants)
+                keep(mutants, False)
+        keep(mutants, True)
         while True:
             say(f"{len(mutants)} mutants: building")
-            done = self.run(["ninja", "-C", self.bin, "-j", self.jobs, "-k", "0", *TARGETS])
+            done = self.run(["ninja", "-C", self.bin, "-j", self.jobs, "-k", "0", *targets])
             if done.returncode == 0:
                 return mutants
             mutants = self.without_broken(mutants, done.stdout, say)
-            keep(mutants)
+            keep(mutants, True)
 
     def broken(self, commands):
         """Those of the compiler's commands that fail, and what they say."""
