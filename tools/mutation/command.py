@@ -28,7 +28,8 @@ def arguments(words):
     parser.add_argument("--resume", action="store_true", help="go on: mutants that are killed stay so, others meet the tests "
                         "that are new or that they have not met")
     parser.add_argument("--patience", type=float, default=30, help="seconds of tests that a mutant must survive (default 30)")
-    parser.add_argument("--tests", nargs="+", choices=[*PROGRAMS, *SCRIPTS], default=[*PROGRAMS, *SCRIPTS], metavar="PROGRAM",
+    parser.add_argument("--tests", nargs="+", choices=[*PROGRAMS, *SCRIPTS], metavar="PROGRAM",
+                        default=[p for p in (*PROGRAMS, *SCRIPTS) if p != "kernel_tests"],  # which unit_tests hold too
                         help="with these alone, to go on with the others later: " + " ".join([*PROGRAMS, *SCRIPTS]))
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes side by side")
     parser.add_argument("--page", type=pathlib.Path, help="write the page there too")
