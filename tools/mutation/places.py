@@ -121,6 +121,9 @@ def subscripts(source, index):
     token = source.tokens[index]
     if token.text == "[" and token.twin and token.twin > index + 1:
         inner = source.text(index + 1, token.twin - 1)
+        if any(k.text == "?" or k.binary and t.PRECEDENCE[k.text] > t.PRECEDENCE["+"]
+               for k in source.tokens[index + 1:token.twin]):
+            inner = f"({inner})"
         for shift in ("+ 1", "- 1"):
             yield source.change("index", index + 1, token.twin - 1, f"{inner} {shift}")
 
