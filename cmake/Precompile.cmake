@@ -16,7 +16,7 @@ if(MPMFAST_TESTS)
   target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h> <nlohmann/json.hpp>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)
   set_source_files_properties(tests/main.cpp TARGET_DIRECTORY test_main PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-  reuse_headers(test_main unit_tests short_tests validation_tests)
+  reuse_headers(test_main unit_tests kernel_tests short_tests validation_tests)
 endif()
 if(MPMFAST_BENCH)
   reuse_headers(mpmfast_quantities benchmarks)

@@ -72,6 +72,33 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("where a side of the crack was not seen, all that is released counts as mode I") {
+  constexpr double kModulus = 8e9;
+  TipSample ahead, behind;
+  ahead.place = {0.7 * kRadius, 0};
+  ahead.area = behind.area = 1e-6;
+  ahead.energy = 1e3;
+  ahead.slope = ahead.stress = behind.slope = behind.stress = Mat<2>::Zero();
+  behind.energy = 0;
+  const auto all_of_mode_one = [&](const TipIntegrals& found) {
+    CHECK(found.release() > 0);
+    CHECK(found.intensities()[0] == 0);
+    CHECK(found.intensities()[1] == doctest::Approx(std::sqrt(kModulus * found.release())).epsilon(1e-12));
+  };
+  TipIntegrals neither(straight(), kRadius, kModulus);
+  neither.add(ahead);
+  all_of_mode_one(neither);
+  for (const double side : {-1.0, 1.0}) {
+    TipIntegrals one(straight(), kRadius, kModulus);
+    behind.place = {-0.5 * kRadius, side * 0.1 * kRadius};
+    behind.moved = {1e-6, side * 1e-6};
+    one.add(ahead);
+    one.add(behind);
+    CHECK(one.opening().norm() == 0);
+    all_of_mode_one(one);
+  }
+}
+
 TEST_CASE("a stress along the crack changes none of them") {
   const double kappa = 3 - 4 * kPoisson;
   const TipIntegrals without = integrate(1e6, 0.3e6, 0, kappa), with = integrate(1e6, 0.3e6, 5e6, kappa);

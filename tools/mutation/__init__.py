@@ -1,0 +1,1 @@
+"""Mutation testing of kernels/ and engine/: see tools/mutate."""
