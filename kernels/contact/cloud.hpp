@@ -25,7 +25,7 @@ template <int Dim>
 struct CloudColumns {
   const double* xi[Dim];           ///< relative to the node, cells
   const double* shape[Dim * Dim];  ///< of the domains, as their extent asks (domain_shape), cells; else null
-  const double* number;            ///< of the particles, where there are shapes; else null
+  const double* number;            ///< of the particles, if asked for; else null
   int count;
 
   CloudColumns part(int first, int particles) const {

@@ -44,17 +44,17 @@ class Suite:
 
     def record(self, known, say):
         """What each case asks for: {file: {hash, cases: {name: {seconds, passed, asked}}}}; files that did not change
-        keep what is known of them."""
-        recorded, todo = dict(known), []
+        keep what is known of them, but for those that gave no case: their program was not there."""
+        recorded, waiting = dict(known), []
         for program, path in self.files():
             key, text = f"{program}:{path.stem}", hashlib.sha256(path.read_bytes()).hexdigest()
-            if key in known and known[key]["hash"] == text:
+            if key in known and known[key]["hash"] == text and known[key]["cases"]:
                 recorded[key] = known[key]
             else:
-                todo.append((key, program, path, text))
-        say(f"{len(todo)} files of tests are run")
+                waiting.append((key, program, path, text))
+        say(f"{len(waiting)} files of tests are run")
         with concurrent.futures.ThreadPoolExecutor(self.jobs) as pool:
-            for key, text, cases in pool.map(lambda t: (t[0], t[3], self.record_file(t[1], t[2])), todo):
+            for key, text, cases in pool.map(lambda t: (t[0], t[3], self.record_file(t[1], t[2])), waiting):
                 recorded[key] = {"hash": text, "cases": cases}
         return recorded
 
@@ -100,6 +100,8 @@ class Suite:
                 cases.write_text("".join(name + "\n" for name in names))
                 environment["MUTANT_CASES"] = str(cases)
             code = place.run(command, environment, 10 + 6 * seconds)
+            if code is None:  # a busy machine, or a loop without end?
+                code = place.run(command, environment, 10 * (10 + 6 * seconds))
         if code == NOT_FOUND:
             raise SystemExit(f"tools/mutate: {program} does not know all of: {'; '.join(names)}")
         return {0: "", None: "timeout"}.get(code, "failed")

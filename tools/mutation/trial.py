@@ -50,9 +50,9 @@ def try_all(mutants, state, suite, asked, say, save):
     """Tries every mutant that is not killed yet."""
     cases, verdicts, lock = cases_of(state["tests"]), state["verdicts"], threading.Lock()
     again = {str(n) for n in asked.only or ()}
-    todo = [m for m in mutants if (str(m.number) in again if again else
+    waiting = [m for m in mutants if (str(m.number) in again if again else
             verdicts.get(str(m.number), {}).get("state") not in ("failed", "timeout"))]
-    say(f"{len(todo)} mutants are tried")
+    say(f"{len(waiting)} mutants are tried")
 
     def one(mutant):
         key = str(mutant.number)
@@ -65,4 +65,4 @@ def try_all(mutants, state, suite, asked, say, save):
             save()
             say(f"{mutant.number} {mutant.file}:{mutant.line} {verdict['state']}")
     with concurrent.futures.ThreadPoolExecutor(asked.jobs) as pool:
-        list(pool.map(one, todo))
+        list(pool.map(one, waiting))
