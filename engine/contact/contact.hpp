@@ -13,6 +13,7 @@
 #include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/contact/resolve_pair.hpp"
+#include "kernels/contact/set_rule.hpp"
 #include "kernels/contact/together.hpp"
 
 namespace mpmfast {
@@ -180,6 +181,8 @@ class Contact {
   struct Acting {
     ContactEntry<Dim>* entry;
     double area_time;  ///< A_c Δt, m² s, for laws that use the area
+    bool in_set;       ///< the step's one set: by its rule
+    SetRule<Dim> rule;
   };
   /// What one thread solves the pairs of a node in.
   struct Together {
@@ -207,6 +210,9 @@ class Contact {
   template <class Law>
   Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                              Correction correction, const Law& law, double area_time) const;
+  template <class Law>
+  SetRule<Dim> rule_of(const ContactEntry<Dim>& entry, double separation, Correction correction,
+                       const Law& law) const;
   bool may_part(const ContactNode<Dim>& node) const;
   bool is_bridged(const ContactNode<Dim>& node) const;
   void judge(const ContactNode<Dim>& node);
@@ -215,10 +221,10 @@ class Contact {
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
   Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;
-  void see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  void see_slips(const State<Dim>& state, const ContactNode<Dim>& node);
   void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
-  bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
-                  const ContactEntry<Dim>& entry) const;
+  bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                  const Vec<Dim>& slip) const;
   double spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
                    const ContactEntry<Dim>& entry) const;
   double force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const;

@@ -11,6 +11,7 @@
 
 #include "engine/contact/nodal/fit.hpp"
 #include "engine/step/passes.hpp"
+#include "engine/step/shares.hpp"
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
@@ -28,6 +29,7 @@ class BasisPasses final : public Passes<Dim> {
   BasisPasses() {
     rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
     for (auto& room : rooms_) room = std::make_unique<Room>();
+    for (int c = 0; c < kCorners<Dim>; ++c) shares_.emplace_back(omp_get_max_threads());
   }
 
   void shape_domains(State<Dim>& state) override {
@@ -272,19 +274,22 @@ class BasisPasses final : public Passes<Dim> {
   template <class F>
   void scatter_tiles(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
+    const auto& colours = state.tiling.colours;
+    for (std::size_t c = 0; c < colours.size(); ++c)
+      shares_[c].cut(state.threads, static_cast<std::int64_t>(colours[c].size()));
 #pragma omp parallel num_threads(state.threads)
     {
-      Room& room = *rooms_[static_cast<std::size_t>(omp_get_thread_num())];
-      for (const auto& colour : state.tiling.colours) {
-        const auto n = static_cast<std::int64_t>(colour.size());
-#pragma omp for schedule(dynamic, 4)
-        for (std::int64_t k = 0; k < n; ++k) {
-          const int first = colour[static_cast<std::size_t>(k)];
+      const int thread = omp_get_thread_num();
+      Room& room = *rooms_[static_cast<std::size_t>(thread)];
+      for (std::size_t c = 0; c < colours.size(); ++c) {
+        shares_[c].for_each(thread, [&](std::int64_t k) {
+          const int first = colours[c][static_cast<std::size_t>(k)];
           const auto& of = state.tiling.tiles[static_cast<std::size_t>(first)];
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
           for (int tile = first; tile <= first + of.others; ++tile)
             f(context(state, view, tile), room, rigid);
-        }
+        });
+#pragma omp barrier
       }
     }
   }
@@ -348,15 +353,20 @@ class BasisPasses final : public Passes<Dim> {
     reports_.assign(rooms_.size(), {});
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 4)
-    for (std::int64_t t = 0; t < n; ++t) {
-      const auto thread = static_cast<std::size_t>(omp_get_thread_num());
-      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
-        continue;
-      const TileReport r =
-          update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), rooms_[thread]->update, in,
-                                      strain, rule, low, high, visitor(state));
-      merge(r, reports_[thread].report);
+    shares_[0].cut(state.threads, n);
+#pragma omp parallel num_threads(state.threads)
+    {
+      const int thread = omp_get_thread_num();
+      TileReport& report = reports_[static_cast<std::size_t>(thread)].report;
+      UpdateRoom<Dim, Basis>& room = rooms_[static_cast<std::size_t>(thread)]->update;
+      shares_[0].for_each(thread, [&](std::int64_t t) {
+        if (state
+                .field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
+          return;
+        merge(update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), room, in, strain, rule,
+                                          low, high, visitor(state)),
+              report);
+      });
     }
     TileReport all;
     for (const auto& r : reports_) merge(r.report, all);
@@ -374,6 +384,7 @@ class BasisPasses final : public Passes<Dim> {
     TileReport report;
   };
   std::vector<std::unique_ptr<Room>> rooms_;
+  std::vector<Shares> shares_;  ///< of the colours
   std::vector<ThreadReport> reports_;
   std::vector<HeatReport> heat_reports_;  ///< by tile: sums want one order
   std::vector<int> inverted_, outside_;

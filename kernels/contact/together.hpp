@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "kernels/contact/cloud.hpp"
+#include "kernels/contact/hindrances.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -86,25 +86,6 @@ class ContactsTogether {
 
  private:
   static constexpr int kSweeps = 100, kLeaps = 10;  ///< where kinds still change then, leaps seldom help
-  static constexpr int kMost = 64;  ///< hindrances; with more, elimination costs more than sweeps
-
-  /// Changes of contacts' impulses along given directions, and the motions that they are to end. Those of a
-  /// contact follow each other.
-  struct Hindrances {
-    int count;
-    int contact[kMost];
-    double a[kMost], b[kMost];  ///< fields of the contact
-    double impulse[Dim][kMost];
-    Vec<Dim> motion[kMost];
-
-    void push(int of, const FieldContact<Dim>& c, const Vec<Dim>& along, const Vec<Dim>& hindered) {
-      contact[count] = of;
-      a[count] = c.a;
-      b[count] = c.b;
-      for (int d = 0; d < Dim; ++d) impulse[d][count] = along[d];
-      motion[count++] = hindered;
-    }
-  };
 
   MovingField<Dim>& field(int k) { return fields[static_cast<std::size_t>(k)]; }
   Vec<Dim> slip(const FieldContact<Dim>& c) { return field(c.b).velocity - field(c.a).velocity; }
@@ -267,40 +248,23 @@ class ContactsTogether {
   /// stay, the approach.
   /// @return false if that is nothing at all or too much
   bool find_hindrances() {
-    hindrances_.count = 0;
+    hindrances_.clear();
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const FieldContact<Dim>& c = contacts[k];
-      const int at = static_cast<int>(k);
       if (c.hinders == Hinders::nothing) continue;
-      if (hindrances_.count + Dim > kMost) return false;
+      if (hindrances_.is_full()) return false;
+      const Vec<Dim> left = c.reduced * (slip(c) + c.closing * c.normal);
+      const auto push = [&](const Vec<Dim>& impulse, const Vec<Dim>& motion) {
+        hindrances_.push({static_cast<int>(k), c.a, c.b, c.reduced * field(c.a).inverse_mass,
+                          c.reduced * field(c.b).inverse_mass, impulse, motion, left.dot(motion)});
+      };
       const double along = c.impulse.dot(c.normal);
       if (c.hinders == Hinders::slip)
-        for (int d = 0; d < Dim; ++d) hindrances_.push(at, c, Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
+        for (int d = 0; d < Dim; ++d) push(Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
       else
-        hindrances_.push(at, c, lags_ || along == 0 ? c.normal : Vec<Dim>(c.impulse / along), c.normal);
+        push(lags_ || along == 0 ? c.normal : Vec<Dim>(c.impulse / along), c.normal);
     }
-    return hindrances_.count > 0;
-  }
-
-  /// The equations Σ_j m_k c_kl (motion_i · impulse_j) x_j = m_k (slip_k + closing_k n_k) · motion_i, where
-  /// hindrance i is of contact k and j of l, and c_kl is how v_a − v_b of k changes for an impulse of l: the
-  /// diagonal is one.
-  void set_equations(int width) {
-    const Hindrances& h = hindrances_;
-    const Lanes zero{}, one = broadcast<Lanes>(1.0);
-    for (int i = 0; i < h.count; ++i) {
-      const FieldContact<Dim>& c = contacts[static_cast<std::size_t>(h.contact[i])];
-      const double of_a = c.reduced * field(c.a).inverse_mass, of_b = c.reduced * field(c.b).inverse_mass;
-      for (int j = 0; j < width; j += kLanes) {
-        const Lanes a = load_lanes(h.a + j), b = load_lanes(h.b + j);
-        const Lanes share = of_a * ((a == h.a[i] ? one : zero) - (b == h.a[i] ? one : zero)) +
-                            of_b * ((b == h.b[i] ? one : zero) - (a == h.b[i] ? one : zero));
-        Lanes along = h.motion[i][0] * load_lanes(h.impulse[0] + j);
-        for (int d = 1; d < Dim; ++d) along += h.motion[i][d] * load_lanes(h.impulse[d] + j);
-        store_lanes(matrix_ + i * width + j, share * along);
-      }
-      right_[i] = c.reduced * (slip(c) + c.closing * c.normal).dot(h.motion[i]);
-    }
+    return hindrances_.count() > 0;
   }
 
   /// Goes where no hindered motion is left; contacts that part on the way are left behind.
@@ -314,18 +278,12 @@ class ContactsTogether {
   template <class Law>
   bool leap_until_one_parts(const Law& law) {
     if (!find_hindrances()) return false;
-    const int n = hindrances_.count, width = padded_count(n);
-    set_equations(width);
-    eliminate(n, width);
+    if (!hindrances_.solve()) return false;
     changes_.assign(contacts.size(), Vec<Dim>::Zero());
-    for (int i = 0; i < n; ++i) {
-      if (!std::isfinite(right_[i])) return false;
-      for (int d = 0; d < Dim; ++d)
-        changes_[static_cast<std::size_t>(hindrances_.contact[i])][d] +=
-            right_[i] * hindrances_.impulse[d][i];
-    }
+    hindrances_.for_each_change(
+        [&](int contact, const Vec<Dim>& change) { changes_[static_cast<std::size_t>(contact)] += change; });
     FieldContact<Dim>* parts = nullptr;
-    const double share = share_of_leap(law, parts), before = excess();
+    const double share = share_of_leap(law, parts), before = lags_ ? excess() : 0;
     go(share);
     if (lags_ && !(excess() <= before)) {
       go(-share);
@@ -386,34 +344,12 @@ class ContactsTogether {
     return share;
   }
 
-  /// Gauss–Jordan; the solution takes the place of the right-hand side. Three fields that stick to each other
-  /// have more impulses than they need: those that follow from the ones before stay as they are.
-  void eliminate(int n, int width) {
-    constexpr double kRedundant = 1e-11;
-    double inverse[kMost];
-    for (int pivot = 0; pivot < n; ++pivot) {
-      double* own = matrix_ + pivot * width;
-      const bool redundant = !(std::abs(own[pivot]) > kRedundant);
-      inverse[pivot] = redundant ? 0 : 1 / own[pivot];
-      for (int i = 0; i < n; ++i) {
-        double* row = matrix_ + i * width;
-        const double factor = row[pivot] * inverse[pivot];
-        if (i == pivot || factor == 0) continue;
-        for (int j = 0; j < width; j += kLanes)
-          store_lanes(row + j, load_lanes(row + j) - factor * load_lanes(own + j));
-        right_[i] -= factor * right_[pivot];
-      }
-    }
-    for (int i = 0; i < n; ++i) right_[i] *= inverse[i];
-  }
-
-  Hindrances hindrances_{};
+  Hindrances<Dim> hindrances_;
   double noise_ = 0, motion_ = 0;  ///< N s
   double largest_ = 0;             ///< |J|², N² s²
   bool lags_ = false;              ///< friction is given
   std::vector<Vec<Dim>> start_;    ///< velocities, m/s
   std::vector<Vec<Dim>> changes_;  ///< of the contacts' impulses, or the fields' momenta
-  double matrix_[kMost * kMost], right_[kMost];
 };
 
 }  // namespace mpmfast

@@ -36,10 +36,10 @@ Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& 
   };
   const auto momentum = [&](int k) { return state.nodes.vector(Nodal::momentum, slot_of(k)); };
   const int other = entry.b >= 0 ? entry.b : node.rigid;
-  double mass_b = 0;
-  Vec<Dim> momentum_b = Vec<Dim>::Zero();
-  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
-    if (other >= 0 ? k != other : k == entry.a) continue;
+  double mass_b = other >= 0 ? mass[slot_of(other)] : 0;
+  Vec<Dim> momentum_b = other >= 0 ? momentum(other) : Vec<Dim>(Vec<Dim>::Zero());
+  for (int k = 0; other < 0 && k < node.field_end - node.field_begin; ++k) {
+    if (k == entry.a) continue;
     mass_b += mass[slot_of(k)];
     momentum_b += momentum(k);
   }
@@ -49,9 +49,8 @@ Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& 
 
 /// What the slips are before the first correction.
 template <int Dim>
-void Contact<Dim>::see_slips(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
+void Contact<Dim>::see_slips(const State<Dim>& state, const ContactNode<Dim>& node) {
   if (!one_set_ && !first_correction_stays_) return;
-  if (correction != (first_correction_ ? Correction::initial : Correction::final)) return;
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     entry.slip_start = entry.slip_held = slip_of(state, node, entry);
@@ -70,9 +69,10 @@ void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const 
       if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
     } else if (correction == Correction::final) {
       entry.second = entry.impulse + entry.passed;
-      entry.touching = one_set_ ? touches_on(state, node, entry) : acts;
+      entry.touching = acts;
       if (one_set_) {
         entry.slip_pulled = slip_of(state, node, entry);
+        entry.touching = touches_on(state, node, entry, entry.slip_pulled);
         entry.spring = spring_of(state, node, entry);
       }
     }

@@ -151,7 +151,7 @@ class ContactFit {
           entry.separation = state.grid.cell * kept_separation<E>(state, node.node, fit);
         });
       if (choice.smooth)
-        raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry, fit.raw, fit.touches, fit.doubted);
+        raw_[static_cast<std::size_t>(e)] = mean.raw(node, entry, fit.raw, entry.separation < 0, fit.doubted);
     }
   }
 

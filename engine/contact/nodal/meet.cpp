@@ -184,15 +184,16 @@ bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correct
 
 /// Does the second correction leave the pair of the set in contact: has it pressed, or did the first and no
 /// force pulls? Speeds of 1e-10 cells a step are round-off, which must not decide.
+/// @param slip  that it leaves
 template <int Dim>
 bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
-                              const ContactEntry<Dim>& entry) const {
+                              const ContactEntry<Dim>& entry, const Vec<Dim>& slip) const {
   const double least = 1e-10 * cell_ / dt_;
   const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
   const double mass = state.nodes.column(Nodal::mass)[slot];
   if (entry.impulse.dot(entry.normal) < -least * mass) return true;
   if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
-  return entry.closing - slip_of(state, node, entry).dot(entry.normal) <= least;
+  return entry.closing - slip.dot(entry.normal) <= least;
 }
 
 /// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within

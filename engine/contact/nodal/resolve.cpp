@@ -82,8 +82,10 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
   for (std::int64_t k = 0; k < n; ++k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     if (bridges_ && correction == Correction::final) bridge(state, dt, node);
-    see_slips(state, correction, node);
-    judge(node);
+    if (correction == (first_correction_ ? Correction::initial : Correction::final)) {
+      see_slips(state, node);
+      judge(node);
+    }
     auto outcome = PairOutcome::lump;
     if (node.pair_begin < node.entry_end) {
       outcome = resolve_pairs(state, correction, dt, node);
@@ -171,30 +173,26 @@ template <class Law>
 Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
                                          double separation, Correction correction, const Law& law,
                                          double area_time) const {
-  const double along = meeting.stick.dot(entry.normal);
-  const Vec<Dim> tangential = meeting.stick - along * entry.normal;
-  const double needed = tangential.norm();
-  if constexpr (Law::scope == LawScope::bonded)
-    if (entry.separation < law.longest_gap() && law.holds({-along, needed, meeting.reduced, area_time}))
-      return {meeting.stick, Hinders::slip};
-  const bool last = entry.lasts, closes = separation < 0 || last;
-  if (correction == Correction::initial ? !closes
-      : correction == Correction::final ? !closes && !entry.held
-                                        : !entry.touching)
-    return {Vec<Dim>::Zero(), Hinders::nothing};
-  const double normal = along + meeting.reduced * entry.closing;
-  if (normal > 0 && !both_ways(entry, correction)) return {Vec<Dim>::Zero(), Hinders::nothing};
-  // Friction that slides is a force of the second correction: what is held for the strain alone must be a
-  // projection.
-  const bool rubs = correction == Correction::final || first_correction_stays_;
-  if (Law::scope == LawScope::contact && holds_slip(entry, correction))
-    return {normal * entry.normal + tangential, Hinders::slip};
-  const double presses = Law::scope == LawScope::contact ? force_of(entry, meeting, normal) : normal;
-  constexpr double kLeast = std::numeric_limits<double>::min();  // what carries nothing does not stick
-  const double limit = law(
-      {rubs ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), meeting.reduced, rubs ? area_time : 0});
-  if (needed <= limit && limit > 0) return {normal * entry.normal + tangential, Hinders::slip};
-  return {normal * entry.normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
+  const SetRule<Dim> rule = rule_of(entry, separation, correction, law);
+  return rule.demand(entry.normal, entry.closing, meeting.stick, meeting.reduced, law, area_time,
+                     [&](double normal) { return force_of(entry, meeting, normal); });
+}
+
+/// What a correction asks of a pair of the set.
+template <int Dim>
+template <class Law>
+SetRule<Dim> Contact<Dim>::rule_of(const ContactEntry<Dim>& entry, double separation, Correction correction,
+                                   const Law& law) const {
+  SetRule<Dim> rule;
+  if constexpr (Law::scope == LawScope::bonded) rule.may_bond = entry.separation < law.longest_gap();
+  const bool closes = separation < 0 || entry.lasts;
+  rule.acts = correction == Correction::initial ? closes
+              : correction == Correction::final ? closes || entry.held
+                                                : entry.touching;
+  rule.both_ways = both_ways(entry, correction);
+  rule.holds_slip = Law::scope == LawScope::contact && holds_slip(entry, correction);
+  rule.rubs = correction == Correction::final || first_correction_stays_;
+  return rule;
 }
 
 /// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
@@ -209,10 +207,13 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
   find_acting(state, laws, correction, dt, node, together);
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const Acting& acting = together.acting[k];
+    const FieldContact<Dim>& contact = together.solver.contacts[k];
     Demand<Dim> demand;
     with_law(laws, node, *acting.entry, [&](const auto& law) {
-      demand = impulse_of(*acting.entry, {stick, together.solver.contacts[k].reduced}, acting.entry->advanced,
-                          correction, law, acting.area_time);
+      demand = acting.in_set ? acting.rule.demand(contact.normal, contact.closing, stick, contact.reduced,
+                                                  law, acting.area_time, [](double normal) { return normal; })
+                             : impulse_of(*acting.entry, {stick, contact.reduced}, acting.entry->advanced,
+                                          correction, law, acting.area_time);
     });
     return demand;
   });
@@ -260,7 +261,11 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       if (Law::scope == LawScope::contact && apart) return;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
-      together.acting.push_back({&entry, area_time});
+      Acting& acting = together.acting.emplace_back();
+      acting.entry = &entry;
+      acting.area_time = area_time;
+      acting.in_set = one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded);
+      if (acting.in_set) acting.rule = rule_of(entry, entry.advanced, correction, law);
       solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
       if (!one_set_) return;
       auto& contact = solver.contacts.back();

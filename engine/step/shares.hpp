@@ -1,0 +1,51 @@
+#pragma once
+
+/// @file Who does what in a loop over tiles: a thread begins with its own share, so that it meets in every
+/// loop the particles and nodes that it met in the last one and still has in its caches, and helps the others
+/// when it is done.
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace mpmfast {
+
+class Shares {
+ public:
+  explicit Shares(int most_threads)
+      : most_(most_threads), shares_(std::make_unique<Share[]>(static_cast<std::size_t>(most_threads))) {}
+
+  /// For the next loop, of n turns. Called by one thread, before the others begin.
+  void cut(int threads, std::int64_t n) {
+    threads_ = std::min(threads, most_);
+    for (int t = 0; t < threads_; ++t) {
+      shares_[static_cast<std::size_t>(t)].next.store(n * t / threads_, std::memory_order_relaxed);
+      shares_[static_cast<std::size_t>(t)].end = n * (t + 1) / threads_;
+    }
+  }
+
+  /// Calls f(turn) for turns that nobody else takes, until all are taken.
+  template <class F>
+  void for_each(int thread, const F& f) {
+    for (int k = 0; k < threads_; ++k) {
+      Share& share = shares_[static_cast<std::size_t>((thread + k) % threads_)];
+      for (;;) {
+        const std::int64_t begin = share.next.fetch_add(kAtOnce, std::memory_order_relaxed);
+        if (begin >= share.end) break;
+        for (std::int64_t turn = begin; turn < std::min(begin + kAtOnce, share.end); ++turn) f(turn);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::int64_t kAtOnce = 4;  ///< turns that are taken together
+  struct alignas(64) Share {
+    std::atomic<std::int64_t> next{0};
+    std::int64_t end = 0;
+  };
+  int most_, threads_ = 0;
+  std::unique_ptr<Share[]> shares_;
+};
+
+}  // namespace mpmfast
