@@ -228,13 +228,17 @@ class BasisPasses final : public Passes<Dim> {
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
     heat_reports_.assign(static_cast<std::size_t>(n), {});
     const ParticleView<Dim> view = state.view();
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 4)
-    for (std::int64_t t = 0; t < n; ++t) {
-      const auto at = static_cast<std::size_t>(t);
-      if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) continue;
-      heat_reports_[at] = update_heat_tile<Dim, Basis>(
-          context(state, view, static_cast<int>(t)),
-          *rooms_[static_cast<std::size_t>(omp_get_thread_num())]->heat, scale, filtered, in);
+    shares_[0].cut(state.threads, n);
+#pragma omp parallel num_threads(state.threads)
+    {
+      const int thread = omp_get_thread_num();
+      HeatRoom<Dim, Basis>& room = *rooms_[static_cast<std::size_t>(thread)]->heat;
+      shares_[0].for_each(thread, [&](std::int64_t t) {
+        const auto at = static_cast<std::size_t>(t);
+        if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) return;
+        heat_reports_[at] = update_heat_tile<Dim, Basis>(context(state, view, static_cast<int>(t)), room,
+                                                         scale, filtered, in);
+      });
     }
     HeatReport all;
     for (const HeatReport& one : heat_reports_) {
