@@ -16,8 +16,13 @@ namespace {
 struct Surface {
   double deformable = 0, rigid = 0;
 
-  /// A contact node takes a surface node of two fields, one of them deformable.
-  double contact_nodes() const { return std::min(deformable, 0.5 * (deformable + rigid)); }
+  /// A contact node takes a surface node of two fields, one of them deformable. All of them meet where grains
+  /// are pressed together (nine tenths of ellipses.yaml), few where disks touch: half of them errs by
+  /// a few per cent of what such scenes take in all.
+  double contact_nodes() const {
+    constexpr double kMeet = 0.5;
+    return kMeet * std::min(deformable, 0.5 * (deformable + rigid));
+  }
 };
 
 /// A node on the surface of a field has less mass than one inside it has.
