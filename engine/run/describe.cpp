@@ -110,13 +110,16 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
       in_mebibytes(state.nodes.bytes()), in_mebibytes(state.tiling.bytes()), in_mebibytes(program));
   const std::string below = "\n" + std::string(18, ' ');
   if (step.plan().contact)
-    text += below + fmt::format("{} of contact, should half of the surfaces meet another ({:.0f} nodes; {} now),",
-                                in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+    text +=
+        below +
+        fmt::format("{} of contact, should two fifths of the surfaces meet others ({:.0f} nodes; {} now),",
+                    in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
   if (surfaces > 0)
     text += below + fmt::format("{} of surfaces and what is near them now,", in_mebibytes(surfaces));
   if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));
   return text + below +
-         fmt::format("{} for a while for {}; about {} at the peak", in_mebibytes(passing.bytes), passing.reason,
+         fmt::format("{} for a while for {}; about {} at the peak", in_mebibytes(passing.bytes),
+                     passing.reason,
                      in_mebibytes(static_cast<double>(particles.bytes()) + later + passing.bytes + program));
 }
 
