@@ -81,6 +81,11 @@ class Contact {
   bool joined(int entry) const { return bridges_ && list_.bridges[static_cast<std::size_t>(entry)].acts; }
   /// Of the last step.
   const ContactBooks<Dim>& books() const { return books_; }
+  /// Of all that grows with the contact nodes.
+  std::size_t bytes() const {
+    return bytes_in(list_.nodes, list_.fields, list_.entries, list_.bridges, list_.bonds, list_.fits,
+                    list_.node_at, keys_, memory_, last_bridges_, last_bonds_, last_fits_);
+  }
 
  private:
   void list_stack(const State<Dim>& state, int stack);

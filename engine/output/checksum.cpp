@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include "engine/output/hash.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
@@ -12,9 +15,12 @@ class StateHash {
 
   template <class T>
   void add(const T* values) {
-    std::vector<T> gathered(order_.size());
-    for (std::size_t i = 0; i < order_.size(); ++i) gathered[i] = values[order_[i]];
-    hash_.add(gathered.data(), gathered.size() * sizeof(T));
+    std::array<T, 4096> gathered;  // of a whole column it would be the most that a run takes
+    for (std::size_t begin = 0; begin < order_.size(); begin += gathered.size()) {
+      const std::size_t count = std::min(gathered.size(), order_.size() - begin);
+      for (std::size_t i = 0; i < count; ++i) gathered[i] = values[order_[begin + i]];
+      hash_.add(gathered.data(), count * sizeof(T));
+    }
   }
   std::string text() const { return hash_.text(); }
 

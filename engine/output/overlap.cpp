@@ -71,27 +71,30 @@ Box box_of(const ParticleDomain& domain) {
 /// Which domains can meet one of another owner: those in the box around another owner's. Of many owners
 /// hardly a domain lies in no other box, and each is taken. A failing run may ask too: what is no number is
 /// nowhere.
-std::vector<bool> may_meet(const std::vector<ParticleDomain>& domains) {
-  constexpr std::size_t kMany = 32;
-  std::map<int, Box> around;
-  std::vector<bool> out(domains.size());
-  for (std::size_t p = 0; p < domains.size(); ++p) {
-    const Box box = box_of(domains[p]);
-    out[p] = box.finite();
-    if (out[p] && around.size() <= kMany) around[domains[p].owner].include(box);
+class OwnerBoxes {
+ public:
+  void include(const ParticleDomain& domain) {
+    const Box box = box_of(domain);
+    if (box.finite() && around_.size() <= kMany) around_[domain.owner].include(box);
   }
-  if (around.size() > kMany) return out;
-  for (std::size_t p = 0; p < domains.size(); ++p)
-    out[p] = out[p] && std::any_of(around.begin(), around.end(), [&](const auto& other) {
-               return other.first != domains[p].owner && other.second.meets(box_of(domains[p]));
-             });
-  return out;
-}
+  /// @param domain  one of those that were included
+  bool may_meet(const ParticleDomain& domain) const {
+    const Box box = box_of(domain);
+    if (around_.size() > kMany) return box.finite();
+    return box.finite() && std::any_of(around_.begin(), around_.end(), [&](const auto& other) {
+             return other.first != domain.owner && other.second.meets(box);
+           });
+  }
+
+ private:
+  static constexpr std::size_t kMany = 32;
+  std::map<int, Box> around_;
+};
 
 using BinIndex = std::array<std::uint32_t, 2>;
 
-/// Square bins over the plane. A domain that may meet another is listed, in order, in each bin that its
-/// bounding box touches; two domains are compared in the lowest bin that both boxes touch, so once.
+/// Square bins over the plane. A domain is listed, in order, in each bin that its bounding box touches; two
+/// domains are compared in the lowest bin that both boxes touch, so once.
 class Bins {
  public:
   explicit Bins(const std::vector<ParticleDomain>& domains);
@@ -116,7 +119,6 @@ class Bins {
   std::size_t lay_out(const std::vector<ParticleDomain>& domains);
   template <class Visit>
   void for_each_bin(const std::vector<ParticleDomain>& domains, std::size_t p, Visit visit) const {
-    if (!listed_[p]) return;
     const BinIndex last = at(box_of(domains[p]).upper);
     for (std::uint32_t y = first_[p][1]; y <= last[1]; ++y)
       for (std::uint32_t x = first_[p][0]; x <= last[0]; ++x) visit(flat({x, y}));
@@ -125,9 +127,8 @@ class Bins {
   Vec<2> origin_ = Vec<2>::Zero();
   double width_ = 1;
   std::size_t columns_ = 1;
-  std::vector<bool> listed_;
   std::vector<BinIndex> first_;
-  std::vector<std::size_t> start_;
+  std::vector<std::size_t> start_;  ///< of each bin in list_, and the end
   std::vector<std::uint32_t> list_;
 };
 
@@ -135,9 +136,8 @@ class Bins {
 std::size_t Bins::lay_out(const std::vector<ParticleDomain>& domains) {
   Box all;
   double extents = 0, n = 0;
-  for (std::size_t p = 0; p < domains.size(); ++p) {
-    if (!listed_[p]) continue;
-    const Box box = box_of(domains[p]);
+  for (const ParticleDomain& domain : domains) {
+    const Box box = box_of(domain);
     all.include(box);
     extents += (box.upper - box.lower).maxCoeff();
     ++n;
@@ -152,17 +152,19 @@ std::size_t Bins::lay_out(const std::vector<ParticleDomain>& domains) {
   return columns_ * (std::size_t{last[1]} + 1);
 }
 
-Bins::Bins(const std::vector<ParticleDomain>& domains) : listed_(may_meet(domains)), first_(domains.size()) {
-  start_.assign(lay_out(domains) + 1, 0);
+/// While the list is filled, start_[bin + 1] is where the next of a bin goes: in the end, where that ends.
+Bins::Bins(const std::vector<ParticleDomain>& domains) : first_(domains.size()) {
+  start_.assign(lay_out(domains) + 2, 0);
   for (std::size_t p = 0; p < domains.size(); ++p) {
-    if (listed_[p]) first_[p] = at(box_of(domains[p]).lower);
-    for_each_bin(domains, p, [&](std::size_t bin) { ++start_[bin + 1]; });
+    first_[p] = at(box_of(domains[p]).lower);
+    for_each_bin(domains, p, [&](std::size_t bin) { ++start_[bin + 2]; });
   }
   for (std::size_t bin = 1; bin < start_.size(); ++bin) start_[bin] += start_[bin - 1];
   list_.resize(start_.back());
-  std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   for (std::size_t p = 0; p < domains.size(); ++p)
-    for_each_bin(domains, p, [&](std::size_t bin) { list_[next[bin]++] = static_cast<std::uint32_t>(p); });
+    for_each_bin(domains, p,
+                 [&](std::size_t bin) { list_[start_[bin + 1]++] = static_cast<std::uint32_t>(p); });
+  start_.pop_back();
 }
 
 /// The share of one bin: the pairs that it compares, and the particles whose centre it holds.
@@ -186,6 +188,43 @@ Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins,
   return sum;
 }
 
+/// Of domains that may meet. Few bins at a time: what each has is added up in their order.
+Overlap overlap_of(const std::vector<ParticleDomain>& domains, int threads) {
+  constexpr std::size_t kBins = std::size_t{1} << 16;
+  const Bins bins(domains);
+  std::vector<Overlap> of_bin(std::min(kBins, bins.count()));
+  Overlap sum;
+  for (std::size_t begin = 0; begin < bins.count(); begin += kBins) {
+    const std::size_t end = std::min(begin + kBins, bins.count());
+#pragma omp parallel for num_threads(threads) schedule(dynamic, 64)
+    for (std::int64_t bin = static_cast<std::int64_t>(begin); bin < static_cast<std::int64_t>(end); ++bin)
+      of_bin[static_cast<std::size_t>(bin) - begin] =
+          overlap_in(domains, bins, static_cast<std::size_t>(bin));
+    for (std::size_t k = 0; k < end - begin; ++k) {
+      const Overlap& part = of_bin[k];
+      sum.area += part.area;
+      sum.inside += part.inside;
+      sum.particles_inside += part.particles_inside;
+      if (part.particles_inside > 0) sum.owners = part.owners;
+    }
+  }
+  return sum;
+}
+
+/// f(domain) of all particles, as particle_domains() lists them.
+template <class F>
+void for_each_domain(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                     const std::vector<int>& owner, const Surfaces<2>& surfaces, const F& f) {
+  for (const std::uint32_t p : order_by_id(particles)) {
+    const std::size_t body = particles.body()[p];
+    if (surfaces.holds(static_cast<int>(body), particles.id()[p])) continue;
+    Mat<2> edges = particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p)
+                                                                 : Mat<2>(Mat<2>::Identity());
+    for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k];
+    f(ParticleDomain{particles.vector(Quantity::position, p), edges, owner[body]});
+  }
+}
+
 }  // namespace
 
 double ParticleDomain::area() const { return 4 * std::abs(edges.determinant()); }
@@ -206,21 +245,35 @@ double common_area(const ParticleDomain& p, const ParticleDomain& q) {
 }
 
 Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads) {
-  const Bins bins(domains);
-  const auto count = static_cast<std::int64_t>(bins.count());
-  std::vector<Overlap> of_bin(bins.count());
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 64)
-  for (std::int64_t bin = 0; bin < count; ++bin) {
-    const auto b = static_cast<std::size_t>(bin);
-    of_bin[b] = overlap_in(domains, bins, b);
-  }
-  Overlap sum;
-  for (const Overlap& part : of_bin) {
-    sum.area += part.area;
-    sum.inside += part.inside;
-    sum.particles_inside += part.particles_inside;
-    if (part.particles_inside > 0) sum.owners = part.owners;
-  }
+  OwnerBoxes boxes;
+  for (const ParticleDomain& domain : domains) boxes.include(domain);
+  std::vector<ParticleDomain> meeting;
+  for (const ParticleDomain& domain : domains)
+    if (boxes.may_meet(domain)) meeting.push_back(domain);
+  return overlap_of(meeting, threads);
+}
+
+/// Only what may meet is listed: a list of all domains is two thirds as large as the particles themselves.
+Overlap measure_overlap(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                        const std::vector<int>& owner, const Surfaces<2>& surfaces, int threads) {
+  const auto each = [&](const auto& f) { for_each_domain(particles, bodies, owner, surfaces, f); };
+  OwnerBoxes boxes;
+  std::size_t count = 0;
+  each([&](const ParticleDomain& domain) { boxes.include(domain); });
+  each([&](const ParticleDomain& domain) { count += boxes.may_meet(domain); });
+  std::vector<ParticleDomain> meeting;
+  meeting.reserve(count);
+  each([&](const ParticleDomain& domain) {
+    if (boxes.may_meet(domain)) meeting.push_back(domain);
+  });
+  return overlap_of(meeting, threads);
+}
+
+double area_of_domains(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                       const Surfaces<2>& surfaces) {
+  double sum = 0;
+  for_each_domain(particles, bodies, std::vector<int>(bodies.size()), surfaces,
+                  [&](const ParticleDomain& domain) { sum += domain.area(); });
   return sum;
 }
 
@@ -230,14 +283,8 @@ std::vector<ParticleDomain> particle_domains(const Particles<2>& particles,
                                              const std::vector<int>& owner, const Surfaces<2>& surfaces) {
   std::vector<ParticleDomain> domains;
   domains.reserve(particles.size());
-  for (const std::uint32_t p : order_by_id(particles)) {
-    const std::size_t body = particles.body()[p];
-    if (surfaces.holds(static_cast<int>(body), particles.id()[p])) continue;
-    Mat<2> edges = particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p)
-                                                                 : Mat<2>(Mat<2>::Identity());
-    for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k];
-    domains.push_back({particles.vector(Quantity::position, p), edges, owner[body]});
-  }
+  for_each_domain(particles, bodies, owner, surfaces,
+                  [&](const ParticleDomain& domain) { domains.push_back(domain); });
   return domains;
 }
 

@@ -36,6 +36,12 @@ double common_area(const ParticleDomain& p, const ParticleDomain& q);
 
 /// Bitwise the same for any number of threads; the order of the domains is that of the sums.
 Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads);
+/// The same of the particle_domains() of particles, to the bit.
+Overlap measure_overlap(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                        const std::vector<int>& owner, const Surfaces<2>& surfaces, int threads);
+/// Σ of their areas, in the same order, m².
+double area_of_domains(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                       const Surfaces<2>& surfaces);
 
 /// The domains of all particles in the order of their ids, so that their sort does not show in the sums.
 /// Boundary points of surfaces that are followed have none.

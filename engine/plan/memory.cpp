@@ -51,14 +51,19 @@ double slots_of(const BodySpec& body, double cell, int dimension) {
   return slots_of_tile * std::max(thin, share * inner + all - inner);
 }
 
+struct Bytes {
+  double columns = 0;  ///< of the particles
+  double later = 0;    ///< nodes, tiles and the sort
+};
+
 template <int Dim>
-double bytes_of(const Scene& scene, const Plan& plan, double particles) {
+Bytes bytes_of(const Scene& scene, const Plan& plan, double particles) {
   double columns = 0, nodal = 0, slots = 0;
   for (const Quantity q : plan.particle_columns) columns += Particles<Dim>::components(q);
   for (const Nodal q : plan.nodal_columns) nodal += Nodes<Dim>::components(q);
   for (const BodySpec& body : scene.bodies) slots += slots_of(body, scene.grid.cell, Dim);
-  constexpr double kSort = 40;  // bytes a particle: keys, identity, a column at a time
-  return particles * (8 * columns + kSort) + slots * 8 * nodal;
+  constexpr double kIdentity = 6, kSort = 24, kTiles = 6;  // bytes a particle
+  return {particles * (8 * columns + kIdentity), particles * (kSort + kTiles) + slots * 8 * nodal};
 }
 
 /// Of the boxes around all bodies, or of what the bodies fill of them.
@@ -73,6 +78,32 @@ double particles_in_boxes(const Scene& scene, bool filled) {
     sum += filled ? count * filled_share(body.shape, box, dimension) : count;
   }
   return sum;
+}
+
+/// The share of the particles that the search for overlaps lists at the start (output/overlap.cpp): those in
+/// the box around another body; of many bodies all.
+double share_near_others(const Scene& scene) {
+  constexpr std::size_t kMany = 32;
+  if (scene.bodies.size() > kMany) return 1;
+  const auto dimension = static_cast<std::size_t>(scene.dimension());
+  double all = 0, near = 0;
+  for (const BodySpec& body : scene.bodies) {
+    const Bounds own = bounds(body.shape);
+    double volume = 1, shared = 0;
+    for (std::size_t d = 0; d < dimension; ++d) volume *= own.upper[d] - own.lower[d];
+    for (const BodySpec& other : scene.bodies) {
+      if (&other == &body) continue;
+      const Bounds box = bounds(other.shape);
+      double common = 1;
+      for (std::size_t d = 0; d < dimension; ++d)
+        common *= std::max(0.0, std::min(own.upper[d], box.upper[d]) - std::max(own.lower[d], box.lower[d]));
+      shared += common;
+    }
+    const double density = particles_per_cell(body, scene.dimension());
+    all += density * volume;
+    near += density * std::min(volume, shared);
+  }
+  return all > 0 ? near / all : 0;
 }
 
 std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes / 1073741824.0); }
@@ -107,21 +138,20 @@ double canvas_bytes(const Scene& scene) {
 
 }  // namespace
 
-PassingNeed passing_need(const Scene& scene, double particles) {
-  // Bytes a particle. The search lists where the domain of each is; what lies in the box of another body it
-  // sorts. At the start there are no nodes yet, and nothing is sorted. A frame is what zlib makes of the
-  // columns of deformed particles, where zeros cost nothing. A row asks for the order of the ids, and a
-  // number of each.
+PassingNeed passing_need(const Scene& scene, double particles, double later) {
+  // Bytes a particle. The search lists the domains that may meet another body's, and sorts them. A frame is
+  // what zlib makes of the columns of deformed particles, where zeros cost nothing. A row has a number of
+  // each.
   const bool plane = scene.dimension() == 2;
   const double frame = plane ? 95 : 145, picture = plane ? 16 : 40;
-  constexpr double kSearch = 145, kSearchAtStart = 80, kRow = 12;
+  constexpr double kSearch = 100, kRow = 8;
   PassingNeed most{kRow * particles, "a row of the history"};
   const auto need = [&](double bytes, const char* reason) {
     if (bytes > most.bytes) most = {bytes, reason};
   };
   if (scene.output.picture != "none") need(picture * particles + canvas_bytes(scene), "a picture");
   if (plane && scene.bodies.size() > 1)
-    need(kSearchAtStart * particles, "the search for bodies that overlap");
+    need(kSearch * particles * share_near_others(scene) - later, "the search for bodies that overlap");
   if (plane && scene.output.overlap) need(kSearch * particles, "the search for bodies that overlap");
   if (scene.output.frames > 0) need(frame * particles, "a frame");
   return most;
@@ -130,8 +160,9 @@ PassingNeed passing_need(const Scene& scene, double particles) {
 double estimated_particles(const Scene& scene) { return particles_in_boxes(scene, true); }
 
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
-  return passing_need(scene, particles).bytes +
-         (scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles));
+  const Bytes lasting =
+      scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles);
+  return lasting.columns + lasting.later + passing_need(scene, particles, lasting.later).bytes;
 }
 
 std::uint64_t machine_memory() {

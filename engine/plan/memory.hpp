@@ -20,7 +20,9 @@ struct PassingNeed {
 
 /// The most that is taken at a time: to look for bodies that overlap, for a frame, for a picture, or for a
 /// row of the history.
-PassingNeed passing_need(const Scene& scene, double particles);
+/// @param later  bytes that are not taken yet at the start, where bodies are first looked at: of nodes,
+/// tiles, the sort and contact
+PassingNeed passing_need(const Scene& scene, double particles, double later);
 
 /// Bytes that a run of that many particles takes at most, without the program itself and contact: particles,
 /// nodes, tiles and the sort within a third, and what passes.

@@ -7,7 +7,7 @@
 namespace mpmfast {
 
 struct ContactNeed {
-  double nodes = 0;  ///< contact nodes, were each surface to meet another everywhere
+  double nodes = 0;  ///< contact nodes, were two fifths of what can meet to do so
   double bytes = 0;  ///< of the nodes, their entries, and the clouds that are kept at once
 };
 

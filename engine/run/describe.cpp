@@ -97,11 +97,12 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const auto& particles = state.particles;
   const std::size_t surfaces = step.penalty().active() ? state.surfaces.bytes() + step.penalty().bytes() : 0;
   const std::size_t extension = step.extension().active() ? step.extension().bytes() : 0;
-  const std::size_t lasting =
-      particles.bytes() + state.nodes.bytes() + state.tiling.bytes() + surfaces + extension;
   const ContactNeed contact = contact_need(step, scene);
-  const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()));
-  const double program = kProgramBytes + (scene.output.checkpoint.active ? kCheckpointBytes : 0);
+  const double later =
+      static_cast<double>(state.nodes.bytes() + state.tiling.bytes() + surfaces + extension) + contact.bytes;
+  const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()), later);
+  const double program = kProgramBytes + static_cast<double>(step.room_bytes()) +
+                         (scene.output.checkpoint.active ? kCheckpointBytes : 0);
   std::string text = fmt::format(
       "{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting, {} of the program,",
       in_mebibytes(particles.bytes()),
@@ -109,14 +110,17 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
       in_mebibytes(state.nodes.bytes()), in_mebibytes(state.tiling.bytes()), in_mebibytes(program));
   const std::string below = "\n" + std::string(18, ' ');
   if (step.plan().contact)
-    text += below + fmt::format("{} of contact, should every surface meet another ({:.0f} nodes; {} now),",
-                                in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+    text +=
+        below +
+        fmt::format("{} of contact, should two fifths of the surfaces meet others ({:.0f} nodes; {} now),",
+                    in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
   if (surfaces > 0)
     text += below + fmt::format("{} of surfaces and what is near them now,", in_mebibytes(surfaces));
   if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));
   return text + below +
-         fmt::format("{} for a while for {}; {} at most", in_mebibytes(passing.bytes), passing.reason,
-                     in_mebibytes(static_cast<double>(lasting) + contact.bytes + passing.bytes + program));
+         fmt::format("{} for a while for {}; about {} at the peak", in_mebibytes(passing.bytes),
+                     passing.reason,
+                     in_mebibytes(static_cast<double>(particles.bytes()) + later + passing.bytes + program));
 }
 
 /// "2: left, right"; of many the first few.

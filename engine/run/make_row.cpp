@@ -54,8 +54,7 @@ template <int Dim>
 std::optional<Overlap> overlap_of(const State<Dim>& state, const Scene& scene) {
   if constexpr (Dim == 2)
     if (scene.output.overlap)
-      return measure_overlap(
-          particle_domains(state.particles, state.bodies, state.body_field, state.surfaces), state.threads);
+      return measure_overlap(state.particles, state.bodies, state.body_field, state.surfaces, state.threads);
   return std::nullopt;
 }
 

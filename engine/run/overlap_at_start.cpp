@@ -12,11 +12,9 @@ OverlapAtStart overlap_at_start(const State<2>& state, const Scene& scene) {
   if (scene.bodies.size() < 2) return {};
   std::vector<int> owner(state.bodies.size());
   std::iota(owner.begin(), owner.end(), 0);
-  const std::vector<ParticleDomain> domains =
-      particle_domains(state.particles, state.bodies, owner, state.surfaces);
-  const Overlap overlap = measure_overlap(domains, state.threads);
-  double all = 0;
-  for (const ParticleDomain& domain : domains) all += domain.area();
+  const Overlap overlap =
+      measure_overlap(state.particles, state.bodies, owner, state.surfaces, state.threads);
+  const double all = area_of_domains(state.particles, state.bodies, state.surfaces);
   if (overlap.area <= 1e-9 * all) return {};
   std::string who;
   if (overlap.particles_inside > 0) {

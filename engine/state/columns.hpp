@@ -24,8 +24,11 @@ class Column {
   T& operator[](std::size_t i) { return data_.get()[i]; }
   const T& operator[](std::size_t i) const { return data_.get()[i]; }
   std::size_t size() const { return size_; }
-  /// With room that no element was in yet: the system gives that only when it is touched.
-  std::size_t bytes() const { return capacity_ * sizeof(T); }
+  /// That the system has given: not those of the pages where no element was in yet.
+  std::size_t bytes() const {
+    const std::size_t all = capacity_ * sizeof(T), page = all < kHuge ? kPage : kHugePage;
+    return std::min(all, (zeroed_ * sizeof(T) + page - 1) / page * page);
+  }
 
   /// Grows if needed (contents are then lost and zeroed); never shrinks the memory.
   /// @param room  elements that it grows to, if it must
@@ -50,7 +53,7 @@ class Column {
 
  private:
   /// Large columns ask for large pages: a pass goes along a dozen columns at once, each in pages of its own.
-  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = 4 * kHugePage;
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = 4 * kHugePage, kPage = 4096;
 
   struct Free {
     void operator()(T* p) const { std::free(p); }

@@ -18,6 +18,12 @@ std::size_t bytes_of(const Vectors&... vectors) {
   return (0 + ... + (vectors.capacity() * sizeof(typename Vectors::value_type)));
 }
 
+/// What is in vectors: where they have room for more, the system gives no pages yet.
+template <class... Vectors>
+std::size_t bytes_in(const Vectors&... vectors) {
+  return (0 + ... + (vectors.size() * sizeof(typename Vectors::value_type)));
+}
+
 template <int Dim>
 struct Surfaces {
   struct Facet {

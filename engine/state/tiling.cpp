@@ -321,12 +321,14 @@ void Tiling<Dim>::stack_up() {
   }
 }
 
+/// Each corner of a tile's window lists a node tile, before those that are the same become one.
 template <int Dim>
 std::size_t Tiling<Dim>::bytes() const {
-  return tiles.capacity() * sizeof(ParticleTile<Dim>) + runs.capacity() * sizeof(ParticleRun<Dim>) +
-         node_tiles.capacity() * sizeof(NodeTile<Dim>) + stacks.capacity() * sizeof(Stack<Dim>) +
-         (mapped_.capacity() + tile_keys_.capacity()) * sizeof(std::uint64_t) +
-         maps_.capacity() * sizeof(SideMap<Dim>) + node_slots_.capacity() * sizeof(int) + buffers_.bytes();
+  const std::size_t listed = std::max(node_tiles.size(), kCorners<Dim> * tiles.size());
+  return tiles.size() * sizeof(ParticleTile<Dim>) + runs.size() * sizeof(ParticleRun<Dim>) +
+         listed * sizeof(NodeTile<Dim>) + stacks.size() * sizeof(Stack<Dim>) +
+         (mapped_.size() + tile_keys_.size()) * sizeof(std::uint64_t) + maps_.size() * sizeof(SideMap<Dim>) +
+         node_slots_.size() * sizeof(int) + buffers_.bytes();
 }
 
 template class Tiling<2>;

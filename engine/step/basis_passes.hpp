@@ -253,6 +253,11 @@ class BasisPasses final : public Passes<Dim> {
     fit_.run(state, spec, contact);
   }
 
+  std::size_t fit_bytes() const override { return fit_.bytes(); }
+  std::size_t room_bytes(int threads) const override {
+    return std::min(rooms_.size(), static_cast<std::size_t>(threads)) * sizeof(Room);
+  }
+
  private:
   struct Room {
     ProjectRoom<Dim, Basis> project;

@@ -18,6 +18,8 @@ namespace mpmfast {
 template <int Dim>
 class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
  public:
+  /// Of the rooms that threads work in, as far as they do.
+  virtual std::size_t room_bytes(int threads) const = 0;
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
   /// First support node of every particle, and the sort that follows from it.

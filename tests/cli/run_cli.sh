@@ -227,16 +227,16 @@ check_special_files() {
   rm -rf reported link.html there.html pipe read.html
 }
 
-# A run takes no more than check says, and not much less.
+# A run takes what check says, to a tenth (bench/memory has more of these).
 tell_memory() {
   local told taken steps=$1
   shift
   run 0 check "$@"
-  told=$(sed -n 's/.*; \([0-9.]*\) MiB at most$/\1/p' out)
+  told=$(sed -n 's/.*; about \([0-9.]*\) MiB at the peak$/\1/p' out)
   run 0 run "$@" --steps "$steps" --out large --force --progress none
   taken=$(sed -n 's/^memory  *\([0-9.]*\) MiB at most$/\1/p' out)
   checks=$((checks + 1))
-  awk -v told="$told" -v taken="$taken" 'BEGIN { exit !(told >= taken && told < 1.25 * taken) }' ||
+  awk -v told="$told" -v taken="$taken" 'BEGIN { exit !(told > 0.9 * taken && told < 1.1 * taken) }' ||
     fail "check $* tells $told MiB, the run took $taken"
   rm -rf large
 }

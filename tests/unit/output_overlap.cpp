@@ -158,7 +158,10 @@ TEST_CASE("the overlap has the same bits on any number of threads and for any or
 
   const auto of = [](const std::vector<std::uint32_t>& order) {
     const std::vector<BodyView<2>> bodies(3, BodyView<2>{{0.03, 0.05}, 0, false, {}});
-    return measure_overlap(particle_domains(output_test::particles_in_order<2>(order), bodies, {0, 1, 2}), 1);
+    const auto particles = output_test::particles_in_order<2>(order);
+    const Overlap listed = measure_overlap(particle_domains(particles, bodies, {0, 1, 2}), 1);
+    CHECK(same_bits(measure_overlap(particles, bodies, {0, 1, 2}, {}, 2), listed));
+    return listed;
   };
   const Overlap sorted = of(output_test::ascending(2000));
   CHECK(sorted.area > 0);

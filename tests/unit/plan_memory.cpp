@@ -1,6 +1,9 @@
 // What a scene would take of the machine is known before it is taken.
 
+#include <string>
+
 #include "engine/plan/memory.hpp"
+#include "engine/state/columns.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -18,10 +21,10 @@ void check_estimate(const char* file) {
   const auto count = static_cast<double>(state.particles.size());
   CHECK(estimated_particles(scene) == doctest::Approx(count).epsilon(0.03));
   if (count < 5000) return;  // the nodes of half-empty tiles are then the most
-  const auto taken =
-      static_cast<double>(state.particles.planned_bytes() + state.nodes.bytes() + state.tiling.bytes());
-  const double ratio =
-      (estimated_bytes(scene, step.plan(), count) - passing_need(scene, count).bytes) / taken;
+  const auto columns = static_cast<double>(state.particles.planned_bytes()),
+             later = static_cast<double>(state.nodes.bytes() + state.tiling.bytes());
+  const double taken = columns + later + passing_need(scene, count, later).bytes;
+  const double ratio = estimated_bytes(scene, step.plan(), count) / taken;
   CHECK(ratio > 0.67);
   CHECK(ratio < 1.5);
 }
@@ -32,6 +35,42 @@ TEST_CASE("particles and memory of a scene are foretold") {
   check_estimate<2>("bench/block-2d.yaml");
   check_estimate<3>("bench/block-3d.yaml");
   check_estimate<3>("sphere_plane.yaml");
+}
+
+TEST_CASE("the search for bodies that overlap counts those in each other's boxes, beyond what comes later") {
+  const auto need = [](const char* second, double later) {
+    return passing_need(scene_from(std::string(R"(
+space: plane_strain
+grid: {size: [1 m, 1 m], cell: 1 cm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+output: {picture: none, frames: 0}
+bodies:
+  - {name: a, box: {from: [0.1 m, 0.1 m], to: [0.5 m, 0.9 m]}, material: m}
+  - {name: b, box: )") + second + ", material: m}\n"),
+                        1000, later);
+  };
+  const PassingNeed beside = need("{from: [0.5 m, 0.1 m], to: [0.9 m, 0.9 m]}", 0),
+                    inside = need("{from: [0.1 m, 0.1 m], to: [0.5 m, 0.9 m]}", 0),
+                    half = need("{from: [0.3 m, 0.1 m], to: [0.7 m, 0.9 m]}", 0),
+                    late = need("{from: [0.1 m, 0.1 m], to: [0.5 m, 0.9 m]}", 1e6);
+  CHECK(std::string(beside.reason) == "a row of the history");
+  CHECK(std::string(inside.reason) == "the search for bodies that overlap");
+  CHECK(half.bytes == doctest::Approx(0.5 * inside.bytes));
+  CHECK(late.bytes == beside.bytes);
+}
+
+TEST_CASE("a column tells of the memory that it has touched, in pages") {
+  Column<double> small, large;
+  small.resize_discard(1000, 5000);
+  CHECK(small.bytes() == 3 * 4096);  // 1064 numbers
+  small.resize_discard(2000);
+  CHECK(small.bytes() == 5 * 4096);
+  constexpr std::size_t kMany = std::size_t{1} << 21;  // 16 MiB: in pages of 2 MiB
+  large.resize_discard(kMany, 2 * kMany);
+  CHECK(large.bytes() == (std::size_t{18} << 20));
+  large.resize_discard(1);
+  CHECK(large.bytes() == (std::size_t{18} << 20));
 }
 
 TEST_CASE("a scene that needs more memory than there is, is refused with the figures") {

@@ -88,6 +88,27 @@ class ContactFit {
     count(contact.counters);
   }
 
+  std::size_t bytes() const {
+    std::size_t sum = bytes_in(raw_, kept_, due_, first_);
+    const auto add = [&](const auto& columns) {
+      for (const auto& column : columns) sum += bytes_in(column);
+    };
+    for (const Room& room : rooms_) {
+      const auto& near = room.candidates;
+      sum += bytes_in(room.side, room.sums, near.pieces, near.number);
+      add(near.position);
+      add(near.reach);
+      add(near.domain);
+      add(near.shape);
+      for (const CloudRoom<Dim>& cloud : room.clouds) {
+        add(cloud.xi);
+        add(cloud.shape);
+        sum += bytes_in(cloud.number);
+      }
+    }
+    return sum;
+  }
+
  private:
   struct Room;
 
