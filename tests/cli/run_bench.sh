@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks bench/run with a benchmark program that says what it is told, and bench/compare with tiny sets of figures.
+# Checks bench/run with a benchmark program that says what it is told, bench/compare with tiny sets of figures, and that the
+# tables of bench/results/beside.md are those of its CSV files.
 # usage: run_bench.sh SOURCE_DIR
 command -v python3 >/dev/null || { echo 'python3 is not installed'; exit 77; }
 root=$(realpath "$1")
@@ -92,7 +93,26 @@ check_compare() {
   says err 'empty.json: not the figures of bench/run'
 }
 
+check_beside() {
+  mkdir copy
+  cp -r "$source_dir/bench" copy/bench
+  checks=$((checks + 1))
+  python3 copy/bench/beside --tables >out 2>err || fail 'bench/beside --tables ends with an error'
+  cmp -s copy/bench/results/beside.md "$source_dir/bench/results/beside.md" ||
+    fail 'bench/results/beside.md is not that of its CSV files: bench/beside makes it'
+  if command -v gnuplot >/dev/null; then
+    rm copy/bench/results/beside.svg
+    python3 copy/bench/beside >out 2>err || fail 'bench/beside ends with an error'
+    python3 -c 'import sys, xml.dom.minidom; xml.dom.minidom.parse(sys.argv[1])' copy/bench/results/beside.svg ||
+      fail 'beside.svg is not XML'
+  fi
+  sed -i 's/^2,[0-9.]*/2,0.5/' copy/bench/results/beside/ratios.csv
+  python3 copy/bench/beside --tables >out 2>err || fail 'bench/beside --tables ends with an error'
+  says copy/bench/results/beside.md '| bare loop | 2-D, 10^5 | double | uGIMP, 9 nodes; FLIP | neo-Hookean | 49 [44 to 58] | 95 [76 to 110] | 0.5 |'
+}
+
 check_run
 check_compare
+check_beside
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]
