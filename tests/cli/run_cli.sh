@@ -662,9 +662,27 @@ check_report() {
   rm -rf reported empty elsewhere.html
 }
 
+# Threads that are to be bound are each to a processor of their own.
+check_bound_threads() {
+  (($(nproc) > 1)) || return 0
+  local bound=0 pid
+  OMP_PROC_BIND=true "$program" run "$source_dir/configs/ellipses.yaml" --threads 2 --out bound >out 2>err &
+  pid=$!
+  while ((bound < 2)) && kill -0 $pid 2>/dev/null; do
+    bound=$(grep -h Cpus_allowed_list /proc/$pid/task/*/status 2>/dev/null | sort -u | wc -l)
+    sleep 0.05
+  done
+  kill -TERM $pid 2>/dev/null
+  wait $pid
+  checks=$((checks + 1))
+  ((bound > 1)) || fail 'all threads are bound to one processor'
+  rm -rf bound
+}
+
 check_broken_scenes
 check_unreadable_scenes
 write_good_scene
+check_bound_threads
 check_words
 check_lists
 check_schema
