@@ -1,4 +1,6 @@
-/// @file The command line. Every way to end, and its exit code, is here (design §3).
+/// @file Every way to end, and its exit code, is here (design §3).
+
+#include "program.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -79,7 +81,7 @@ int perform_and_report(int count, char** arguments) {
 
 }  // namespace
 
-int main(int count, char** arguments) {
+int mpmfast::run_program(int count, char** arguments) {
   // What a frame or a picture took goes back to the system at once, rather than to lie between other things.
   mallopt(M_MMAP_THRESHOLD, 128 << 10);
   hold_closed_streams();
