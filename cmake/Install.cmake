@@ -3,6 +3,9 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS mpmfast RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(TARGETS mpmfast_library EXPORT mpmfastTargets LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(MPMFAST_PROGRAM_LIBRARY)
+  install(TARGETS mpmfast_program LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} NAMELINK_SKIP)
+endif()
 install(FILES engine/library/simulation.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/mpmfast)
 install(EXPORT mpmfastTargets NAMESPACE mpmfast:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/mpmfast)
 configure_package_config_file(cmake/mpmfastConfig.cmake.in ${PROJECT_BINARY_DIR}/generated/mpmfastConfig.cmake

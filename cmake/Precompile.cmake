@@ -10,8 +10,12 @@ function(reuse_headers from)
     target_compile_options(${target} PRIVATE -fPIC)
   endforeach()
 endfunction()
+set(program mpmfast)
+if(TARGET mpmfast_program)
+  set(program mpmfast_program)
+endif()
 reuse_headers(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_state mpmfast_conditions
-  mpmfast_contact mpmfast_step mpmfast_core mpmfast_study mpmfast_report mpmfast)
+  mpmfast_contact mpmfast_step mpmfast_core mpmfast_study mpmfast_report ${program})
 if(MPMFAST_TESTS)
   target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h> <nlohmann/json.hpp>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)
@@ -24,8 +28,8 @@ endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # What bug 105651 says falsely of std::string, g++ 12 says in more ways where its header is precompiled: no matter for
   # what makes text; the passes keep these warnings.
-  foreach(target mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_study mpmfast_report mpmfast
-      test_main unit_tests short_tests validation_tests benchmarks)
+  foreach(target mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_study mpmfast_report
+      ${program} test_main unit_tests short_tests validation_tests benchmarks)
     if(TARGET ${target})
       target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()

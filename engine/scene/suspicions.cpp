@@ -4,12 +4,13 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <ranges>
 #include <set>
+#include <string_view>
 
 #include "engine/geometry/shapes.hpp"
 #include "engine/quantities/quantity.hpp"
 #include "engine/scene/suspicions.hpp"
+#include "engine/scene/text/parts.hpp"
 
 namespace mpmfast {
 
@@ -58,8 +59,8 @@ class Suspicions {
   /// What stands at a path, or at as much of it as the scene states.
   const Node& node_at(const std::string& path) const {
     const Node* node = &root_;
-    for (const auto part : std::views::split(path, '.')) {
-      const std::string key(part.begin(), part.end());
+    for (const std::string_view part : parts_of(path, '.')) {
+      const std::string key(part);
       const Node* inner = find_value(*node, key);
       if (node->kind == Node::Kind::list && !key.empty() &&
           std::isdigit(static_cast<unsigned char>(key[0])) && std::stoul(key) < node->items.size())

@@ -59,13 +59,13 @@ void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
           const Record settled = gather_values(w, k, grid.at[0]);
           const Vec<Dim>& force = force_of(run, p);
           typename Given::Node gives[Given::kRecords]{};
-          const auto entry = [&](int e) -> decltype(auto) {
-            return gives[e / Given::kPerNode][e % Given::kPerNode];
+          const auto give = [&](int e, double value) {
+            gives[e / Given::kPerNode][e % Given::kPerNode] = static_cast<Real>(value);
           };
           for (int d = 0; d < Dim; ++d) {
             const double excess = particles.mass[p] * (particles.velocity[d][p] - settled[d]);
-            entry(d) = static_cast<Real>(-excess);
-            entry(Dim + d) = static_cast<Real>(excess / dt + force[d]);
+            give(d, -excess);
+            give(Dim + d, excess / dt + force[d]);
             particles.velocity[d][p] = settled[d];
           }
           for (int r = 0; r < Given::kRecords; ++r) scatter_values(w, k, gives[r], given.at[r]);

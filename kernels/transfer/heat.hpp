@@ -39,12 +39,13 @@ namespace detail {
 /// window_i += S_pi entries.
 template <int Dim, int NC, class Weights>
 inline void scatter_entries(const Weights& w, int k, const double (&entries)[NC], Window<Dim, NC>& window) {
-  using Node = typename Window<Dim, NC>::Node;
-  alignas(Node) Real padded[window.kRecords * window.kPerNode] = {};
+  using Room = Window<Dim, NC>;
+  using Node = typename Room::Node;
+  alignas(Node) Real padded[Room::kRecords * Room::kPerNode] = {};
   for (int c = 0; c < NC; ++c) padded[c] = static_cast<Real>(entries[c]);
-  for (int r = 0; r < window.kRecords; ++r) {
+  for (int r = 0; r < Room::kRecords; ++r) {
     Node record;
-    std::memcpy(&record, padded + r * window.kPerNode, sizeof record);
+    std::memcpy(&record, padded + r * Room::kPerNode, sizeof record);
     scatter_values(w, k, record, window.at[r]);
   }
 }

@@ -159,8 +159,9 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
 template <int Dim, class Basis>
 void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
                             const NodeColumns<Dim + Dim * Dim>& out) {
-  using Node = typename Window<Dim, Dim + Dim * Dim>::Node;
-  auto& window = room.displaced;
+  using Displaced = Window<Dim, Dim + Dim * Dim>;
+  using Node = typename Displaced::Node;
+  Displaced& window = room.displaced;
   const ParticleView<Dim>& p = *c.particles;
   const bool turned = p.initial_deformation[0];
   clear(window);
@@ -177,7 +178,7 @@ void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& 
               for (int l = 0; turned && l < Dim; ++l)
                 back[i * Dim + j] += p.initial_deformation[i * Dim + l][q] * inverse[l * Dim + j];
             }
-          alignas(Node) Real entries[window.kRecords * window.kPerNode] = {};
+          alignas(Node) Real entries[Displaced::kRecords * Displaced::kPerNode] = {};
           const auto set = [&](int entry, double value) {
             entries[entry] = static_cast<Real>(p.mass[q] * value);
           };
@@ -190,9 +191,9 @@ void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& 
             }
             set(d, offset);
           }
-          for (int r = 0; r < window.kRecords; ++r) {
+          for (int r = 0; r < Displaced::kRecords; ++r) {
             Node record;
-            std::memcpy(&record, entries + r * window.kPerNode, sizeof record);
+            std::memcpy(&record, entries + r * Displaced::kPerNode, sizeof record);
             scatter_values(w, k, record, window.at[r]);
           }
         }

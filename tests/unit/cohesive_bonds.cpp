@@ -44,7 +44,7 @@ struct Pair {
     const Vec<2> normal(1, 0);
     if (integrity > 0) {
       const BondStart<2> start{
-          law, integrity, law.initial_stiffness, law.compression_stiffness, mass, normal, jump, rate, pull};
+          law, integrity, law.initial_stiffness, law.compression_stiffness, {mass, normal, jump, rate, pull}};
       move(rate_after_bond(start, dt));
     } else {
       move(rate + dt / mass * pull);

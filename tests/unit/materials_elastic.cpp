@@ -264,7 +264,7 @@ TEST_CASE_TEMPLATE("lanes of particles get the stresses of one by one", D, TwoD,
     kSolid.stress<Dim>(Rows<Dim>(each[i]).f, alone, speed);
     for (int s = 0; s < kSymmetric<Dim>; ++s)
       CHECK(std::abs(tau[s][i] - alone[s]) < 1e-13 * (kSolid.bulk + std::abs(alone[s])));
-    CHECK(c2[i] == doctest::Approx(speed).epsilon(1e-13));
+    CHECK(double{c2[i]} == doctest::Approx(speed).epsilon(1e-13));
     CHECK(std::abs(w[i] - energy<Dim>(kSolid, each[i])) < 1e-13 * kSolid.bulk);
   }
 }

@@ -229,7 +229,7 @@ TEST_CASE("lanes of soil get the results of one by one, whatever their neighbour
   for (int i = 0; i < kLanes; ++i) {
     const auto& one = each[static_cast<std::size_t>(i)];
     for (int c = 0; c < 4; ++c) CHECK(std::abs(tau[c][i] - one.tau[c]) < 1e-9 * law.bulk);
-    CHECK(state.plastic_strain[i] == doctest::Approx(one.state.plastic_strain).epsilon(1e-10));
-    CHECK(c2[i] == doctest::Approx(one.c2).epsilon(1e-10));
+    CHECK(double{state.plastic_strain[i]} == doctest::Approx(one.state.plastic_strain).epsilon(1e-10));
+    CHECK(double{c2[i]} == doctest::Approx(one.c2).epsilon(1e-10));
   }
 }

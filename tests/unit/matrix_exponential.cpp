@@ -96,7 +96,7 @@ TEST_CASE_TEMPLATE("lanes get the exponentials of one by one, and F advances by 
   for (int i = 0; i < kLanes; ++i) {
     const Mat<Dim> expected = by_definition<Dim>(dt * each[i]) * start;
     for (int e = 0; e < Dim * Dim; ++e)
-      CHECK(f[e][i] == doctest::Approx(expected(e / Dim, e % Dim)).epsilon(1e-14));
+      CHECK(double{f[e][i]} == doctest::Approx(expected(e / Dim, e % Dim)).epsilon(1e-14));
   }
 }
 

@@ -18,7 +18,7 @@ std::optional<std::string> default_text(const Written& value) {
   const bool simple = value.kind == Written::Kind::scalar ||
                       (value.kind == Written::Kind::list && !value.items.empty() &&
                        std::all_of(value.items.begin(), value.items.end(), [](const auto& item) {
-                         return item.second.kind == Written::Kind::scalar;
+                         return item.value.kind == Written::Kind::scalar;
                        }));
   const std::string text = simple ? value.flow() : "";
   return text.empty() || text == "\"\"" ? std::nullopt : std::optional(text);

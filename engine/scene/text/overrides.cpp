@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <ranges>
+#include <string_view>
 
+#include "engine/scene/text/parts.hpp"
 #include "engine/scene/text/tree.hpp"
 
 namespace mpmfast {
@@ -49,18 +50,18 @@ Node* descend(Node& node, const std::string& part, const std::string& parent, co
 void apply_override(Node& root, const std::string& path, const std::string& value, int source,
                     Problems& problems) {
   const Place place{0, 0, source};
-  std::vector<std::string> parts;
-  for (const auto part : std::views::split(path, '.')) parts.emplace_back(part.begin(), part.end());
+  const std::vector<std::string_view> parts = parts_of(path, '.');
   if (parts.empty() || std::find(parts.begin(), parts.end(), "") != parts.end())
     return problems.add(place, path, "not a path (words joined by points were expected, such as time.cfl)");
   std::optional<Node> parsed = parse_tree(value, source, problems, "no value after '='");
   if (!parsed) return;
   Node* node = &root;
   std::string parent;
-  for (const std::string& part : parts) {
-    node = descend(*node, part, parent, place, problems);
+  for (const std::string_view part : parts) {
+    const std::string key(part);
+    node = descend(*node, key, parent, place, problems);
     if (!node) return;
-    parent = join(parent, part);
+    parent = join(parent, key);
   }
   *node = std::move(*parsed);
 }

@@ -8,7 +8,7 @@ namespace {
 
 bool holds_maps(const Written& list) {
   return list.kind == Written::Kind::list && !list.items.empty() &&
-         list.items[0].second.kind == Written::Kind::map;
+         list.items[0].value.kind == Written::Kind::map;
 }
 
 /// "key: value" and, where the value has lines of its own, those below.

@@ -4,19 +4,14 @@
 
 #include <algorithm>
 #include <optional>
-#include <ranges>
 #include <string_view>
 #include <vector>
+
+#include "engine/scene/text/parts.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-std::vector<std::string_view> lines_of(const std::string& text) {
-  std::vector<std::string_view> out;
-  for (const auto line : std::views::split(text, '\n')) out.emplace_back(line.begin(), line.end());
-  return out;
-}
 
 std::size_t indentation(std::string_view line) {
   return std::min(line.find_first_not_of(" \t"), line.size());
@@ -140,7 +135,7 @@ std::optional<YamlFault> line_fault(const std::vector<std::string_view>& lines, 
 }  // namespace
 
 YamlFault yaml_fault(const std::string& text, int line, int column, const std::string& parser_says) {
-  const std::vector<std::string_view> lines = lines_of(text);
+  const std::vector<std::string_view> lines = parts_of(text, '\n');
   std::optional<YamlFault> fault = tab_fault(lines, line);
   if (!fault) fault = bracket_fault(lines, line, column);
   const bool about_lines = parser_says == "illegal map value" || parser_says == "end of map not found" ||
