@@ -158,7 +158,9 @@ bool has_section(const std::string& text, const std::string& path) {
 
 TEST_CASE("every key says what it means, and what its value may be") {
   CHECK(known_values().size() > 200);
-  for (const auto& [pattern, known] : known_values()) {
+  for (const auto& value : known_values()) {
+    const auto& pattern = value.first;
+    const auto& known = value.second;
     if (!is_key(pattern)) continue;
     CAPTURE(pattern);
     CHECK(known.says.ends_with('.'));
@@ -171,7 +173,9 @@ TEST_CASE("every key says what it means, and what its value may be") {
 
 TEST_CASE("a default, written out, changes nothing") {
   const std::vector<std::string> scenes = small_scenes();
-  for (const auto& [pattern, known] : known_values()) {
+  for (const auto& value : known_values()) {
+    const auto& pattern = value.first;
+    const auto& known = value.second;
     if (!known.standard) continue;
     const std::string path = path_of(pattern), key = path.substr(path.rfind('.') + 1);
     int tried = 0;
@@ -214,7 +218,9 @@ TEST_CASE("all that mpmfast list names is in the schema and on the page") {
 
 TEST_CASE("every key of the reader is in the schema and on the page") {
   const std::string schema = write_schema(), page = write_reference();
-  for (const auto& [pattern, known] : known_values()) {
+  for (const auto& value : known_values()) {
+    const auto& pattern = value.first;
+    const auto& known = value.second;
     for (const std::string& key : known.keys) {
       if (key == "FACE" || key == "NAME" || key == "GREY") continue;
       CAPTURE(pattern);

@@ -97,7 +97,7 @@ TEST_CASE("transpose exchanges rows and columns of four records") {
     for (int j = 0; j < 4; ++j) r[i][j] = 10 * i + j;
   transpose(r[0], r[1], r[2], r[3]);
   for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) CHECK(r[i][j] == 10 * j + i);
+    for (int j = 0; j < 4; ++j) CHECK(double{r[i][j]} == 10 * j + i);
 }
 
 TEST_CASE("lanes are loaded and stored at any address") {

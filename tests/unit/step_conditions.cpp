@@ -152,10 +152,10 @@ method: {update: flip}
 TEST_CASE("whatever share of an approach particles take from a wall, their momentum and the impulse agree") {
   using Update = std::pair<const char*, const char*>;  // and every how many steps it filters
   for (const char* place : {"nodes", "plane"})
-    for (const auto& [update, every] :
-         {Update{"flip", "1"}, Update{"pic", "1"}, Update{"xpic(3)", "1"}, Update{"xpic(3)", "5"},
-          Update{"fmpm(3)", "1"}, Update{"fmpm(3)", "5"}}) {
+    for (const Update& filter : {Update{"flip", "1"}, Update{"pic", "1"}, Update{"xpic(3)", "1"},
+                                 Update{"xpic(3)", "5"}, Update{"fmpm(3)", "1"}, Update{"fmpm(3)", "5"}}) {
       CAPTURE(std::string(place));
+      const char *update = filter.first, *every = filter.second;
       CAPTURE(std::string(update));
       CAPTURE(std::string(every));
       const std::string at = std::string("at: ") + place;
