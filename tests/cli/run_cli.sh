@@ -227,7 +227,8 @@ check_special_files() {
   rm -rf reported link.html there.html pipe read.html
 }
 
-# A run takes what check says, to a tenth (bench/memory has more of these).
+# A run takes what check says, to a tenth; up to a quarter less where pictures may come to have more pixels than they do
+# (bench/memory has more of these, most without).
 tell_memory() {
   local told taken steps=$1
   shift
@@ -236,7 +237,7 @@ tell_memory() {
   run 0 run "$@" --steps "$steps" --out large --force --progress none
   taken=$(sed -n 's/^memory  *\([0-9.]*\) MiB at most$/\1/p' out)
   checks=$((checks + 1))
-  awk -v told="$told" -v taken="$taken" 'BEGIN { exit !(told > 0.9 * taken && told < 1.1 * taken) }' ||
+  awk -v told="$told" -v taken="$taken" 'BEGIN { exit !(told > 0.9 * taken && told < 1.25 * taken) }' ||
     fail "check $* tells $told MiB, the run took $taken"
   rm -rf large
 }
