@@ -69,7 +69,7 @@ class Contact {
 
   const ContactList<Dim>& list() const { return list_; }
   /// Which of the node's fields an entry meets: the other one, of a lump the rigid or the largest one.
-  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
+  int partner(const State<Dim>& state, const ContactNode<Dim>& node, const ListedEntry<Dim>& entry) const;
   /// By what corrections act on an entry, and how its surfaces conduct heat.
   LawScope scope_of(const State<Dim>& state, const ContactNode<Dim>& node,
                     const ContactEntry<Dim>& entry) const {
@@ -84,19 +84,27 @@ class Contact {
   /// Of all that grows with the contact nodes.
   std::size_t bytes() const {
     return bytes_in(list_.nodes, list_.fields, list_.entries, list_.bridges, list_.bonds, list_.fits,
-                    list_.node_at, keys_, memory_, last_bridges_, last_bonds_, last_fits_);
+                    list_.node_at, keys_, memory_, last_bridges_, last_bonds_, last_fits_, field_begin_) +
+           listed_bytes();
   }
 
  private:
-  void list_stack(const State<Dim>& state, int stack);
-  void add_entries(const State<Dim>& state, ContactNode<Dim>& node);
-  double screen_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, int other) const;
-  void add_pairs(const ContactNode<Dim>& node);
+  int fields_on(const State<Dim>& state, std::size_t stack) const;
+  std::size_t listed_bytes() const {
+    std::size_t sum = 0;
+    for (const auto& listing : listings_) sum += bytes_in(listing.nodes, listing.entries);
+    return sum;
+  }
+  void list_stack(const State<Dim>& state, std::size_t stack, NodeListing<Dim>& out);
+  void add_entries(const State<Dim>& state, ContactNode<Dim>& node, NodeListing<Dim>& out) const;
+  double screen_of(const ContactNode<Dim>& node, const ListedEntry<Dim>& entry, int other) const;
+  void add_pairs(const ContactNode<Dim>& node, std::vector<ListedEntry<Dim>>& entries) const;
+  void make_room(std::size_t threads);
+  void take_listed(const State<Dim>& state, const NodeListing<Dim>& listing);
   void book(const State<Dim>& state);
   bool is_screened(const State<Dim>& state, const ContactNode<Dim>& node) const;
   void visit_fits(Archive& archive);
-  void remember();
-  void recall(const State<Dim>& state);
+  void remember(const State<Dim>& state);
   void book_rigid(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry);
   void book_pair(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                  double share);
@@ -104,7 +112,7 @@ class Contact {
   void gradient_normal(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
   void grid_separations(const State<Dim>& state);
   void crack_separations(const State<Dim>& state);
-  bool parts(const State<Dim>& state, const ContactNode<Dim>& node, ContactEntry<Dim>& entry) const;
+  bool parts(const State<Dim>& state, const ContactNode<Dim>& node, ListedEntry<Dim>& entry) const;
   template <class Laws>
   void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
   template <class Laws>
@@ -118,6 +126,7 @@ class Contact {
     double spring;
     double plane[Dim + 1];
   };
+  void recall(const Memory& memory, std::size_t entry);
 
   PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
                             const ContactNode<Dim>& node);
@@ -205,7 +214,7 @@ class Contact {
               const Together& together) const;
   template <class Laws, class F>
   void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
-  int law_between(const ContactEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const;
+  int law_between(const ListedEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const;
   template <class Laws>
   bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                         const ContactNode<Dim>& node);
@@ -264,12 +273,14 @@ class Contact {
   bool bonds_;                   ///< some law joins them by bonds that break
   bool keeps_fits_;              ///< normals outlast a step
   ContactList<Dim> list_;
-  std::vector<std::uint64_t> keys_;        ///< of the entries
-  std::vector<Together> together_;         ///< of each thread
-  std::vector<Memory> memory_;             ///< of the last step, in order of the keys
-  std::vector<Bridge<Dim>> last_bridges_;  ///< likewise
-  std::vector<Bond<Dim>> last_bonds_;      ///< likewise
-  std::vector<KeptFit<Dim>> last_fits_;    ///< likewise
+  std::vector<std::uint64_t> keys_;         ///< of the entries
+  std::vector<int> field_begin_;            ///< by stack, into the list's fields
+  std::vector<NodeListing<Dim>> listings_;  ///< of each thread
+  std::vector<Together> together_;          ///< of each thread
+  std::vector<Memory> memory_;              ///< of the last step, in order of the keys
+  std::vector<Bridge<Dim>> last_bridges_;   ///< likewise
+  std::vector<Bond<Dim>> last_bonds_;       ///< likewise
+  std::vector<KeptFit<Dim>> last_fits_;     ///< likewise
   ContactBooks<Dim> books_;
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

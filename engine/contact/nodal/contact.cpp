@@ -1,62 +1,149 @@
 #include "engine/contact/contact.hpp"
 
+#include <omp.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace mpmfast {
 
+/// Each thread lists its share of the stacks, then all go behind each other: the same list for any number of
+/// threads.
 template <int Dim>
 void Contact<Dim>::find_nodes(const State<Dim>& state) {
-  remember();
-  list_.nodes.clear();
-  list_.fields.clear();
-  list_.entries.clear();
-  list_.node_at.assign(state.tiling.places(), -1);
-  for (int s = 0; s < static_cast<int>(state.tiling.stacks.size()); ++s) {
-    const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
-    if (stack.end - stack.begin > 1) list_stack(state, s);
+  constexpr std::size_t kFewest = 64;  // stacks below which threads would wait more than work
+  const std::size_t stacks = state.tiling.stacks.size();
+  remember(state);
+  list_.node_at.resize(state.tiling.places());
+  field_begin_.resize(stacks + 1);
+  const auto threads = static_cast<std::size_t>(stacks < kFewest ? 1 : state.threads);
+  listings_.resize(std::max(threads, listings_.size()));
+#pragma omp parallel num_threads(static_cast <int>(threads))
+  {
+    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+    NodeListing<Dim>& mine = listings_[thread];
+    const std::size_t begin = stacks * thread / threads, end = stacks * (thread + 1) / threads;
+    for (std::size_t s = begin; s < end; ++s) field_begin_[s + 1] = fields_on(state, s);
+#pragma omp barrier
+#pragma omp single
+    {
+      field_begin_[0] = 0;
+      for (std::size_t s = 0; s < stacks; ++s) field_begin_[s + 1] += field_begin_[s];
+      list_.fields.resize(static_cast<std::size_t>(field_begin_[stacks]));
+    }
+    mine.nodes.clear();
+    mine.entries.clear();
+    mine.meetings = mine.screened = 0;
+    for (std::size_t s = begin; s < end; ++s) list_stack(state, s, mine);
+#pragma omp barrier
+#pragma omp single
+    make_room(threads);
+    take_listed(state, mine);
   }
-  list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, list_.nodes.size());
-  recall(state);
 }
 
+/// How many fields the contact nodes of a stack have together.
 template <int Dim>
-void Contact<Dim>::list_stack(const State<Dim>& state, int s) {
-  const auto& stack = state.tiling.stacks[static_cast<std::size_t>(s)];
+int Contact<Dim>::fields_on(const State<Dim>& state, std::size_t s) const {
+  const auto& stack = state.tiling.stacks[s];
+  if (stack.end - stack.begin < 2) return 0;
   const double* mass = state.nodes.column(Nodal::mass);
-  std::array<int, kTileNodes<Dim>> fields{};
-  for (int t = stack.begin; t < stack.end; ++t)
-    for (int local = 0; local < kTileNodes<Dim>; ++local)
-      fields[static_cast<std::size_t>(local)] += mass[t * kTileNodes<Dim> + local] > 0;
+  int sum = 0;
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
-    if (fields[static_cast<std::size_t>(local)] < 2) continue;
+    int fields = 0;
+    for (int t = stack.begin; t < stack.end; ++t) fields += mass[t * kTileNodes<Dim> + local] > 0;
+    sum += fields > 1 ? fields : 0;
+  }
+  return sum;
+}
+
+/// The contact nodes of a stack with their entries, in `out`, and their fields.
+template <int Dim>
+void Contact<Dim>::list_stack(const State<Dim>& state, std::size_t s, NodeListing<Dim>& out) {
+  int* node_at = &list_.node_at[s * kTileNodes<Dim>];
+  std::fill_n(node_at, kTileNodes<Dim>, -1);
+  int next = field_begin_[s];
+  if (next == field_begin_[s + 1]) return;
+  const auto& stack = state.tiling.stacks[s];
+  const double* mass = state.nodes.column(Nodal::mass);
+  for (int local = 0; local < kTileNodes<Dim>; ++local) {
     ContactNode<Dim> node;
-    node.field_begin = static_cast<int>(list_.fields.size());
+    node.field_begin = next;
     node.rigid = -1;
+    int fields = 0;
+    for (int t = stack.begin; t < stack.end; ++t) fields += mass[t * kTileNodes<Dim> + local] > 0;
+    if (fields < 2) continue;
     for (int t = stack.begin; t < stack.end; ++t) {
       const int slot = t * kTileNodes<Dim> + local;
       if (!(mass[slot] > 0)) continue;
       const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
-      list_.fields.push_back({field, slot});
+      list_.fields[static_cast<std::size_t>(next++)] = {field, slot};
     }
-    node.field_end = static_cast<int>(list_.fields.size());
-    node.stack = s;
+    node.field_end = next;
+    node.stack = static_cast<int>(s);
     node.local = local;
     node.node = state.tiling.node(stack, local);
-    node.entry_begin = static_cast<int>(list_.entries.size());
-    add_entries(state, node);
-    node.pair_begin = static_cast<int>(list_.entries.size());
-    if (spec_.fields == ManyFields::pairs && node.rigid < 0) add_pairs(node);
-    node.entry_end = static_cast<int>(list_.entries.size());
-    if (node.entry_begin == node.entry_end) {
-      list_.fields.resize(static_cast<std::size_t>(node.field_begin));
-      continue;
+    node.entry_begin = static_cast<int>(out.entries.size());
+    add_entries(state, node, out);
+    node.pair_begin = static_cast<int>(out.entries.size());
+    if (spec_.fields == ManyFields::pairs && node.rigid < 0) add_pairs(node, out.entries);
+    node.entry_end = static_cast<int>(out.entries.size());
+    if (node.entry_begin == node.entry_end) continue;
+    node_at[local] = static_cast<int>(out.nodes.size());
+    out.nodes.push_back(node);
+  }
+}
+
+/// Where the share of each thread goes, and room for all of them.
+template <int Dim>
+void Contact<Dim>::make_room(std::size_t threads) {
+  std::size_t nodes = 0, entries = 0;
+  for (std::size_t t = 0; t < threads; ++t) {
+    NodeListing<Dim>& listing = listings_[t];
+    listing.node_begin = std::exchange(nodes, nodes + listing.nodes.size());
+    listing.entry_begin = std::exchange(entries, entries + listing.entries.size());
+    list_.counters.meetings += listing.meetings;
+    list_.counters.screened += listing.screened;
+  }
+  list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, nodes);
+  list_.nodes.resize(nodes);
+  list_.entries.resize(entries);
+  keys_.resize(entries);
+  if (bridges_) last_bridges_.swap(list_.bridges), list_.bridges.resize(entries);
+  if (bonds_) last_bonds_.swap(list_.bonds), list_.bonds.resize(entries);
+  if (keeps_fits_) last_fits_.swap(list_.fits), list_.fits.resize(entries);
+}
+
+/// Puts what a thread has listed in the list, with what the last step knew of it.
+template <int Dim>
+void Contact<Dim>::take_listed(const State<Dim>& state, const NodeListing<Dim>& listing) {
+  const auto offset = static_cast<int>(listing.entry_begin);
+  std::uint64_t key_before = ~std::uint64_t{0};
+  auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
+  for (std::size_t k = 0; k < listing.nodes.size(); ++k) {
+    ContactNode<Dim>& node = list_.nodes[listing.node_begin + k];
+    node = listing.nodes[k];
+    node.entry_begin += offset, node.pair_begin += offset, node.entry_end += offset;
+    list_.node_at[static_cast<std::size_t>(node.stack) * kTileNodes<Dim> +
+                  static_cast<std::size_t>(node.local)] = static_cast<int>(listing.node_begin + k);
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      ContactEntry<Dim>& entry = list_.entries[at];
+      entry = {};
+      static_cast<ListedEntry<Dim>&>(entry) = listing.entries[at - listing.entry_begin];
+      if (bridges_) list_.bridges[at] = {};
+      if (bonds_) list_.bonds[at] = {};
+      if (keeps_fits_) list_.fits[at] = {};
+      const std::uint64_t key = keys_[at] = entry_key(state, list_, node, entry);
+      const auto less = [](const Memory& m, std::uint64_t of) { return m.key < of; };
+      if (key < key_before || entry.crack >= 0)
+        last = std::lower_bound(memory_.begin(), memory_.end(), key, less);
+      key_before = key;
+      while (last != memory_.end() && last->key < key) ++last;
+      if (last != memory_.end() && last->key == key) recall(*last, at);
     }
-    list_.node_at[static_cast<std::size_t>(s) * kTileNodes<Dim> + static_cast<std::size_t>(local)] =
-        static_cast<int>(list_.nodes.size());
-    list_.nodes.push_back(node);
   }
 }
 
@@ -73,7 +160,7 @@ bool Contact<Dim>::is_screened(const State<Dim>& state, const ContactNode<Dim>& 
 /// Are the two fields of an entry, sides of one body, parted by one crack? It then has its normal.
 template <int Dim>
 bool Contact<Dim>::parts(const State<Dim>& state, const ContactNode<Dim>& node,
-                         ContactEntry<Dim>& entry) const {
+                         ListedEntry<Dim>& entry) const {
   const auto field = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
@@ -89,8 +176,7 @@ bool Contact<Dim>::parts(const State<Dim>& state, const ContactNode<Dim>& node,
 /// The least share of a node's mass that a field must have for contact: tied ones must move as one to the
 /// last node (the perfect interface is exact), and springs know what to do with little.
 template <int Dim>
-double Contact<Dim>::screen_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
-                               int other) const {
+double Contact<Dim>::screen_of(const ContactNode<Dim>& node, const ListedEntry<Dim>& entry, int other) const {
   const AnyLaw& law = laws_[static_cast<std::size_t>(law_between(entry, node, other) + 1)];
   const LawScope scope = std::visit([](const auto& one) { return one.scope; }, law);
   return scope == LawScope::everywhere || scope == LawScope::bridged ? 0 : spec_.mass_screen;
@@ -99,16 +185,16 @@ double Contact<Dim>::screen_of(const ContactNode<Dim>& node, const ContactEntry<
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the
 /// rest, or every other one by itself. Of several rigid bodies on a node, the one with the most mass counts.
 template <int Dim>
-void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) {
+void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node, NodeListing<Dim>& out) const {
   const int fields = node.field_end - node.field_begin;
   const double* mass = state.nodes.column(Nodal::mass);
   const auto field_of = [&](int k) { return list_.fields[static_cast<std::size_t>(node.field_begin + k)]; };
   const auto mass_of = [&](int k) { return mass[field_of(k).slot]; };
   const auto is_rigid = [&](int k) { return state.field_rigid[static_cast<std::size_t>(field_of(k).field)]; };
   const bool own_normals = spec_.normal == NormalKind::own_gradient;
-  ++list_.counters.meetings;
+  ++out.meetings;
   if (is_screened(state, node)) {
-    ++list_.counters.screened;
+    ++out.screened;
     return;
   }
   double total = 0;
@@ -116,16 +202,15 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
     total += mass_of(k);
     if (is_rigid(k) && (node.rigid < 0 || mass_of(k) > mass_of(node.rigid))) node.rigid = k;
   }
-  ContactEntry<Dim> entry;
-  entry.normal = entry.impulse = Vec<Dim>::Zero();
+  ListedEntry<Dim> entry;
   if (fields == 2 && cracks_.same_body(state, field_of(0).field, field_of(1).field)) {
     entry.a = 0;
     entry.b = 1;
     entry.alone = true;
     if (!parts(state, node, entry)) return;
     const bool screened = std::min(mass_of(0), mass_of(1)) < screen_of(node, entry, 1) * total;
-    list_.counters.screened += screened;
-    if (!screened) list_.entries.push_back(entry);
+    out.screened += screened;
+    if (!screened) out.entries.push_back(entry);
     return;
   }
   const bool together = spec_.fields == ManyFields::simultaneous && fields > 2 && !own_normals;
@@ -137,9 +222,9 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
       for (entry.b = 0; entry.b < fields; ++entry.b) {
         if (!(entry.b == node.rigid || (entry.b > k && !is_rigid(entry.b)))) continue;
         if (!cracks_.same_body(state, field_of(k).field, field_of(entry.b).field)) {
-          list_.entries.push_back(entry);
-        } else if (ContactEntry<Dim> sides = entry; parts(state, node, sides)) {
-          list_.entries.push_back(sides);
+          out.entries.push_back(entry);
+        } else if (ListedEntry<Dim> sides = entry; parts(state, node, sides)) {
+          out.entries.push_back(sides);
         }
       }
       continue;
@@ -152,72 +237,51 @@ void Contact<Dim>::add_entries(const State<Dim>& state, ContactNode<Dim>& node) 
       dropped = true;
       continue;
     }
-    list_.entries.push_back(entry);
+    out.entries.push_back(entry);
     if (entry.b >= 0) return;
   }
-  list_.counters.screened += dropped;
+  out.screened += dropped;
 }
 
 /// What the next step wants to know of this one's entries.
 template <int Dim>
-void Contact<Dim>::remember() {
-  memory_.clear();
-  memory_.reserve(list_.entries.size());
-  for (std::size_t k = 0; k < list_.entries.size(); ++k) {
-    const auto& entry = list_.entries[k];
-    Memory m{keys_[k], static_cast<std::uint32_t>(k), entry.touching, entry.stuck, entry.spring, {}};
+void Contact<Dim>::remember(const State<Dim>& state) {
+  const auto n = static_cast<std::int64_t>(list_.entries.size());
+  memory_.resize(list_.entries.size());
+#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 1024)
+  for (std::int64_t k = 0; k < n; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const auto& entry = list_.entries[at];
+    Memory& m = memory_[at];
+    m = {keys_[at], static_cast<std::uint32_t>(k), entry.touching, entry.stuck, entry.spring, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
-    memory_.push_back(m);
   }
   if (spec_.fields == ManyFields::pairs || cracks_.active())  // lumps come before the pairs of a node
     std::sort(memory_.begin(), memory_.end(), [](const Memory& m, const Memory& n) { return m.key < n.key; });
 }
 
+/// Gives an entry what the last step knew of it.
 template <int Dim>
-void Contact<Dim>::recall(const State<Dim>& state) {
-  keys_.clear();
+void Contact<Dim>::recall(const Memory& memory, std::size_t at) {
   if (bridges_) {
-    last_bridges_.swap(list_.bridges);
-    list_.bridges.assign(list_.entries.size(), {});
+    const Bridge<Dim>& before = last_bridges_[memory.entry];
+    auto& bridge = list_.bridges[at];
+    bridge.jump = before.jump;
+    bridge.known = before.known;
+    bridge.jump_normal = before.jump_normal;
   }
   if (bonds_) {
-    last_bonds_.swap(list_.bonds);
-    list_.bonds.assign(list_.entries.size(), {});
+    const Bond<Dim>& before = last_bonds_[memory.entry];
+    auto& bond = list_.bonds[at];
+    bond.before = before.way;
+    bond.offset_before = before.offset;
   }
-  if (keeps_fits_) {
-    last_fits_.swap(list_.fits);
-    list_.fits.assign(list_.entries.size(), {});
-  }
-  const auto less = [](const Memory& m, std::uint64_t k) { return m.key < k; };
-  auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
-  for (const auto& node : list_.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      const std::uint64_t key = entry_key(state, list_, node, entry);
-      if (!keys_.empty() && key < keys_.back()) last = std::lower_bound(memory_.begin(), last, key, less);
-      if (entry.crack >= 0) last = std::lower_bound(memory_.begin(), memory_.end(), key, less);
-      keys_.push_back(key);
-      while (last != memory_.end() && last->key < key) ++last;
-      if (last == memory_.end() || last->key != key) continue;
-      if (bridges_) {
-        const Bridge<Dim>& before = last_bridges_[last->entry];
-        auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
-        bridge.jump = before.jump;
-        bridge.known = before.known;
-        bridge.jump_normal = before.jump_normal;
-      }
-      if (bonds_) {
-        const Bond<Dim>& before = last_bonds_[last->entry];
-        auto& bond = list_.bonds[static_cast<std::size_t>(e)];
-        bond.before = before.way;
-        bond.offset_before = before.offset;
-      }
-      if (keeps_fits_) list_.fits[static_cast<std::size_t>(e)] = last_fits_[last->entry];
-      entry.touched = last->touching;
-      entry.stuck_before = last->stuck;
-      entry.spring_before = last->spring;
-      std::memcpy(entry.plane, last->plane, sizeof entry.plane);
-    }
+  if (keeps_fits_) list_.fits[at] = last_fits_[memory.entry];
+  auto& entry = list_.entries[at];
+  entry.touched = memory.touching;
+  entry.stuck_before = memory.stuck;
+  entry.spring_before = memory.spring;
+  std::memcpy(entry.plane, memory.plane, sizeof entry.plane);
 }
 
 template <int Dim>

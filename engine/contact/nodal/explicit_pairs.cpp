@@ -17,15 +17,14 @@ struct Contact<Dim>::Touching {
 
 /// Beside the lumps: every two fields of a node of three or more that have an entry.
 template <int Dim>
-void Contact<Dim>::add_pairs(const ContactNode<Dim>& node) {
+void Contact<Dim>::add_pairs(const ContactNode<Dim>& node, std::vector<ListedEntry<Dim>>& entries) const {
   if (node.field_end - node.field_begin < 3) return;
-  ContactEntry<Dim> pair;
-  pair.normal = pair.impulse = Vec<Dim>::Zero();
+  ListedEntry<Dim> pair;
   for (int e = node.entry_begin; e < node.pair_begin; ++e)
     for (int f = e + 1; f < node.pair_begin; ++f) {
-      pair.a = list_.entries[static_cast<std::size_t>(e)].a;
-      pair.b = list_.entries[static_cast<std::size_t>(f)].a;
-      list_.entries.push_back(pair);
+      pair.a = entries[static_cast<std::size_t>(e)].a;
+      pair.b = entries[static_cast<std::size_t>(f)].a;
+      entries.push_back(pair);
     }
 }
 

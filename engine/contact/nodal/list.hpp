@@ -17,19 +17,25 @@ struct ContactField {
   int field, slot;
 };
 
-/// One field against another or against the rest of a node.
+/// One field against another or against the rest of a node, as it is listed.
 template <int Dim>
-struct ContactEntry {
-  int a;                      ///< which of the node's fields
-  int b;                      ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
-  Vec<Dim> normal;            ///< unit, from a to the rest; zero: unknown, no contact
+struct ListedEntry {
+  int a;                    ///< which of the node's fields
+  int b;                    ///< the other field of the pair; −1: the lump of all the others (N20 Eq. 50)
+  std::int16_t crack = -1;  ///< whose sides they are
+  bool beyond = false;      ///< both are on the right of another crack of the node
+  bool settled = false;     ///< the normal is found: no regression
+  bool alone = false;       ///< its node has these two fields only
+  Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit, from a to the rest; zero: unknown, no contact
+};
+
+/// All that a step knows of it.
+template <int Dim>
+struct ContactEntry : ListedEntry<Dim> {
   double separation = 0;      ///< m, negative: overlap
   double advanced = 0;        ///< the separation that a correction judges by, m
   double closing = 0;         ///< the approach that closes its gap by the end of the step, m/s
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
-  bool settled = false;       ///< the normal is found: no regression
-  bool beyond = false;        ///< both are on the right of another crack of the node
-  std::int16_t crack = -1;    ///< whose sides they are
   bool touched = false;       ///< in contact at the end of the last step
   bool lasts = false;         ///< it stays in contact until a force pulls it apart
   bool held = false;          ///< by the first correction
@@ -38,12 +44,11 @@ struct ContactEntry {
   double spring = 0;          ///< m: how far the surfaces would come together if nothing pressed them apart
   double spring_before = 0;   ///< at the end of the last step
   bool parts = false;         ///< its law knows no tie
-  bool alone = false;         ///< its node has these two fields only
   bool stuck_before = false;  ///< the second correction of the last step left no slip
   double friction_work = 0;   ///< J, of this step
-  Vec<Dim> impulse;           ///< Δp_a of the last correction
-  Vec<Dim> first = Vec<Dim>::Zero();   ///< Δp_a of the first correction
-  Vec<Dim> second = Vec<Dim>::Zero();  ///< Δp_a of the second, with what that passes on of the first
+  Vec<Dim> impulse = Vec<Dim>::Zero();  ///< Δp_a of the last correction
+  Vec<Dim> first = Vec<Dim>::Zero();    ///< Δp_a of the first correction
+  Vec<Dim> second = Vec<Dim>::Zero();   ///< Δp_a of the second, with what that passes on of the first
   /// v_a − v_b, m/s: as the particles give it to the grid, and as the corrections leave it
   Vec<Dim> slip_start = Vec<Dim>::Zero(), slip_held = Vec<Dim>::Zero(), slip_pulled = Vec<Dim>::Zero(),
            slip_end = Vec<Dim>::Zero();
@@ -117,6 +122,15 @@ struct ContactNode {
   int held_combination = -1;  ///< of its fields, see Conditions::Held
   unsigned held_axes = 0;
   bool constrained = false;  ///< by either: contact acts along what is left free
+};
+
+/// What one thread lists: the contact nodes of its share of the stacks, their entries from 0 on.
+template <int Dim>
+struct NodeListing {
+  std::vector<ContactNode<Dim>> nodes;
+  std::vector<ListedEntry<Dim>> entries;
+  std::uint64_t meetings, screened;     ///< as ContactCounters
+  std::size_t node_begin, entry_begin;  ///< where its own go in the list of all
 };
 
 struct ContactCounters {

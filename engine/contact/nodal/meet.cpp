@@ -46,7 +46,7 @@ void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
 /// (N20 after Eq. 50).
 template <int Dim>
 int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
-                          const ContactEntry<Dim>& entry) const {
+                          const ListedEntry<Dim>& entry) const {
   if (entry.b >= 0) return entry.b;
   if (node.rigid >= 0) return node.rigid;
   const double* volume = state.nodes.column(Nodal::volume);

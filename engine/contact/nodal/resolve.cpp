@@ -292,7 +292,7 @@ void Contact<Dim>::finish(const Laws& laws, Correction correction, const Contact
 /// Which law acts between field a of an entry and another: of ContactSpec::pairs, behind them of cracks; −1:
 /// the default.
 template <int Dim>
-int Contact<Dim>::law_between(const ContactEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const {
+int Contact<Dim>::law_between(const ListedEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const {
   if (entry.crack >= 0) return static_cast<int>(spec_.pairs.size()) + entry.crack;
   if (pairs_.empty()) return -1;
   const auto field = [&](int k) {
