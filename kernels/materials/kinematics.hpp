@@ -96,7 +96,7 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
   } else {
     const V i1 = b[0] + b[1] + b[2], j2 = 4.0 * j * j;
     V b1 = broadcast<V>(0.0);
-    for (int k = 0; k < 4; ++k) b1 = j2 / ((i1 - b1) * (i1 - b1));
+    for (int k = 0; k < 4; ++k) b1 = quotient(j2, (i1 - b1) * (i1 - b1));
     const V mean = i1 * (1.0 / 3.0), d0 = b[0] - mean, d1 = b[1] - mean, d2 = b[2] - mean;
     const V deviator = d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (b[3] * b[3] + b[4] * b[4] + b[5] * b[5]);
     return larger(b1, mean - 2.0 * square_root(deviator * (1.0 / 6.0)));
@@ -153,7 +153,8 @@ inline void invert_increment(V (&a)[Dim * Dim]) {
 /// to one or two terms, or all of it; or its inverse form, (I − Δt L)⁻¹ − I.
 /// @param l row-major velocity gradient, 1/s
 template <int Dim, class V>
-inline void deformation_increment(const V (&l)[Dim * Dim], double dt, int terms, V (&a)[Dim * Dim]) {
+[[gnu::always_inline]] inline void deformation_increment(const V (&l)[Dim * Dim], double dt, int terms,
+                                                         V (&a)[Dim * Dim]) {
   if (terms == kAllTerms) {
     for (int i = 0; i < Dim * Dim; ++i) a[i] = broadcast<V>(i % (Dim + 1) == 0 ? 1.0 : 0.0);
     advance_by_exponential<Dim>(l, dt, a);

@@ -99,7 +99,7 @@ inline Lanes inverse_root(Lanes x) {
 /// then y ← y (1 − e)^(−1/3) with e = 1 − J y³, a series to e⁴ (leaving |e| < 4e-6) and again to e² (below
 /// 1e-17).
 template <class V>
-inline V isochoric_factor(V j) {
+[[gnu::always_inline]] inline V isochoric_factor(V j) {
   constexpr double guess = detail::kRoundMagic + 1430188287.0;  // 0x553EF0FF
   const V upper =
       detail::from_bits((detail::bits_of(j) >> 32) + detail::bits_of(broadcast<V>(detail::kRoundMagic))) -

@@ -67,7 +67,28 @@ TEST_CASE("the isochoric factor is J^(-2/3) to 2e-15") {
   CHECK(isochoric_factor(1.0) == 1.0);
 }
 
-TEST_CASE("square root, floor, magnitude, larger, smaller and sum of Lanes are those of their doubles") {
+TEST_CASE(
+    "root and quotient of Lanes are right to a unit in the last place, and those of no number are none") {
+  constexpr double kUnit = 2.220446049250313e-16;
+  Draw draw(3);
+  for (int k = 0; k < 5000; ++k) {
+    Lanes x, y;
+    for (int i = 0; i < kLanes; ++i) {
+      x[i] = std::exp2(uniform(draw, -600, 600));
+      y[i] = std::copysign(std::exp2(uniform(draw, -300, 300)), uniform(draw, -1, 1));
+    }
+    const Lanes root = square_root(x), ratio = quotient(x, y);
+    for (int i = 0; i < kLanes; ++i) {
+      CHECK(std::abs(root[i] - std::sqrt(x[i])) <= kUnit * std::sqrt(x[i]));
+      CHECK(std::abs(ratio[i] - x[i] / y[i]) <= kUnit * std::abs(x[i] / y[i]));
+    }
+  }
+  CHECK(square_root(broadcast<Lanes>(0.0))[0] == 0.0);
+  CHECK(std::isnan(square_root(broadcast<Lanes>(-1.0))[0]));
+  CHECK(!std::isfinite(quotient(broadcast<Lanes>(1.0), broadcast<Lanes>(0.0))[0]));
+}
+
+TEST_CASE("floor, magnitude, larger, smaller and sum of Lanes are those of their doubles") {
   Draw draw(2);
   for (int k = 0; k < 2000; ++k) {
     Lanes x, y;
@@ -77,10 +98,9 @@ TEST_CASE("square root, floor, magnitude, larger, smaller and sum of Lanes are t
       y[i] = uniform(draw, -1e3, 1e3);
       sum += x[i];
     }
-    const Lanes root = square_root(magnitude(x)), floor = floor_of(x), more = larger(x, y),
-                less = smaller(x, y);
+    const Lanes size = magnitude(x), floor = floor_of(x), more = larger(x, y), less = smaller(x, y);
     for (int i = 0; i < kLanes; ++i) {
-      CHECK(root[i] == std::sqrt(std::abs(x[i])));
+      CHECK(size[i] == std::abs(x[i]));
       CHECK(floor[i] == std::floor(x[i]));
       CHECK(more[i] == std::max(x[i], y[i]));
       CHECK(less[i] == std::min(x[i], y[i]));
