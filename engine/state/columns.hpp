@@ -52,8 +52,9 @@ class Column {
   }
 
  private:
-  /// Large columns ask for large pages: a pass goes along a dozen columns at once, each in pages of its own.
-  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = 4 * kHugePage, kPage = 4096;
+  /// Large columns ask for large pages: a pass goes along a dozen columns at once, each in pages of its own,
+  /// more than the processor knows by heart.
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = kHugePage / 4, kPage = 4096;
 
   struct Free {
     void operator()(T* p) const { std::free(p); }

@@ -135,17 +135,38 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
     runs.push_back(run);
     tiles.back().run_end = static_cast<int>(runs.size());
   }
-  // Groups of a place write to the same nodes: they follow their first, which alone has a colour.
+  // Groups of a place write to the same nodes.
   for (std::size_t t = tile_keys_.size(), others = 0; t-- > 0;) {
     tiles[t].others = static_cast<int>(others);
     const auto place_key = [&](std::size_t k) { return tile_keys_[k] / static_cast<std::uint64_t>(groups_); };
     others = t > 0 && place_key(t) == place_key(t - 1) ? others + 1 : 0;
   }
+  colour_strips();
+}
+
+/// Long strips read memory as it lies, short ones leave more threads something to do: some 32 of a colour.
+/// They begin at multiples of their length.
+template <int Dim>
+void Tiling<Dim>::colour_strips() {
+  constexpr int kOfAColour = 32, kShortest = 4, kLongest = 64;
+  const int length =
+      std::clamp(static_cast<int>(tiles.size()) / (kCorners<Dim> * kOfAColour), kShortest, kLongest);
   for (auto& colour : colours) colour.clear();
-  for (std::size_t t = 0; t < tiles.size(); t += 1 + static_cast<std::size_t>(tiles[t].others)) {
-    unsigned colour = 0;
-    for (int d = 0; d < Dim; ++d) colour |= static_cast<unsigned>((tiles[t].window[d] / kTileSide) & 1) << d;
-    colours[colour].push_back(static_cast<int>(t));
+  NodeIndex<Dim> last;
+  int last_field = -1;
+  Strip* strip = nullptr;
+  for (std::size_t t = 0; t < tiles.size(); ++t) {
+    NodeIndex<Dim> at;
+    for (int d = 0; d < Dim; ++d) at[d] = tiles[t].window[d] / kTileSide;
+    at[0] = floor_div(at[0], length);
+    if (!strip || tiles[t].field != last_field || at != last) {
+      unsigned colour = 0;
+      for (int d = 0; d < Dim; ++d) colour |= static_cast<unsigned>(at[d] & 1) << d;
+      strip = &colours[colour].emplace_back(Strip{static_cast<int>(t), 0});
+    }
+    strip->end = static_cast<int>(t) + 1;
+    last = at;
+    last_field = tiles[t].field;
   }
 }
 

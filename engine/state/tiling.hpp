@@ -41,6 +41,11 @@ struct Stack {
   int neighbour[power(3, Dim)];  ///< stacks around it (x fastest, itself in the middle); −1: none
 };
 
+/// Particle tiles that lie side by side in a field, and so their particles: into Tiling::tiles.
+struct Strip {
+  int begin, end;
+};
+
 /// What the sort works with; kept from one to the next.
 struct SortBuffers {
   static constexpr int kDigit = 11;  ///< bits a radix pass
@@ -137,7 +142,9 @@ class Tiling {
   std::vector<ParticleRun<Dim>> runs;
   std::vector<NodeTile<Dim>> node_tiles;
   std::vector<Stack<Dim>> stacks;
-  std::array<std::vector<int>, kCorners<Dim>> colours;  ///< particle tiles whose windows do not overlap
+  /// Strips whose windows do not overlap. (Colours of single tiles would pass over every other one: in 2-D
+  /// half a kilobyte of each column, and what the processor fetched ahead of it.)
+  std::array<std::vector<Strip>, kCorners<Dim>> colours;
 
   int slots() const { return static_cast<int>(node_tiles.size()) * kTileNodes<Dim>; }
   /// Nodes of stacks, whatever the number of fields on them.
@@ -176,6 +183,7 @@ class Tiling {
   void note_moves(std::size_t particles);
   void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
+  void colour_strips();
   void number_slots();
   void number_sides();
   void order_maps();

@@ -228,7 +228,7 @@ class BasisPasses final : public Passes<Dim> {
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
     heat_reports_.assign(static_cast<std::size_t>(n), {});
     const ParticleView<Dim> view = state.view();
-    shares_[0].cut(state.threads, n);
+    shares_[0].cut(state.threads, n, kTilesAtOnce);
 #pragma omp parallel num_threads(state.threads)
     {
       const int thread = omp_get_thread_num();
@@ -259,6 +259,8 @@ class BasisPasses final : public Passes<Dim> {
   }
 
  private:
+  static constexpr std::int64_t kTilesAtOnce = 4;  ///< of loops without colours
+
   struct Room {
     ProjectRoom<Dim, Basis> project;
     XpicRoom<Dim, Basis, 2 * Dim> xpic;
@@ -285,18 +287,17 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleView<Dim> view = state.view();
     const auto& colours = state.tiling.colours;
     for (std::size_t c = 0; c < colours.size(); ++c)
-      shares_[c].cut(state.threads, static_cast<std::int64_t>(colours[c].size()));
+      shares_[c].cut(state.threads, static_cast<std::int64_t>(colours[c].size()), 1);
 #pragma omp parallel num_threads(state.threads)
     {
       const int thread = omp_get_thread_num();
       Room& room = *rooms_[static_cast<std::size_t>(thread)];
       for (std::size_t c = 0; c < colours.size(); ++c) {
         shares_[c].for_each(thread, [&](std::int64_t k) {
-          const int first = colours[c][static_cast<std::size_t>(k)];
-          const auto& of = state.tiling.tiles[static_cast<std::size_t>(first)];
+          const Strip& strip = colours[c][static_cast<std::size_t>(k)];
+          const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
-          for (int tile = first; tile <= first + of.others; ++tile)
-            f(context(state, view, tile), room, rigid);
+          for (int tile = strip.begin; tile < strip.end; ++tile) f(context(state, view, tile), room, rigid);
         });
 #pragma omp barrier
       }
@@ -362,7 +363,7 @@ class BasisPasses final : public Passes<Dim> {
     reports_.assign(rooms_.size(), {});
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-    shares_[0].cut(state.threads, n);
+    shares_[0].cut(state.threads, n, kTilesAtOnce);
 #pragma omp parallel num_threads(state.threads)
     {
       const int thread = omp_get_thread_num();

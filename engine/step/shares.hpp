@@ -16,9 +16,11 @@ class Shares {
   explicit Shares(int most_threads)
       : most_(most_threads), shares_(std::make_unique<Share[]>(static_cast<std::size_t>(most_threads))) {}
 
-  /// For the next loop, of n turns. Called by one thread, before the others begin.
-  void cut(int threads, std::int64_t n) {
+  /// For the next loop, of n turns, so many of which are taken together. Called by one thread, before the
+  /// others begin.
+  void cut(int threads, std::int64_t n, std::int64_t at_once) {
     threads_ = std::min(threads, most_);
+    at_once_ = at_once;
     for (int t = 0; t < threads_; ++t) {
       shares_[static_cast<std::size_t>(t)].next.store(n * t / threads_, std::memory_order_relaxed);
       shares_[static_cast<std::size_t>(t)].end = n * (t + 1) / threads_;
@@ -31,20 +33,20 @@ class Shares {
     for (int k = 0; k < threads_; ++k) {
       Share& share = shares_[static_cast<std::size_t>((thread + k) % threads_)];
       for (;;) {
-        const std::int64_t begin = share.next.fetch_add(kAtOnce, std::memory_order_relaxed);
+        const std::int64_t begin = share.next.fetch_add(at_once_, std::memory_order_relaxed);
         if (begin >= share.end) break;
-        for (std::int64_t turn = begin; turn < std::min(begin + kAtOnce, share.end); ++turn) f(turn);
+        for (std::int64_t turn = begin; turn < std::min(begin + at_once_, share.end); ++turn) f(turn);
       }
     }
   }
 
  private:
-  static constexpr std::int64_t kAtOnce = 4;  ///< turns that are taken together
   struct alignas(64) Share {
     std::atomic<std::int64_t> next{0};
     std::int64_t end = 0;
   };
   int most_, threads_ = 0;
+  std::int64_t at_once_ = 1;
   std::unique_ptr<Share[]> shares_;
 };
 

@@ -65,13 +65,24 @@ void check_tables(const Step<Dim>& step) {
     const auto &a = tiling.node_tiles[t - 1], &b = tiling.node_tiles[t];
     REQUIRE((a.place < b.place || (a.place == b.place && a.field < b.field)));
   }
-  // No two tiles of a colour and field share a slot.
+  // Every tile is in one strip, and no two strips of a colour share a slot.
+  std::vector<int> coloured(tiling.tiles.size(), 0);
   for (const auto& colour : tiling.colours) {
-    std::vector<int> owner(tiling.node_tiles.size(), 0);
-    for (int t : colour)
-      for (int slot : tiling.tiles[static_cast<std::size_t>(t)].slot)
-        REQUIRE(++owner[static_cast<std::size_t>(slot / kTileNodes<Dim>)] == 1);
+    std::vector<int> owner(tiling.node_tiles.size(), -1);
+    int number = 0;
+    for (const Strip& strip : colour) {
+      for (int t = strip.begin; t < strip.end; ++t) {
+        ++coloured[static_cast<std::size_t>(t)];
+        for (int slot : tiling.tiles[static_cast<std::size_t>(t)].slot) {
+          int& of = owner[static_cast<std::size_t>(slot / kTileNodes<Dim>)];
+          REQUIRE((of == -1 || of == number));
+          of = number;
+        }
+      }
+      ++number;
+    }
   }
+  for (int n : coloured) REQUIRE(n == 1);
 }
 
 TEST_CASE("every particle is in one run, its support in its window, and tiles of a colour share no slot") {
