@@ -54,7 +54,7 @@ class Column {
  private:
   /// Large columns ask for large pages: a pass goes along a dozen columns at once, each in pages of its own,
   /// more than the processor knows by heart.
-  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = kHugePage / 4, kPage = 4096;
+  static constexpr std::size_t kHugePage = std::size_t{1} << 21, kHuge = 2 * kHugePage, kPage = 4096;
 
   struct Free {
     void operator()(T* p) const { std::free(p); }
