@@ -1,5 +1,6 @@
 /// Yield surfaces, plastic work, energy and objectivity of metals.
 
+#include "kernels/materials/neo_hookean.hpp"
 #include "material_sample.hpp"
 
 using namespace mpmfast;
@@ -245,5 +246,22 @@ TEST_CASE("lanes of plastic particles get the results of one by one, whatever th
   for (int i = 0; i < kLanes; ++i) {
     CHECK(double{state.plastic_strain[i]} == doctest::Approx(each[i].state.plastic_strain).epsilon(1e-10));
     for (int c = 0; c < 4; ++c) CHECK(std::abs(tau[c][i] - each[i].tau[c]) < 1e-9 * kCook.volume.bulk);
+  }
+}
+
+TEST_CASE_TEMPLATE("below its yield stress a metal has the wave speed of the neo-Hookean law", D, TwoD,
+                   ThreeD) {
+  constexpr int Dim = D::value;
+  std::mt19937_64 draw(4);
+  const NeoHookean rubber{kSteel.density, kSteel.volume.bulk, kSteel.shear};
+  for (int path = 0; path < 20; ++path) {
+    Sample<Dim, ElasticPlastic> steel(kSteel);
+    const Mat<Dim> l = random_matrix<Dim>(draw, 1);
+    for (int k = 0; k < 5; ++k) steel.strain(l, 1e-4);
+    REQUIRE(steel.state.plastic_strain == 0);
+    double tau[kSymmetric<Dim>], c2 = 0;
+    rubber.stress<Dim>(steel.f, tau, c2);
+    CHECK(steel.c2 == doctest::Approx(c2).epsilon(1e-12));
+    for (int c = 0; c < kSymmetric<Dim>; ++c) CHECK(std::abs(steel.tau[c] - tau[c]) < 1e-9 * 160e9);
   }
 }

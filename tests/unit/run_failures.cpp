@@ -192,7 +192,8 @@ TEST_CASE("a number that is none is caught in 3-D, and in a metal's elastic stra
 }
 
 TEST_CASE("the neighbourhood of particles without a place holds finite points") {
-  const Scene scene = scene_from(kBlocks);
+  const Scene scene =
+      scene_from(kBlocks, {{"grid", "{origin: [-5 mm, -4 mm], size: [21 mm, 16 mm], cell: 1 mm}"}});
   Step<2> step(scene);
   advance(step, 2);
   auto& particles = step.state().particles;
