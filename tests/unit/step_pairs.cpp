@@ -114,6 +114,60 @@ contact: {law: coulomb, friction: 0.2}
   CHECK(drift[1] < 1e-13);
 }
 
+TEST_CASE("a thin layer that sticks to both its neighbours moves with them at every node of the three") {
+  const std::string yaml = R"(
+space: plane_strain
+grid: {size: [8 mm, 24 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: low, box: {from: [0, 5 mm], to: [8 mm, 10 mm]}, material: m, velocity: [0.1 m/s, 0.5 m/s]}
+  - {name: layer, box: {from: [0, 10 mm], to: [8 mm, 10.5 mm]}, material: m, velocity: [0.05 m/s, 0 m/s]}
+  - {name: high, box: {from: [0, 10.5 mm], to: [8 mm, 15.5 mm]}, material: m, velocity: [-0.1 m/s, -0.7 m/s]}
+boundaries: {left: wall, right: wall}
+contact: {law: stick, normal: logistic_regression}
+)";
+  for (const char* fields : {"pairs", "simultaneous"}) {
+    CAPTURE(std::string(fields));
+    const Scene scene = scene_from(yaml, {{"contact.fields", fields}});
+    Step<2> step(scene);
+    advance(step, 3);
+    int nodes = 0;
+    const auto& list = step.contact_list();
+    for (const auto& node : list.nodes) {
+      if (node.field_end - node.field_begin < 3) continue;
+      const auto velocity = [&](int k) {
+        return step.state().nodes.vector(Nodal::velocity, list.fields[static_cast<std::size_t>(k)].slot);
+      };
+      ++nodes;
+      for (int k = node.field_begin + 1; k < node.field_end; ++k)
+        CHECK((velocity(k) - velocity(node.field_begin)).norm() < 1e-12);
+    }
+    CHECK(nodes > 6);
+  }
+}
+
+TEST_CASE("bodies on springs that fly together feel nothing of them") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [20 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: a, box: {from: [3.3 mm, 4 mm], to: [7.3 mm, 8 mm]}, material: m, velocity: [30 m/s, 20 m/s]}
+  - {name: b, box: {from: [7.3 mm, 4 mm], to: [11.3 mm, 8 mm]}, material: m, velocity: [30 m/s, 20 m/s]}
+contact: {law: interface, normal_stiffness: 100 MPa/mm, shear_stiffness: 50 MPa/mm}
+)");
+  Step<2> step(scene);
+  for (int k = 0; k < 20; ++k) {
+    advance(step, 1);
+    CHECK(step.joint_energy() < 1e-20);
+  }
+  const auto& particles = step.state().particles;
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    REQUIRE((particles.vector(Quantity::velocity, p) - Vec<2>(30, 20)).norm() < 1e-9);
+}
+
 TEST_CASE("among three fields, each pair of two obeys its own law") {
   // Two blocks slide over one plate, far from each other.
   const Scene scene = scene_from(R"(
