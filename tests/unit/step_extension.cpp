@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -185,6 +186,38 @@ TEST_CASE("a wall continues the material: its row is free to be held, and rows b
     check_wall<2>("bspline2", wall);
     check_wall<3>("bspline2", wall);
     check_wall<2>("bspline3", wall);
+  }
+}
+
+TEST_CASE("at an upper wall the nodes that follow are those at a lower one, mirrored") {
+  const auto following = [](const char* basis, bool upper) {
+    Projected<2> p(std::string(R"(
+space: plane_strain
+grid: {origin: [-6 mm, -8 mm], size: [12 mm, 16 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+)") + (upper ? R"(
+boundaries: {top: {wall: sliding, position: 4 mm}}
+bodies: [{name: b, box: {from: [-2.3 mm, -1.2 mm], to: [2.3 mm, 4 mm]}, material: m, particles_per_cell: 4}]
+)"
+             : R"(
+boundaries: {bottom: {wall: sliding, position: -4 mm}}
+bodies: [{name: b, box: {from: [-2.3 mm, -4 mm], to: [2.3 mm, 1.2 mm]}, material: m, particles_per_cell: 4}]
+)"),
+                   basis, "0.8");
+    std::set<std::array<int, 2>> places;  // counted from the middle of the grid
+    const auto node = nodes_of_slots(p.state());
+    for (const auto& follows : p.extension.following()) {
+      const auto& n = node[static_cast<std::size_t>(follows.slot)];
+      places.insert({n[0], upper ? n[1] - 8 : 8 - n[1]});
+    }
+    return places;
+  };
+  for (const char* basis : {"bspline2", "bspline3"}) {
+    CAPTURE(std::string(basis));
+    const auto low = following(basis, false);
+    CHECK(low.size() > 10);
+    CHECK(following(basis, true) == low);
   }
 }
 
