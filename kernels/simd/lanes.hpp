@@ -150,8 +150,8 @@ inline Lanes square_root(Lanes x) {
 }
 
 inline double quotient(double a, double b) { return a / b; }
-/// a/b; with AVX-512 to a unit in the last place, from an estimate y of 1/b within 2^−14: a y (1 + e + e² +
-/// e³), e = 1 − b y, for b that is neither tiny (1e-300) nor huge.
+/// a/b; with AVX-512 to two units in the last place, from an estimate y of 1/b within 2^−14: a y (1 + e + e²
+/// + e³), e = 1 − b y, for b that is neither tiny (1e-300) nor huge.
 inline Lanes quotient(Lanes a, Lanes b) {
 #if defined(__AVX512F__)
   const Lanes y = _mm512_maskz_rcp14_pd(0xff, b), e = 1.0 - b * y, q = a * y;
