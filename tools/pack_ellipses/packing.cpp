@@ -63,9 +63,11 @@ class Box {
   void sow_one(double radius) {
     for (int attempt = 0; attempt < 20000; ++attempt) {
       const double root = std::sqrt(random_.between(1, 2));
-      const Ellipse e = turned(
-          {random_.uniform() * width_, random_.uniform() * height_, radius * root, radius / root, 1, 0},
-          random_.between(-1, 1), random_.uniform() < 0.5);
+      // One draw after the other: a compiler takes the arguments of a call in an order of its own.
+      const bool across = random_.uniform() < 0.5;
+      const double turn = random_.between(-1, 1), x = random_.uniform() * width_,
+                   y = random_.uniform() * height_;
+      const Ellipse e = turned({x, y, radius * root, radius / root, 1, 0}, turn, across);
       if (!allowed(e, grains_.size())) continue;
       grains_.push_back(e);
       area_ += e.area();
