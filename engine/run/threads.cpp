@@ -18,8 +18,8 @@ ThreadCount::~ThreadCount() { omp_set_num_threads(before_); }
 
 namespace {
 
-/// Where threads are bound (OMP_PROC_BIND), libgomp has bound this one by now to the first of their places, and
-/// the program that starts in its stead would find no other.
+/// Where threads are bound (OMP_PROC_BIND), libgomp has bound this one by now to the first of their places,
+/// and the program that starts in its stead would find no other.
 void unbind() {
   cpu_set_t all;
   CPU_ZERO(&all);

@@ -81,25 +81,32 @@ bodies:
   CHECK(solved.contact_counters().pair_fallbacks > 20);
 }
 
+/// Two blocks with a thin layer between them. @param layer, high  the velocities of it and of the upper block
+Scene thin_layer(const char* layer, const char* high, const std::vector<Override>& contact) {
+  return scene_from(fmt::format(R"(
+space: plane_strain
+grid: {{size: [8 mm, 24 mm], cell: 1 mm}}
+time: {{end: 1 s}}
+materials: {{m: {{model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}}}
+bodies:
+  - {{name: low, box: {{from: [0, 5 mm], to: [8 mm, 10 mm]}}, material: m, velocity: [0.1 m/s, 0.5 m/s]}}
+  - {{name: layer, box: {{from: [0, 10 mm], to: [8 mm, 10.5 mm]}}, material: m, velocity: [{}]}}
+  - {{name: high, box: {{from: [0, 10.5 mm], to: [8 mm, 15.5 mm]}}, material: m, velocity: [{}]}}
+boundaries: {{left: wall, right: wall}}
+)",
+                                layer, high),
+                    contact);
+}
+
 TEST_CASE(
     "a thin layer between two blocks: explicit pairs conserve momentum to round-off, the lump does not") {
   // From wall to wall: at a free corner the cloud of a pair holds a particle or two, and the lump takes over.
-  const std::string yaml = R"(
-space: plane_strain
-grid: {size: [8 mm, 24 mm], cell: 1 mm}
-time: {end: 1 s}
-materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies:
-  - {name: low, box: {from: [0, 5 mm], to: [8 mm, 10 mm]}, material: m, velocity: [0.1 m/s, 0.5 m/s]}
-  - {name: layer, box: {from: [0, 10 mm], to: [8 mm, 10.5 mm]}, material: m}
-  - {name: high, box: {from: [0, 10.5 mm], to: [8 mm, 15.5 mm]}, material: m, velocity: [-0.1 m/s, -0.5 m/s]}
-boundaries: {left: wall, right: wall}
-contact: {law: coulomb, friction: 0.2}
-)";
   double drift[2];
   for (const bool pairs : {false, true}) {
-    const Scene scene = scene_from(
-        yaml, {{"contact.normal", "logistic_regression"}, {"contact.fields", pairs ? "pairs" : "lump"}});
+    const Scene scene = thin_layer("0 m/s, 0 m/s", "-0.1 m/s, -0.5 m/s",
+                                   {{"contact", "{law: coulomb, friction: 0.2}"},
+                                    {"contact.normal", "logistic_regression"},
+                                    {"contact.fields", pairs ? "pairs" : "lump"}});
     Step<2> step(scene);
     const double before = momentum(step.state().particles)[1];
     advance(step, 60);
@@ -115,21 +122,11 @@ contact: {law: coulomb, friction: 0.2}
 }
 
 TEST_CASE("a thin layer that sticks to both its neighbours moves with them at every node of the three") {
-  const std::string yaml = R"(
-space: plane_strain
-grid: {size: [8 mm, 24 mm], cell: 1 mm}
-time: {end: 1 s}
-materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies:
-  - {name: low, box: {from: [0, 5 mm], to: [8 mm, 10 mm]}, material: m, velocity: [0.1 m/s, 0.5 m/s]}
-  - {name: layer, box: {from: [0, 10 mm], to: [8 mm, 10.5 mm]}, material: m, velocity: [0.05 m/s, 0 m/s]}
-  - {name: high, box: {from: [0, 10.5 mm], to: [8 mm, 15.5 mm]}, material: m, velocity: [-0.1 m/s, -0.7 m/s]}
-boundaries: {left: wall, right: wall}
-contact: {law: stick, normal: logistic_regression}
-)";
   for (const char* fields : {"pairs", "simultaneous"}) {
     CAPTURE(std::string(fields));
-    const Scene scene = scene_from(yaml, {{"contact.fields", fields}});
+    const Scene scene =
+        thin_layer("0.05 m/s, 0 m/s", "-0.1 m/s, -0.7 m/s",
+                   {{"contact", "{law: stick, normal: logistic_regression}"}, {"contact.fields", fields}});
     Step<2> step(scene);
     advance(step, 3);
     int nodes = 0;

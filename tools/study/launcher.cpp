@@ -27,13 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 2> kPlaceholders{"{threads}", "{name}"};
+constexpr std::array<std::string_view, 2> kNamesInBraces{"{threads}", "{name}"};
 constexpr std::string_view kCommand = "$ ";  ///< before a command in the log
 // A shared folder may show a file only so long after another machine wrote it.
 constexpr std::chrono::seconds kShareDelay{30};
 
 /// The first {word} that begins at or after `from`; empty: none.
-std::string_view placeholder_of(std::string_view text, std::size_t from) {
+std::string_view name_in_braces(std::string_view text, std::size_t from) {
   for (std::size_t open = text.find('{', from); open != text.npos; open = text.find('{', open + 1)) {
     std::size_t end = open + 1;
     while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_'))
@@ -43,10 +43,10 @@ std::string_view placeholder_of(std::string_view text, std::size_t from) {
   return {};
 }
 
-std::string filled(std::string word, const std::array<std::string, kPlaceholders.size()>& values) {
+std::string filled(std::string word, const std::array<std::string, kNamesInBraces.size()>& values) {
   for (std::size_t k = 0; k < values.size(); ++k)
-    for (std::size_t at = 0; (at = word.find(kPlaceholders[k], at)) != word.npos; at += values[k].size())
-      word.replace(at, kPlaceholders[k].size(), values[k]);
+    for (std::size_t at = 0; (at = word.find(kNamesInBraces[k], at)) != word.npos; at += values[k].size())
+      word.replace(at, kNamesInBraces[k].size(), values[k]);
   return word;
 }
 
@@ -180,10 +180,10 @@ class LaunchedRun {
 std::string launcher_mistake(const std::vector<std::string>& words) {
   if (words.empty()) return "a command was expected";
   for (const std::string& word : words)
-    for (std::string_view found = placeholder_of(word, 0); !found.empty();
-         found = placeholder_of(word, static_cast<std::size_t>(found.data() + found.size() - word.data())))
-      if (std::find(kPlaceholders.begin(), kPlaceholders.end(), found) == kPlaceholders.end())
-        return fmt::format("unknown placeholder '{}' (one of {})", found, fmt::join(kPlaceholders, ", "));
+    for (std::string_view found = name_in_braces(word, 0); !found.empty();
+         found = name_in_braces(word, static_cast<std::size_t>(found.data() + found.size() - word.data())))
+      if (std::find(kNamesInBraces.begin(), kNamesInBraces.end(), found) == kNamesInBraces.end())
+        return fmt::format("unknown name '{}' in braces (one of {})", found, fmt::join(kNamesInBraces, ", "));
   if (find_program(words[0]).empty()) return fmt::format("no program '{}' that could be run", words[0]);
   return "";
 }

@@ -18,10 +18,11 @@ void Contact<Dim>::find_nodes(const State<Dim>& state) {
   remember(state);
   list_.node_at.resize(state.tiling.places());
   field_begin_.resize(stacks + 1);
-  const auto threads = static_cast<std::size_t>(stacks < kFewest ? 1 : state.threads);
-  listings_.resize(std::max(threads, listings_.size()));
-#pragma omp parallel num_threads(static_cast <int>(threads))
+  const int asked = stacks < kFewest ? 1 : state.threads;
+  listings_.resize(std::max(static_cast<std::size_t>(asked), listings_.size()));
+#pragma omp parallel num_threads(asked)
   {
+    const auto threads = static_cast<std::size_t>(omp_get_num_threads());  // may be fewer than were asked for
     const auto thread = static_cast<std::size_t>(omp_get_thread_num());
     NodeListing<Dim>& mine = listings_[thread];
     const std::size_t begin = stacks * thread / threads, end = stacks * (thread + 1) / threads;
