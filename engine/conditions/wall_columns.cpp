@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/conditions/surface_walls.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -196,8 +197,8 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
 template <int Dim>
 void SurfaceWalls<Dim>::find_gaps(const State<Dim>& state) {
   const auto n = static_cast<std::int64_t>(near_.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 16)
-  for (std::int64_t k = 0; k < n; ++k) measure(state, near_[static_cast<std::size_t>(k)]);
+  for_each_of(n, state.threads, 16,
+              [&](std::int64_t k) { measure(state, near_[static_cast<std::size_t>(k)]); });
   for (Column& column : columns_) column.gaps = {};
   for (const Near& near : near_)
     for (std::size_t k = 0; k < kAcross; ++k) {

@@ -7,6 +7,7 @@
 
 #include "engine/contact/nodal/smooth_normals.hpp"
 #include "engine/heat/heat.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -26,8 +27,7 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
   const auto& nodes = state.nodes;
   const double *mass = nodes.column(Nodal::mass), *temperature = nodes.column(Nodal::temperature);
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const auto& node = list.nodes[static_cast<std::size_t>(k)];
     const auto slot_of = [&](int field) {
       return list.fields[static_cast<std::size_t>(node.field_begin + field)].slot;
@@ -67,7 +67,7 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       if (!touches) crossing.sides = {wide * a, wide * b};
       crossing.jump = temperature[crossing.b] - temperature[crossing.a];
     }
-  }
+  });
 }
 
 /// How much of a surface an entry stands for: none of a lump whose pairs are listed one by one, half where
@@ -126,8 +126,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
   double* value = state.nodes.column(quantity);
   const bool flow = quantity == Nodal::heat_flow;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const auto& node = list.nodes[static_cast<std::size_t>(k)];
     // Of each group, its slots are found from its first one: nodes have few fields.
     const auto joined = [&](int s, int t) {
@@ -164,7 +163,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
       for (int g = 0; g < count; ++g)
         if (group[g] == f) value[slots[g]] = flow ? capacity[slots[g]] * (sum / all) : sum / all;
     }
-  }
+  });
 }
 
 /// Heat of friction, by effusivities: as two half-spaces share it that are equally warm where they touch.
@@ -203,14 +202,13 @@ void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt)
   for (Crossing& c : crossings_)
     if (c.conducts()) c.drive = inverse(c.b, c.field_b) * flow[c.b] - inverse(c.a, c.field_a) * flow[c.a];
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const auto& node = list.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       Crossing& c = crossings_[static_cast<std::size_t>(e)];
       if (c.conducts()) c.mean = mean_jump(state, contact, node, static_cast<std::size_t>(e));
     }
-  }
+  });
   for (const auto& node : list.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto at = static_cast<std::size_t>(e);

@@ -8,6 +8,7 @@
 
 #include "engine/plan/materials.hpp"
 #include "engine/state/slots.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -91,8 +92,7 @@ void Heat<Dim>::find_temperatures(State<Dim>& state, Nodal out) const {
   const auto n = static_cast<std::int64_t>(stacks.size());
   const double *capacity = nodes.column(Nodal::heat_capacity), *content = nodes.column(Nodal::heat_content);
   double* temperature = nodes.column(out);
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t s = 0; s < n; ++s) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t s) {
     const auto& stack = stacks[static_cast<std::size_t>(s)];
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
       const NodeIndex<Dim> node = state.tiling.node(stack, local);
@@ -104,7 +104,7 @@ void Heat<Dim>::find_temperatures(State<Dim>& state, Nodal out) const {
         temperature[slot] = capacity[slot] > 0 ? sum / capacity[slot] : 0;
       }
     }
-  }
+  });
 }
 
 /// ΔT = QΔt/C; where it is held, what that takes.

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "engine/state/state.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -14,13 +15,7 @@ template <class F>
 void for_each_block(std::int64_t n, std::int64_t block, int threads, F f) {
   constexpr std::int64_t few = 4;
   const std::int64_t blocks = (n + block - 1) / block;
-  const auto visit = [&](std::int64_t b) { f(b * block, std::min(n, (b + 1) * block)); };
-  if (blocks <= few || threads == 1) {  // even of one thread a parallel region costs a thousand instructions
-    for (std::int64_t b = 0; b < blocks; ++b) visit(b);
-    return;
-  }
-#pragma omp parallel for num_threads(threads) schedule(static)
-  for (std::int64_t b = 0; b < blocks; ++b) visit(b);
+  for_each_of(blocks, threads, few, [&](std::int64_t b) { f(b * block, std::min(n, (b + 1) * block)); });
 }
 
 /// Calls f(first slot, last slot) over all slots, in parallel; whole tiles.

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/state/team.hpp"
 #include "engine/state/tiling.hpp"
 
 namespace mpmfast {
@@ -26,29 +27,26 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
   b.order_spare.resize(n);
   for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
     const auto digit = [&](std::size_t i) { return b.key[i] >> shift & (kValues - 1); };
-#pragma omp parallel if (n > kFewest)
-    {
-      const auto threads = static_cast<std::size_t>(omp_get_num_threads()),
-                 thread = static_cast<std::size_t>(omp_get_thread_num());
-#pragma omp single
-      b.next.resize(threads);
+    b.next.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+      const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
       auto& mine = b.next[thread];
       mine.fill(0);
       const std::size_t begin = n * thread / threads, end = n * (thread + 1) / threads;
       for (std::size_t i = begin; i < end; ++i) ++mine[digit(i)];
-#pragma omp barrier
-#pragma omp single
-      {
+      me.wait_for_all();
+      if (thread == 0) {
         std::uint32_t place = 0;
         for (std::size_t v = 0; v < kValues; ++v)
-          for (auto& counts : b.next) place += std::exchange(counts[v], place);
+          for (std::size_t t = 0; t < threads; ++t) place += std::exchange(b.next[t][v], place);
       }
+      me.wait_for_all();
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t at = mine[digit(i)]++;
         b.spare[at] = b.key[i];
         b.order_spare[at] = b.order[i];
       }
-    }
+    });
     b.key.swap(b.spare);
     b.order.swap(b.order_spare);
   }
@@ -65,18 +63,15 @@ void permute(T* values, SortBuffers& buffers) {
   const auto put = [&](std::uint32_t i) { std::memcpy(values + i, &buffers.spare[i], sizeof(T)); };
   for (const auto& range : buffers.ranges) {
     const std::uint32_t begin = range[0], end = range[1];
-    if (end - begin <= kFewest) {
-      for (std::uint32_t i = begin; i < end; ++i) take(i);
-      for (std::uint32_t i = begin; i < end; ++i) put(i);
-      continue;
-    }
-#pragma omp parallel
-    {
-#pragma omp for schedule(static)
-      for (std::uint32_t i = begin; i < end; ++i) take(i);
-#pragma omp for schedule(static)
-      for (std::uint32_t i = begin; i < end; ++i) put(i);
-    }
+    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+      const auto threads = static_cast<std::uint64_t>(me.threads),
+                 thread = static_cast<std::uint64_t>(me.thread), n = static_cast<std::uint64_t>(end - begin);
+      const auto first = begin + static_cast<std::uint32_t>(n * thread / threads),
+                 last = begin + static_cast<std::uint32_t>(n * (thread + 1) / threads);
+      for (std::uint32_t i = first; i < last; ++i) take(i);
+      me.wait_for_all();
+      for (std::uint32_t i = first; i < last; ++i) put(i);
+    });
   }
 }
 
@@ -113,12 +108,17 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
   if (stayed_) return;
   const std::size_t n = particles.size();
   buffers_.order.resize(n);
-  std::uint64_t largest = 0;
-#pragma omp parallel for schedule(static) reduction(max : largest) if (n > kFewest)
-  for (std::size_t p = 0; p < n; ++p) {
-    buffers_.order[p] = static_cast<std::uint32_t>(p);
-    largest = std::max(largest, buffers_.key[p]);
-  }
+  std::vector<std::uint64_t> largest_of(static_cast<std::size_t>(omp_get_max_threads()));
+  on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+    const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
+    std::uint64_t most = 0;
+    for (std::size_t p = n * thread / threads; p < n * (thread + 1) / threads; ++p) {
+      buffers_.order[p] = static_cast<std::uint32_t>(p);
+      most = std::max(most, buffers_.key[p]);
+    }
+    largest_of[thread] = most;
+  });
+  const std::uint64_t largest = *std::max_element(largest_of.begin(), largest_of.end());
   radix_sort(buffers_, largest);
   std::uint32_t begin = 0, end = static_cast<std::uint32_t>(n);
   while (begin < n && buffers_.order[begin] == begin) ++begin;

@@ -6,10 +6,12 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <memory>
 #include <vector>
 
 #include "engine/contact/nodal/fit.hpp"
+#include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
 #include "engine/step/shares.hpp"
 #include "kernels/basis/facts.hpp"
@@ -48,39 +50,59 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     state.tiling.start_keys(static_cast<std::size_t>(n), state.bodies.size());
-    const ParticleTile<Dim> nowhere{};
-    const ParticleRun<Dim> any{};  // first_node() asks for nothing that differs between bodies
-    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
-    const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(n));
+    const ChunkGeometry<Dim> all = geometry_of(view, state);
     const auto sorted_node = [&](std::size_t p) {
       NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
       return first;
     };
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 4096)
-    for (std::int64_t p = 0; p < n; ++p) {
+    for_each_of(n, state.threads, 4096, [&](std::int64_t p) {
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
       state.tiling.set_key(at, sorted_node(at), state.body_field[static_cast<std::size_t>(body)], body,
                            state.surfaces.holds(body, state.particles.id()[at]));
-    }
+    });
     state.tiling.build(state.particles, state.body_field);
     state.nodes.resize(static_cast<std::size_t>(state.tiling.slots()));
   }
 
   Supports<Dim> supports(const State<Dim>& state) const override {
-    static_assert(power(Basis::kMaxSupport + 1, 2) <= Ways::kMost);        // of all that a look ahead reaches
-    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
-    const ParticleTile<Dim> nowhere{};
-    const ParticleRun<Dim> any{};
-    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
-    const ChunkGeometry<Dim> all = chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
-    return {[all](std::size_t p, double way) {
+    static_assert(power(Basis::kMaxSupport + 1, 2) <= Ways::kMost);  // of all that a look ahead reaches
+    return {[all = geometry_of(const_cast<State<Dim>&>(state).view(), state)](std::size_t p, double way) {
               ChunkGeometry<Dim> behind = all;  // farther from an origin that lies so much behind
               for (double& x : behind.origin) x -= way;
               return Basis::first_node(behind, static_cast<int>(p));
             },
             Basis::kMaxSupport};
+  }
+
+  bool near_home(const State<Dim>& state, double way) const override {
+    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
+    ChunkGeometry<Dim> ahead = geometry_of(view, state), behind = ahead;
+    for (double& x : ahead.origin) x -= way;
+    for (double& x : behind.origin) x += way;
+    const auto is_near = [&](const NodeIndex<Dim>& home, int p) {
+      const NodeIndex<Dim> last = Basis::first_node(ahead, p), first = Basis::first_node(behind, p);
+      bool near = true;
+      for (int d = 0; d < Dim; ++d) near &= last[d] <= home[d] + 1 && first[d] >= home[d] - 1;
+      return near;
+    };
+    const auto tiles = static_cast<std::int64_t>(state.tiling.tiles.size());
+    std::atomic<bool> strayed{false};
+    for_each_of(tiles, state.threads, 64, [&](std::int64_t t) {
+      const ParticleTile<Dim>& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
+      for (int r = tile.run_begin; r < tile.run_end && !strayed.load(std::memory_order_relaxed); ++r) {
+        const ParticleRun<Dim>& run = state.tiling.runs[static_cast<std::size_t>(r)];
+        for (int cell = 0; cell < kTileNodes<Dim>; ++cell) {
+          NodeIndex<Dim> home;
+          for (int d = 0, digits = cell; d < Dim; ++d, digits /= kTileSide)
+            home[d] = tile.window[d] + kSortedOffset<Basis> + digits % kTileSide;
+          for (std::uint32_t p = run.cell_begin[cell]; p < run.cell_begin[cell + 1]; ++p)
+            if (!is_near(home, static_cast<int>(p))) strayed.store(true, std::memory_order_relaxed);
+        }
+      }
+    });
+    return !strayed;
   }
 
   bool project(State<Dim>& state, bool with_force) override {
@@ -229,17 +251,15 @@ class BasisPasses final : public Passes<Dim> {
     heat_reports_.assign(static_cast<std::size_t>(n), {});
     const ParticleView<Dim> view = state.view();
     shares_[0].cut(state.threads, n, kTilesAtOnce);
-#pragma omp parallel num_threads(state.threads)
-    {
-      const int thread = omp_get_thread_num();
-      HeatRoom<Dim, Basis>& room = *rooms_[static_cast<std::size_t>(thread)]->heat;
-      shares_[0].for_each(thread, [&](std::int64_t t) {
+    on_threads(state.threads, [&](const Member& me) {
+      HeatRoom<Dim, Basis>& room = *rooms_[static_cast<std::size_t>(me.thread)]->heat;
+      shares_[0].for_each(me.thread, [&](std::int64_t t) {
         const auto at = static_cast<std::size_t>(t);
         if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) return;
         heat_reports_[at] = update_heat_tile<Dim, Basis>(context(state, view, static_cast<int>(t)), room,
                                                          scale, filtered, in);
       });
-    }
+    });
     HeatReport all;
     for (const HeatReport& one : heat_reports_) {
       all.stored += one.stored;
@@ -269,6 +289,14 @@ class BasisPasses final : public Passes<Dim> {
     std::unique_ptr<HeatRoom<Dim, Basis>> heat;  ///< where a scene has any
   };
 
+  /// Of all particles, whatever their tile and body: what first_node() reads does not differ between these.
+  static ChunkGeometry<Dim> geometry_of(const ParticleView<Dim>& view, const State<Dim>& state) {
+    const ParticleTile<Dim> nowhere{};
+    const ParticleRun<Dim> any{};
+    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
+    return chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
+  }
+
   static auto visitor(const State<Dim>& state) {
     return [&state](int material, const auto& f) {
       std::visit(f, state.materials[static_cast<std::size_t>(material)]);
@@ -288,20 +316,18 @@ class BasisPasses final : public Passes<Dim> {
     const auto& colours = state.tiling.colours;
     for (std::size_t c = 0; c < colours.size(); ++c)
       shares_[c].cut(state.threads, static_cast<std::int64_t>(colours[c].size()), 1);
-#pragma omp parallel num_threads(state.threads)
-    {
-      const int thread = omp_get_thread_num();
-      Room& room = *rooms_[static_cast<std::size_t>(thread)];
+    on_threads(state.threads, [&](const Member& me) {
+      Room& room = *rooms_[static_cast<std::size_t>(me.thread)];
       for (std::size_t c = 0; c < colours.size(); ++c) {
-        shares_[c].for_each(thread, [&](std::int64_t k) {
+        shares_[c].for_each(me.thread, [&](std::int64_t k) {
           const Strip& strip = colours[c][static_cast<std::size_t>(k)];
           const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
           for (int tile = strip.begin; tile < strip.end; ++tile) f(context(state, view, tile), room, rigid);
         });
-#pragma omp barrier
+        me.wait_for_all();
       }
-    }
+    });
   }
 
   /// Of a boundary point in a run, what it has by its number.
@@ -364,12 +390,10 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
     shares_[0].cut(state.threads, n, kTilesAtOnce);
-#pragma omp parallel num_threads(state.threads)
-    {
-      const int thread = omp_get_thread_num();
-      TileReport& report = reports_[static_cast<std::size_t>(thread)].report;
-      UpdateRoom<Dim, Basis>& room = rooms_[static_cast<std::size_t>(thread)]->update;
-      shares_[0].for_each(thread, [&](std::int64_t t) {
+    on_threads(state.threads, [&](const Member& me) {
+      TileReport& report = reports_[static_cast<std::size_t>(me.thread)].report;
+      UpdateRoom<Dim, Basis>& room = rooms_[static_cast<std::size_t>(me.thread)]->update;
+      shares_[0].for_each(me.thread, [&](std::int64_t t) {
         if (state
                 .field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
           return;
@@ -377,7 +401,7 @@ class BasisPasses final : public Passes<Dim> {
                                           low, high, visitor(state)),
               report);
       });
-    }
+    });
     TileReport all;
     for (const auto& r : reports_) merge(r.report, all);
     return all;

@@ -1,10 +1,9 @@
 #include "engine/step/extension.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "engine/state/team.hpp"
 #include "engine/step/bit_cube.hpp"
 #include "kernels/basis/extension.hpp"
 #include "kernels/basis/facts.hpp"
@@ -18,8 +17,7 @@ template <std::size_t kColumns, class Shared, class Share>
 void sum_shares(const std::vector<Shared>& nodes, const std::vector<Share>& shares, bool keeps_own,
                 int threads, const std::array<double*, kColumns>& x) {
   const auto n = static_cast<std::int64_t>(nodes.size());
-#pragma omp parallel for num_threads(threads) schedule(static) if (n > 1000)
-  for (std::int64_t i = 0; i < n; ++i) {
+  for_each_of(n, threads, 1000, [&](std::int64_t i) {
     const Shared& node = nodes[static_cast<std::size_t>(i)];
     std::array<double, kColumns> sum{};
     if (keeps_own)
@@ -29,7 +27,7 @@ void sum_shares(const std::vector<Shared>& nodes, const std::vector<Share>& shar
       for (std::size_t c = 0; c < kColumns; ++c) sum[c] += share.weight * x[c][share.slot];
     }
     for (std::size_t c = 0; c < kColumns; ++c) x[c][node.slot] = sum[c];
-  }
+  });
 }
 
 /// Calls f with the columns of the quantities, as many at once as a vector has, the rest one by one.
@@ -263,16 +261,15 @@ void Extension<Dim>::list_all(const State<Dim>& state) {
     return static_cast<int>(tiles.size() * static_cast<std::size_t>(portion) /
                             static_cast<std::size_t>(portions));
   };
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 1)
-  for (int portion = 0; portion < portions; ++portion) {
+  share_out(portions, state.threads, 1, [&](std::int64_t portion) {
     Found& found = found_[static_cast<std::size_t>(portion)];
     found.following.clear();
     found.shares.clear();
     found.lowered = found.alone = 0;
-    for (int t = first_of(portion); t < first_of(portion + 1); ++t)
+    for (int t = first_of(static_cast<int>(portion)); t < first_of(static_cast<int>(portion) + 1); ++t)
       if (!state.field_rigid[static_cast<std::size_t>(tiles[static_cast<std::size_t>(t)].field)])
         list_tile(state, t, found);
-  }
+  });
   std::size_t nodes = 0, shares = 0;
   for (auto& found : found_) {
     found.nodes_before = nodes;
@@ -282,8 +279,7 @@ void Extension<Dim>::list_all(const State<Dim>& state) {
   }
   following_.resize(nodes);
   shares_.resize(shares);
-#pragma omp parallel for num_threads(state.threads) schedule(static)
-  for (int portion = 0; portion < portions; ++portion) {
+  for_each_of(portions, state.threads, 1, [&](std::int64_t portion) {
     const Found& found = found_[static_cast<std::size_t>(portion)];
     const auto before = static_cast<int>(found.shares_before);
     auto at = following_.begin() + static_cast<std::ptrdiff_t>(found.nodes_before);
@@ -291,7 +287,7 @@ void Extension<Dim>::list_all(const State<Dim>& state) {
       *at++ = {node.slot, before + node.begin, before + node.end, node.order};
     std::copy(found.shares.begin(), found.shares.end(),
               shares_.begin() + static_cast<std::ptrdiff_t>(found.shares_before));
-  }
+  });
 }
 
 /// The same by the nodes that are followed: each can then sum up by itself, in one order.
@@ -362,13 +358,12 @@ void Extension<Dim>::find(const State<Dim>& state) {
   lowered_.clear();
   find_room(state.time);
   const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
-#pragma omp parallel num_threads(state.threads)
-  {
-#pragma omp for schedule(static)
-    for (int t = 0; t < tiles; ++t) enough_[static_cast<std::size_t>(t)] = find_enough(state, t);
-#pragma omp for schedule(static)
-    for (int t = 0; t < tiles; ++t) stable_[static_cast<std::size_t>(t)] = find_stable(t);
-  }
+  for_each_of(tiles, state.threads, 16, [&](std::int64_t t) {
+    enough_[static_cast<std::size_t>(t)] = find_enough(state, static_cast<int>(t));
+  });
+  for_each_of(tiles, state.threads, 16, [&](std::int64_t t) {
+    stable_[static_cast<std::size_t>(t)] = find_stable(static_cast<int>(t));
+  });
   do {
     list_all(state);
     list_followed();

@@ -26,6 +26,9 @@ class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
   virtual void sort(State<Dim>& state) = 0;
   /// The nodes that particles reach; valid until the next sort.
   virtual Supports<Dim> supports(const State<Dim>& state) const = 0;
+  /// Is every particle, and would it be if it went so much further along each axis, m, within a node of where
+  /// it was sorted to?
+  virtual bool near_home(const State<Dim>& state, double way) const = 0;
   /// Mass and momentum of every slot (N20 Eq. 5), and the internal force from stresses as they are if it is
   /// wanted (not of particles with slopes, nor about an axis); the columns must be zero.
   /// @return false if a particle's support left its window: sort and start again

@@ -10,10 +10,16 @@
 namespace mpmfast {
 
 /// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of
-/// date; half a cell is kept for the growth of CPDI domains.
+/// date; half a cell is kept for the growth of CPDI domains. The fastest particles mostly vibrate and hardly
+/// leave their place: as long as a quarter cell holds what all have moved by, they may go as far again.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
-  const bool due = sort_due_ || travelled_ >= 0.5 * state_.grid.cell;
+  const double cell = state_.grid.cell;
+  bool due = sort_due_;
+  if (!due && travelled_ >= 0.5 * cell) {
+    due = !clock_.time(Pass::sort, [&] { return passes_->near_home(state_, 0.75 * cell); });
+    if (!due) travelled_ = 0;
+  }
   if (due) sort();
   if (cracks_.active() && (due || cracks_.look_due(state_.grid.cell))) look_at_cracks(due);
 }

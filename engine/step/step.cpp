@@ -12,6 +12,7 @@
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
 #include "engine/state/slots.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -96,6 +97,11 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 
 template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
+  Team::gather(state_.threads, [&] { advance_gathered(dt, stresses); });
+}
+
+template <int Dim>
+void Step<Dim>::advance_gathered(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   if (plan_.displacements && state_.step == 0) lead_displacements(dt);
   sort_if_due();

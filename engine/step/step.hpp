@@ -103,6 +103,7 @@ class Step {
   /// What crosses a cell first: waves in particles, and what is told to move, m/s.
   double fastest() const;
   const State<Dim>& seeded(const Scene& scene);
+  void advance_gathered(double dt, bool stresses);
   void sort_if_due();
   void sort();
   void look_at_cracks(bool sorted);

@@ -80,7 +80,7 @@ An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.j
 threads where \-\-threads does not say
 .TP
 \fBOMP_WAIT_POLICY\fR
-active: threads spin while they wait, which gains a little on an idle machine and costs many times the run on a busy one
+if set, or GOMP_SPINCOUNT, the program does not start itself again at launch with threads that sleep soon between steps
 .SH EXAMPLES
 .TP
 mpmfast run ellipses.yaml \-\-set grid.cell="1/20 mm" \-\-out small

@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include "engine/errors.hpp"
 #include "engine/geometry/crossing.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -166,14 +168,13 @@ template <int Dim>
 void Cracks<Dim>::list_crossed(const State<Dim>& state, const Supports<Dim>& supports) {
   const auto tiles = static_cast<std::int64_t>(state.tiling.tiles.size());
   crossed_.resize(static_cast<std::size_t>(tiles));
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8)
-  for (std::int64_t t = 0; t < tiles; ++t) {
+  share_out(tiles, state.threads, 8, [&](std::int64_t t) {
     const auto& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
     auto& out = crossed_[static_cast<std::size_t>(t)];
     out.clear();
     if (first_side_[static_cast<std::size_t>(tile.field)] >= 0)
       cross(state, supports, tile, rooms_[static_cast<std::size_t>(omp_get_thread_num())], out);
-  }
+  });
 }
 
 /// The nodes that any particle sees behind a crack.
@@ -313,15 +314,13 @@ template <int Dim>
 Seen Cracks<Dim>::list_sides(State<Dim>& state, const Supports<Dim>& supports) {
   const auto tiles = static_cast<std::int64_t>(crossed_.size());
   sides_.resize(crossed_.size());
-  Seen seen = Seen::same;
-#pragma omp declare reduction(most:Seen : omp_out = std::max(omp_out, omp_in))
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8) reduction(most : seen)
-  for (std::int64_t t = 0; t < tiles; ++t) {
-    auto& out = sides_[static_cast<std::size_t>(t)];
-    out.clear();
-    seen = std::max(seen, see(state, supports, static_cast<std::size_t>(t), out));
-  }
-  return seen;
+  std::vector<Seen> seen(crossed_.size());
+  share_out(tiles, state.threads, 8, [&](std::int64_t t) {
+    const auto at = static_cast<std::size_t>(t);
+    sides_[at].clear();
+    seen[at] = see(state, supports, at, sides_[at]);
+  });
+  return std::accumulate(seen.begin(), seen.end(), Seen::same, [](Seen a, Seen b) { return std::max(a, b); });
 }
 
 template <int Dim>
@@ -385,12 +384,11 @@ template <int Dim>
 void Cracks<Dim>::mark(State<Dim>& state, const Supports<Dim>& supports) const {
   auto& tiling = state.tiling;
   const auto tiles = static_cast<std::int64_t>(tiling.tiles.size());
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic, 8)
-  for (std::int64_t t = 0; t < tiles; ++t) {
+  share_out(tiles, state.threads, 8, [&](std::int64_t t) {
     auto& tile = tiling.tiles[static_cast<std::size_t>(t)];
     WindowNodes under;
     tile.cracked = false;
-    if (!find_under(tile, under)) continue;
+    if (!find_under(tile, under)) return;
     WindowBits<Dim> cracked;
     for (std::size_t w = 0; w < under.size(); ++w) cracked[w] = under[w] != nullptr;
     const std::uint32_t begin = tiling.runs[static_cast<std::size_t>(tile.run_begin)].begin,
@@ -399,7 +397,7 @@ void Cracks<Dim>::mark(State<Dim>& state, const Supports<Dim>& supports) const {
       const Reach ahead = reach_ahead(supports, p, state.grid.cell);
       tile.cracked = (reached_of(ahead.first, ahead.nodes, tile) & cracked).any();
     }
-  }
+  });
 }
 
 // Here: the members that this file defines.

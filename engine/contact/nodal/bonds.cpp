@@ -9,6 +9,7 @@
 #include "engine/contact/contact.hpp"
 #include "engine/contact/nodal/bonds.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -16,15 +17,14 @@ template <int Dim>
 template <class F>
 void Contact<Dim>::for_each_bond(const State<Dim>& state, const F& f) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       if (const auto* law = std::get_if<Cohesive>(&law_of(state, node, entry)))
         f(node, entry, *law, bond_of(entry));
     }
-  }
+  });
 }
 
 /// Surfaces are bonded that touch at the start of the run. Later a pair on a node has what the node had of

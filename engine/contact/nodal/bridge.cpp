@@ -11,6 +11,7 @@
 #include "engine/contact/contact.hpp"
 #include "engine/contact/nodal/bonds.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/state/team.hpp"
 #include "kernels/contact/curved_springs.hpp"
 
 namespace mpmfast {
@@ -64,8 +65,7 @@ template <int Dim>
 void Contact<Dim>::find_bridges(const State<Dim>& state) {
   if (!bridges_) return;
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
@@ -106,7 +106,7 @@ void Contact<Dim>::find_bridges(const State<Dim>& state) {
       if (touches && other != node.rigid && std::min(m_a, m_b) < spec_.mass_screen * (m_a + m_b))
         entry.normal.setZero();
     }
-  }
+  });
 }
 
 /// The impulses of the springs of a node in one step, as forces on its fields.

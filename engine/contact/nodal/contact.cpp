@@ -1,11 +1,11 @@
 #include "engine/contact/contact.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <utility>
+
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -20,29 +20,27 @@ void Contact<Dim>::find_nodes(const State<Dim>& state) {
   field_begin_.resize(stacks + 1);
   const int asked = stacks < kFewest ? 1 : state.threads;
   listings_.resize(std::max(static_cast<std::size_t>(asked), listings_.size()));
-#pragma omp parallel num_threads(asked)
-  {
-    const auto threads = static_cast<std::size_t>(omp_get_num_threads());  // may be fewer than were asked for
-    const auto thread = static_cast<std::size_t>(omp_get_thread_num());
+  on_threads(asked, [&](const Member& me) {
+    const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
     NodeListing<Dim>& mine = listings_[thread];
     const std::size_t begin = stacks * thread / threads, end = stacks * (thread + 1) / threads;
     for (std::size_t s = begin; s < end; ++s) field_begin_[s + 1] = fields_on(state, s);
-#pragma omp barrier
-#pragma omp single
-    {
+    me.wait_for_all();
+    if (thread == 0) {
       field_begin_[0] = 0;
       for (std::size_t s = 0; s < stacks; ++s) field_begin_[s + 1] += field_begin_[s];
       list_.fields.resize(static_cast<std::size_t>(field_begin_[stacks]));
     }
+    me.wait_for_all();
     mine.nodes.clear();
     mine.entries.clear();
     mine.meetings = mine.screened = 0;
     for (std::size_t s = begin; s < end; ++s) list_stack(state, s, mine);
-#pragma omp barrier
-#pragma omp single
-    make_room(threads);
+    me.wait_for_all();
+    if (thread == 0) make_room(threads);
+    me.wait_for_all();
     take_listed(state, mine);
-  }
+  });
 }
 
 /// How many fields the contact nodes of a stack have together.
@@ -249,14 +247,13 @@ template <int Dim>
 void Contact<Dim>::remember(const State<Dim>& state) {
   const auto n = static_cast<std::int64_t>(list_.entries.size());
   memory_.resize(list_.entries.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 1024)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 1024, [&](std::int64_t k) {
     const auto at = static_cast<std::size_t>(k);
     const auto& entry = list_.entries[at];
     Memory& m = memory_[at];
     m = {keys_[at], static_cast<std::uint32_t>(k), entry.touching, entry.stuck, entry.spring, {}};
     std::memcpy(m.plane, entry.plane, sizeof m.plane);
-  }
+  });
   if (spec_.fields == ManyFields::pairs || cracks_.active())  // lumps come before the pairs of a node
     std::sort(memory_.begin(), memory_.end(), [](const Memory& m, const Memory& n) { return m.key < n.key; });
 }
@@ -293,20 +290,30 @@ void Contact<Dim>::follow(const Tiling<Dim>& tiling) {
         particle = static_cast<std::int32_t>(tiling.moved(static_cast<std::uint32_t>(particle)));
 }
 
-/// What the fields of an entry's node have moved by, which is what the particles around have.
+/// What the fields of an entry's node have moved by, which is what the particles around have; what they slide
+/// counts more, since other particles come to lie foremost by that.
 template <int Dim>
 void Contact<Dim>::drift(const State<Dim>& state, double dt) {
+  constexpr double kSlide = 10;
   if (!keeps_fits_) return;
-  for (const auto& node : list_.nodes) {
-    double squared = 0;
-    for (int f = node.field_begin; f < node.field_end; ++f)
-      squared = std::max(
-          squared,
-          state.nodes.vector(Nodal::velocity, list_.fields[static_cast<std::size_t>(f)].slot).squaredNorm());
-    const double way = dt * std::sqrt(squared);
-    for (int e = node.entry_begin; e < node.entry_end; ++e)
-      list_.fits[static_cast<std::size_t>(e)].drift += way;
-  }
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, 1024, [&](std::int64_t k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    const auto velocity = [&](int field) {
+      return state.nodes.vector(Nodal::velocity,
+                                list_.fields[static_cast<std::size_t>(node.field_begin + field)].slot);
+    };
+    double fastest = 0;
+    for (int f = 0; f < node.field_end - node.field_begin; ++f)
+      fastest = std::max(fastest, velocity(f).norm());
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      const auto& entry = list_.entries[at];
+      Vec<Dim> slides = Vec<Dim>::Zero();
+      if (entry.b >= 0) slides = velocity(entry.a) - velocity(entry.b);
+      slides -= slides.dot(entry.normal) * entry.normal;
+      list_.fits[at].drift += dt * std::max(fastest, kSlide * slides.norm());
+    }
+  });
 }
 
 template class Contact<2>;

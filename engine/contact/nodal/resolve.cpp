@@ -3,11 +3,13 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
 #include "engine/plan/contact_law.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -77,10 +79,8 @@ template <int Dim>
 template <class Laws>
 void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
-  std::uint64_t solved = 0, lumped = 0;
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 64) reduction(+ : solved, lumped)
-  for (std::int64_t k = 0; k < n; ++k) {
-    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+  std::atomic<std::uint64_t> all_solved{0}, all_lumped{0};
+  const auto visit = [&](const ContactNode<Dim>& node, std::uint64_t& solved, std::uint64_t& lumped) {
     if (bridges_ && correction == Correction::final) bridge(state, dt, node);
     if (correction == (first_correction_ ? Correction::initial : Correction::final)) {
       see_slips(state, node);
@@ -102,11 +102,18 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     if (correction == Correction::final && one_set_) see_gaps(state, node);
     apply(state, correction, dt, node);
     settle(state, correction, node);
-  }
+  };
+  for_each_stretch(n, state.threads, 64, [&](std::int64_t begin, std::int64_t end) {
+    std::uint64_t solved = 0, lumped = 0;
+    for (std::int64_t k = begin; k < end; ++k)
+      visit(list_.nodes[static_cast<std::size_t>(k)], solved, lumped);
+    all_solved += solved;
+    all_lumped += lumped;
+  });
   if (bridges_ && correction == (one_set_ ? Correction::strain : Correction::final)) end_bridges(state, dt);
   if (correction == Correction::final) {
-    list_.counters.pair_nodes += solved;
-    list_.counters.pair_fallbacks += lumped;
+    list_.counters.pair_nodes += all_solved;
+    list_.counters.pair_fallbacks += all_lumped;
   }
   if (correction == Correction::final || (correction == Correction::initial && first_correction_stays_))
     book(state);

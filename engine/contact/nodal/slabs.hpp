@@ -10,6 +10,7 @@
 
 #include "engine/contact/nodal/list.hpp"
 #include "engine/state/state.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -57,11 +58,10 @@ class ContactSlabs {
   void for_each_node(std::size_t slab, const State<Dim>& state, const ContactList<Dim>& contact, F f) const {
     const auto begin = static_cast<std::int64_t>(slabs_[slab].begin),
                end = static_cast<std::int64_t>(slabs_[slab].end);
-#pragma omp parallel for num_threads(state.threads) schedule(dynamic) if (end - begin > 4)
-    for (std::int64_t g = begin; g < end; ++g) {
-      const auto group = static_cast<std::size_t>(g);
+    share_out(end - begin, end - begin > 4 ? state.threads : 1, 1, [&](std::int64_t g) {
+      const auto group = static_cast<std::size_t>(begin + g);
       for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k]);
-    }
+    });
   }
 
  private:

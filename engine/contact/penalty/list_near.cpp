@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/contact/penalty/penalty.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -95,8 +96,7 @@ std::size_t Penalty<Dim>::bucket_of(const NodeIndex<Dim>& cell) const {
 template <int Dim>
 void Penalty<Dim>::find_balls(int threads) {
   const auto n = static_cast<std::int64_t>(near_facets_.size());
-#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, threads, 256, [&](std::int64_t k) {
     const int f = near_facets_[static_cast<std::size_t>(k)];
     Ball ball{Vec<Dim>::Zero(), facet_normal(f), 0, facet(f).body};
     for (int p : facet(f).point) ball.middle += at(p);
@@ -104,7 +104,7 @@ void Penalty<Dim>::find_balls(int threads) {
     for (int p : facet(f).point) ball.radius = std::max(ball.radius, (at(p) - ball.middle).squaredNorm());
     ball.radius = std::sqrt(ball.radius);
     ball_[static_cast<std::size_t>(f)] = ball;
-  }
+  });
 }
 
 /// Facets by the cell of their middle, of such a side that what comes within a cell of the grid of any point
@@ -215,14 +215,13 @@ void Penalty<Dim>::list_all(int threads) {
     room.listed.clear();
     room.body = -1;
   }
-#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, threads, 256, [&](std::int64_t k) {
     Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
     const int begin = static_cast<int>(room.listed.size());
     list_around(near_facets_[static_cast<std::size_t>(k)], room);
     const int end = static_cast<int>(room.listed.size());
     if (end > begin) room.listing.push_back({near_facets_[static_cast<std::size_t>(k)], begin, end, 0});
-  }
+  });
   listing_.clear();
   listed_.clear();
   for (const Room& room : rooms_) {

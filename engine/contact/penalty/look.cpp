@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "engine/contact/penalty/penalty.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -52,13 +53,12 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   for (auto& room : rooms_) room.touches.clear();
   const auto n = static_cast<std::int64_t>(listing_.size());
   // Even stretches in order of the threads: the touches of all rooms are in order of the facets.
-#pragma omp parallel for num_threads(state.threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, state.threads, 256, [&](std::int64_t k) {
     Listing& listing = listing_[static_cast<std::size_t>(k)];
-    if (2 * moved < listing.clear) continue;  // both sides may have gone as far
+    if (2 * moved < listing.clear) return;  // both sides may have gone as far
     const bool outside = look_around(listing, rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
     if (fresh && outside) listing.clear = clearance(listing);
-  }
+  });
   return std::nullopt;
 }
 
@@ -68,15 +68,14 @@ void Penalty<Dim>::gather(const State<Dim>& state) {
   const double* x[Dim];
   for (int d = 0; d < Dim; ++d) x[d] = particles.column(Quantity::position, d);
   const auto runs = static_cast<std::int64_t>(state.tiling.runs.size());
-#pragma omp parallel for num_threads(state.threads) schedule(static)
-  for (std::int64_t r = 0; r < runs; ++r) {
+  for_each_of(runs, state.threads, 1, [&](std::int64_t r) {
     const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
-    if (!run.on_surface) continue;
+    if (!run.on_surface) return;
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
       Vec<Dim>& out = now_[static_cast<std::size_t>(surfaces_->number(run.body, particles.id()[p]))];
       for (int d = 0; d < Dim; ++d) out[d] = x[d][p];
     }
-  }
+  });
 }
 
 /// Unit, out of the body.
@@ -95,8 +94,7 @@ template <int Dim>
 int Penalty<Dim>::find_normals(int threads) {
   for (auto& room : rooms_) room.fold = -1;
   const auto n = static_cast<std::int64_t>(listed_wedges_.size());
-#pragma omp parallel for num_threads(threads) schedule(static) if (n > 256)
-  for (std::int64_t k = 0; k < n; ++k) {
+  for_each_of(n, threads, 256, [&](std::int64_t k) {
     const auto w = static_cast<std::size_t>(listed_wedges_[static_cast<std::size_t>(k)]);
     const auto& wedge = surfaces_->wedges[w];
     Vec<Dim> sum = Vec<Dim>::Zero();
@@ -110,7 +108,7 @@ int Penalty<Dim>::find_normals(int threads) {
       if (fold < 0) fold = wedge.point;
     }
     wedge_normal_[w] = sum / length;
-  }
+  });
   for (const auto& room : rooms_)
     if (room.fold >= 0) return room.fold;
   return -1;

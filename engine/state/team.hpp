@@ -1,0 +1,127 @@
+#pragma once
+
+/// @file The threads of a step. They are gathered once and wait awake for what there is to do: OpenMP's own
+/// wait between two loops either takes the processor from other programs or falls asleep, and waking a thread
+/// costs more than a short loop. These spin a little, then give way to whoever wants the processor, and sleep
+/// only where somebody does.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+
+namespace mpmfast {
+
+class Team;
+
+/// One of the threads that do something together.
+struct Member {
+  int thread = 0, threads = 1;
+  Team* team = nullptr;
+
+  void wait_for_all() const;  ///< until all members have come so far
+};
+
+class Team {
+ public:
+  /// Calls work() on this thread, while threads − 1 others wait for what on_threads() hands them. What work()
+  /// throws comes out when they have gone. Where threads are at work already it is just called.
+  template <class Work>
+  static void gather(int threads, const Work& work) {
+    if (threads <= 1 || omp_in_parallel()) return work();
+    Team team;
+    std::exception_ptr thrown;
+#pragma omp parallel num_threads(threads)
+    {
+      if (const int thread = omp_get_thread_num(); thread > 0) {
+        team.serve(thread);
+      } else {
+        team.size_ = omp_get_num_threads();
+        led() = &team;
+        try {
+          work();
+        } catch (...) {
+          thrown = std::current_exception();
+        }
+        led() = nullptr;
+        team.dismiss();
+      }
+    }
+    if (thrown) std::rethrow_exception(thrown);
+  }
+
+  /// Calls f(member) on the threads of the team that this one leads and that have nothing to do.
+  /// @param most  so many of them at most
+  /// @return false, and nothing done, if there is none
+  template <class F>
+  static bool hand_out(int most, const F& f) {
+    Team* team = led();
+    if (!team || team->busy_) return false;
+    team->run(
+        most, [](const void* of, const Member& member) { (*static_cast<const F*>(of))(member); }, &f);
+    return true;
+  }
+
+ private:
+  friend struct Member;
+  using Job = void (*)(const void*, const Member&);
+
+  static Team*& led();  ///< the team of which this thread is the first
+  void run(int most, Job job, const void* of);
+  void serve(int thread);
+  void dismiss();
+  void wait_for_all();
+
+  int size_ = 1, busy_ = 0;
+  Job job_ = nullptr;
+  const void* of_ = nullptr;
+  int members_ = 1;
+  alignas(64) std::atomic<int> called_{0};  ///< rises with every job
+  alignas(64) std::atomic<int> done_{0};    ///< threads that have done theirs
+  alignas(64) std::atomic<int> arrived_{0};
+  alignas(64) std::atomic<int> passed_{0};  ///< rises when all have arrived
+};
+
+/// Calls f(member) on so many threads at once; on this one alone where threads are at work already.
+template <class F>
+void on_threads(int threads, const F& f) {
+  if (threads <= 1) return f(Member{});
+  if (Team::hand_out(threads, f)) return;
+  if (omp_in_parallel()) return f(Member{});
+#pragma omp parallel num_threads(threads)
+  f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
+}
+
+/// Calls f(begin, end) for stretches that make up [0, n), one a thread and in their order; for all at once
+/// where there are no more than a few.
+template <class F>
+void for_each_stretch(std::int64_t n, int threads, std::int64_t few, const F& f) {
+  on_threads(n <= few ? 1 : threads,
+             [&](const Member& me) { f(n * me.thread / me.threads, n * (me.thread + 1) / me.threads); });
+}
+
+/// Calls f(k) for all k of [0, n), each thread those of a stretch.
+template <class F>
+void for_each_of(std::int64_t n, int threads, std::int64_t few, const F& f) {
+  for_each_stretch(n, threads, few, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t k = begin; k < end; ++k) f(k);
+  });
+}
+
+/// Calls f(k) for all k of [0, n), where some take longer than others: a thread that is done takes more, so
+/// many at a time.
+template <class F>
+void share_out(std::int64_t n, int threads, std::int64_t at_once, const F& f) {
+  std::atomic<std::int64_t> next{0};
+  on_threads(n <= at_once ? 1 : threads, [&](const Member&) {
+    for (;;) {
+      const std::int64_t begin = next.fetch_add(at_once, std::memory_order_relaxed);
+      if (begin >= n) return;
+      for (std::int64_t k = begin; k < std::min(n, begin + at_once); ++k) f(k);
+    }
+  });
+}
+
+}  // namespace mpmfast
