@@ -46,15 +46,15 @@ class Contact {
   void drift(const State<Dim>& state, double dt);
 
   /// On nodes where conditions prescribe components of the velocities contact acts along the others only.
-  void leave_to(const Conditions<Dim>& conditions);
+  void leave_to(const Conditions<Dim>& conditions, int threads);
 
   /// A new step: the books are empty, and moments count about these points, by field.
   void open_books(const std::vector<Vec<Dim>>& pivots);
   /// The time in which the fastest of all waves and motions crosses a cell, s.
   void set_crossing(double seconds) { crossing_ = seconds; }
 
-  /// Adds the slots of nodes where surfaces meet that may part (not bonds).
-  void list_meeting_slots(std::vector<int>& slots) const;
+  /// The slots of nodes where surfaces meet that may part (not bonds); −1 for those of other contact nodes.
+  void list_meeting_slots(int threads, std::vector<int>& slots) const;
 
   /// Gives the fields of a node that are tied the share of pressed mass that all of them have: a tie moves as
   /// one field does.
@@ -199,7 +199,7 @@ class Contact {
     SetRule<Dim> rule;
   };
   /// What one thread solves the pairs of a node in.
-  struct Together {
+  struct alignas(64) Together {
     ContactsTogether<Dim> solver;
     std::vector<Acting> acting;    ///< as the solver's contacts
     std::vector<Vec<Dim>> pulled;  ///< impulses of springs on the node's fields, N s

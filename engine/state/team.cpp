@@ -1,6 +1,11 @@
 #include "engine/state/team.hpp"
 
+#include <linux/futex.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 #include <chrono>
+#include <limits>
 #include <thread>
 
 namespace mpmfast {
@@ -15,26 +20,45 @@ inline void relax() {
 #endif
 }
 
-/// Until done(value of watched). A turn that the processor gave to others was long: then they need it, and
-/// this thread sleeps until it is called.
+/// As FUTEX_WAIT and FUTEX_WAKE: std::atomic::wait gives way some times before it sleeps.
+void futex(std::atomic<int>& of, int operation, int value) {
+  static_assert(sizeof(of) == sizeof(int));
+  syscall(SYS_futex, &of, operation | FUTEX_PRIVATE_FLAG, value, nullptr, nullptr, 0);
+}
+
+/// Until done(value). A thread spins, then gives way to others for a turn at a time. If a turn is long,
+/// others need the processor: each turn would cost a slice of their time, so that for a while this thread
+/// sleeps until it is called, which the scheduler is quick to heed.
 template <class Done>
-void await(const std::atomic<int>& watched, const Done& done) {
+void await(Signal& signal, const Done& done) {
   using Clock = std::chrono::steady_clock;
   constexpr int kSpins = 200, kTurns = 10000;  // some 10 µs, some 5 ms
+  constexpr int kWhile = 100;                  // waits
   constexpr auto kLong = std::chrono::microseconds(50);
+  static thread_local int crowded = 0;
   for (int k = 0; k < kSpins; ++k) {
-    if (done(watched.load(std::memory_order_acquire))) return;
+    if (done(signal.value.load(std::memory_order_acquire))) return;
     relax();
   }
-  for (int turn = 0;; ++turn) {
-    const int value = watched.load(std::memory_order_acquire);
-    if (done(value)) return;
+  for (int turn = 0; crowded == 0 && turn < kTurns; ++turn) {
     const auto before = Clock::now();
     std::this_thread::yield();
-    if (turn < kTurns && Clock::now() - before < kLong) continue;
-    watched.wait(value);
-    turn = 0;
+    if (Clock::now() - before > kLong) crowded = kWhile;
+    if (done(signal.value.load(std::memory_order_acquire))) return;
   }
+  if (crowded > 0) --crowded;
+  for (;;) {
+    signal.sleepers.fetch_add(1);
+    const int value = signal.value.load();
+    if (!done(value)) futex(signal.value, FUTEX_WAIT, value);
+    signal.sleepers.fetch_sub(1);
+    if (done(signal.value.load(std::memory_order_acquire))) return;
+  }
+}
+
+/// To all that wait for this signal.
+void call(Signal& signal) {
+  if (signal.sleepers.load() > 0) futex(signal.value, FUTEX_WAKE, std::numeric_limits<int>::max());
 }
 
 }  // namespace
@@ -54,9 +78,9 @@ void Team::run(int most, Job job, const void* of) {
   job_ = job;
   of_ = of;
   members_ = std::min(most, size_);
-  done_.store(0, std::memory_order_relaxed);
-  called_.fetch_add(1);
-  called_.notify_all();
+  done_.value.store(0, std::memory_order_relaxed);
+  called_.value.fetch_add(1);
+  call(called_);
   busy_ = 1;
   job(of, {0, members_, this});
   busy_ = 0;
@@ -68,22 +92,22 @@ void Team::serve(int thread) {
     await(called_, [&](int called) { return called != seen; });
     if (!job_) return;
     if (thread < members_) job_(of_, {thread, members_, this});
-    if (done_.fetch_add(1) == size_ - 2) done_.notify_all();
+    if (done_.value.fetch_add(1) == size_ - 2) call(done_);
   }
 }
 
 void Team::dismiss() {
   job_ = nullptr;
-  called_.fetch_add(1);
-  called_.notify_all();
+  called_.value.fetch_add(1);
+  call(called_);
 }
 
 void Team::wait_for_all() {
-  const int passed = passed_.load(std::memory_order_relaxed);
+  const int passed = passed_.value.load(std::memory_order_relaxed);
   if (arrived_.fetch_add(1) == members_ - 1) {
     arrived_.store(0, std::memory_order_relaxed);
-    passed_.fetch_add(1);
-    passed_.notify_all();
+    passed_.value.fetch_add(1);
+    call(passed_);
   } else {
     await(passed_, [&](int now) { return now != passed; });
   }

@@ -2,8 +2,7 @@
 
 /// @file The threads of a step. They are gathered once and wait awake for what there is to do: OpenMP's own
 /// wait between two loops either takes the processor from other programs or falls asleep, and waking a thread
-/// costs more than a short loop. These spin a little, then give way to whoever wants the processor, and sleep
-/// only where somebody does.
+/// costs more than a short loop. These sleep only where others want the processor.
 
 #include <omp.h>
 
@@ -22,6 +21,11 @@ struct Member {
   Team* team = nullptr;
 
   void wait_for_all() const;  ///< until all members have come so far
+};
+
+/// A number that threads wait for.
+struct alignas(64) Signal {
+  std::atomic<int> value{0}, sleepers{0};
 };
 
 class Team {
@@ -78,10 +82,10 @@ class Team {
   Job job_ = nullptr;
   const void* of_ = nullptr;
   int members_ = 1;
-  alignas(64) std::atomic<int> called_{0};  ///< rises with every job
-  alignas(64) std::atomic<int> done_{0};    ///< threads that have done theirs
-  alignas(64) std::atomic<int> arrived_{0};
-  alignas(64) std::atomic<int> passed_{0};  ///< rises when all have arrived
+  Signal called_;  ///< rises with every job
+  Signal done_;    ///< threads that have done theirs
+  Signal passed_;  ///< rises when all have arrived
+  std::atomic<int> arrived_{0};
 };
 
 /// Calls f(member) on so many threads at once; on this one alone where threads are at work already.

@@ -56,13 +56,17 @@ void Step<Dim>::find_moving_velocities() {
     auto& nodes = state_.nodes;
     kept_slots_.clear();
     if (plan_.contact) {
-      contact_.list_meeting_slots(kept_slots_);
+      contact_.list_meeting_slots(state_.threads, kept_slots_);
       contact_.share_pressed(state_);
     }
     conditions_.share_pressed(state_);
     conditions_.list_held_slots(kept_slots_);
-    kept_velocities_.clear();
-    for (const int slot : kept_slots_) kept_velocities_.push_back(nodes.vector(Nodal::velocity, slot));
+    const auto kept = static_cast<std::int64_t>(kept_slots_.size());
+    kept_velocities_.resize(kept_slots_.size());
+    for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (kept_slots_[at] >= 0) kept_velocities_[at] = nodes.vector(Nodal::velocity, kept_slots_[at]);
+    });
     const double *mass = nodes.column(Nodal::mass), *pressed = nodes.column(Nodal::pressed);
     for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
       for (int d = 0; d < Dim; ++d) {
@@ -75,8 +79,10 @@ void Step<Dim>::find_moving_velocities() {
         }
       }
     });
-    for (std::size_t k = 0; k < kept_slots_.size(); ++k)
-      nodes.set(Nodal::velocity, kept_slots_[k], kept_velocities_[k]);
+    for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
+      const auto at = static_cast<std::size_t>(k);
+      if (kept_slots_[at] >= 0) nodes.set(Nodal::velocity, kept_slots_[at], kept_velocities_[at]);
+    });
   });
   prolong({Nodal::velocity});
 }

@@ -230,7 +230,7 @@ void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
   clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
   clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
-  contact_.leave_to(conditions_);
+  contact_.leave_to(conditions_, state_.threads);
 }
 
 template <int Dim>

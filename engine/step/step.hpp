@@ -167,7 +167,7 @@ class Step {
   double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
   double ramped_ = 1;                      ///< share of the body forces in this step
   double body_force_work_ = 0;             ///< of this step, J
-  std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step
+  std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s
   bool sort_due_ = true;
   bool stresses_wait_ = false;  ///< some stresses are of an earlier F

@@ -4,6 +4,7 @@
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -16,7 +17,8 @@ void Contact<Dim>::open_books(const std::vector<Vec<Dim>>& pivots) {
 /// Adds up, in a fixed order, what the particles will keep of a correction.
 template <int Dim>
 void Contact<Dim>::book(const State<Dim>& state) {
-  for (const auto& node : list_.nodes)
+  for (const auto& node : list_.nodes) {
+    if (node.rigid < 0 && pairs_.empty()) continue;
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       // In a lump, each touching pair is seen from both sides.
@@ -24,6 +26,7 @@ void Contact<Dim>::book(const State<Dim>& state) {
       if (node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid)) book_rigid(state, node, entry);
       if (!pairs_.empty()) book_pair(state, node, entry, share);
     }
+  }
 }
 
 /// v_a − v_b, b the others of a lump or the rigid body, m/s.
@@ -104,24 +107,32 @@ double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tange
   return -gain;
 }
 
-/// Adds up the friction work, in a fixed order.
+/// The friction work of each entry, and its sum in a fixed order.
 template <int Dim>
 void Contact<Dim>::book_friction(const State<Dim>& state) {
-  for (const auto& node : list_.nodes)
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, 256, [&](std::int64_t k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
       const bool springs = bridges_ && !bridge_of(entry).friction.isZero(0);
+      entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
       if (!springs && entry.first.isZero(0) && entry.second.isZero(0)) continue;
       const int law = pair_of(state, node, entry);
-      entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
       const LawScope scope = scope_of(laws_[static_cast<std::size_t>(law + 1)], entry);
       if (scope == LawScope::contact || scope == LawScope::bonded) {
         // In a lump, each touching pair is seen from both sides.
         const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
         entry.friction_work += share * friction_work_of(entry, scope == LawScope::bonded);
       }
+    }
+  });
+  for (const auto& node : list_.nodes)
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = list_.entries[static_cast<std::size_t>(e)];
+      if (entry.friction_work == 0) continue;
       books_.friction_work += entry.friction_work;
-      if (law >= 0) books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
+      if (const int law = pair_of(state, node, entry); law >= 0)
+        books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
     }
 }
 

@@ -73,10 +73,10 @@ class ContactFit {
       room.tally = {};
       room.stack = -1;
     }
-    find_due(contact, spec.refit, state.grid.cell, due_);
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     slabs_.cut(state, contact, choice.smooth);
+    find_due(slabs_, contact, spec.refit * state.grid.cell, state.threads, due_);
     for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
     const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
     std::size_t surrounded = 0;
@@ -189,7 +189,7 @@ class ContactFit {
   }
 
   /// What one thread works in.
-  struct Room {
+  struct alignas(64) Room {
     int stack;                           ///< in hand; −1: none
     Candidates<Dim> candidates;          ///< near it
     std::vector<CloudRoom<Dim>> clouds;  ///< of the slabs that are kept at once

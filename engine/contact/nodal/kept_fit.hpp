@@ -8,16 +8,19 @@
 #include <vector>
 
 #include "engine/contact/nodal/list.hpp"
+#include "engine/contact/nodal/slabs.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/contact/separation.hpp"
 
 namespace mpmfast {
 
-/// Marks the contact nodes that are to be fitted anew: where fields have moved by `refit` cells since, where
-/// an entry is new, and beside one of these what will be due soon, since the particles near a stack are
-/// gathered together.
+/// Marks the contact nodes that are to be fitted anew: where fields have drifted so far since, where an entry
+/// is new, and beside one of these what will be due soon, since the particles near a stack are gathered
+/// together.
+/// @param refit  m
 template <int Dim>
-void find_due(const ContactList<Dim>& contact, double refit, double cell, std::vector<std::uint8_t>& due) {
+void find_due(const ContactSlabs<Dim>& slabs, const ContactList<Dim>& contact, double refit, int threads,
+              std::vector<std::uint8_t>& due) {
   due.assign(contact.nodes.size(), true);
   if (contact.fits.empty()) return;
   const auto drift_of = [&](const ContactNode<Dim>& node) {
@@ -29,13 +32,17 @@ void find_due(const ContactList<Dim>& contact, double refit, double cell, std::v
     }
     return most;
   };
-  for (std::size_t begin = 0, end = 0; begin < contact.nodes.size(); begin = end) {
+  slabs.for_each_stack(threads, [&](std::size_t begin, std::size_t end) {
     bool any = false;
-    for (; end < contact.nodes.size() && contact.nodes[end].stack == contact.nodes[begin].stack; ++end)
-      any |= drift_of(contact.nodes[end]) >= refit * cell;
-    for (std::size_t k = begin; k < end; ++k)
-      due[k] = any && drift_of(contact.nodes[k]) >= 0.5 * refit * cell;
-  }
+    for (std::size_t k = begin; k < end; ++k) {
+      const double drift = drift_of(contact.nodes[k]);
+      any |= drift >= refit;
+      due[k] = drift >= 0.5 * refit;
+    }
+    if (!any)
+      std::fill(due.begin() + static_cast<std::ptrdiff_t>(begin),
+                due.begin() + static_cast<std::ptrdiff_t>(end), 0);
+  });
 }
 
 /// How far one particle reaches from a node along the unit vector n, cells (reach_along).

@@ -126,7 +126,7 @@ struct ContactNode {
 
 /// What one thread lists: the contact nodes of its share of the stacks, their entries from 0 on.
 template <int Dim>
-struct NodeListing {
+struct alignas(64) NodeListing {
   std::vector<ContactNode<Dim>> nodes;
   std::vector<ListedEntry<Dim>> entries;
   std::uint64_t meetings, screened;     ///< as ContactCounters

@@ -7,6 +7,7 @@
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -20,18 +21,19 @@ Vec<Dim> Contact<Dim>::free_part(const ContactNode<Dim>& node, const Vec<Dim>& x
 /// conditions hold a direction, contact acts in the others alone: both are one projection then. A gap d along
 /// n is closed by moving d/|n_free| along n_free.
 template <int Dim>
-void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
+void Contact<Dim>::leave_to(const Conditions<Dim>& conditions, int threads) {
   constexpr double kNone = 1e-3;  // a surface along the held plane: no way is left
   conditions_ = &conditions;
   if (conditions.empty() || !one_set_) return;
-  for (auto& node : list_.nodes) {
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), threads, 256, [&](std::int64_t k) {
+    auto& node = list_.nodes[static_cast<std::size_t>(k)];
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const auto held = conditions.held(list_.fields[static_cast<std::size_t>(f)].slot);
       node.held_combination = std::max(node.held_combination, held.combination);
       node.held_axes |= held.axes;
       node.constrained |= held.any();
     }
-    if (!node.constrained) continue;
+    if (!node.constrained) return;
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       auto& entry = list_.entries[static_cast<std::size_t>(e)];
       const Vec<Dim> free = free_part(node, entry.normal);
@@ -39,7 +41,7 @@ void Contact<Dim>::leave_to(const Conditions<Dim>& conditions) {
       entry.normal = length > kNone ? Vec<Dim>(free / length) : Vec<Dim>::Zero();
       entry.separation = length > kNone ? entry.separation / length : std::numeric_limits<double>::infinity();
     }
-  }
+  });
 }
 
 /// The other field of an entry; of a lump the one with the largest volume, whose law then holds for the whole
@@ -241,20 +243,25 @@ bool Contact<Dim>::is_bridged(const ContactNode<Dim>& node) const {
 }
 
 template <int Dim>
-void Contact<Dim>::list_meeting_slots(std::vector<int>& slots) const {
-  for (const auto& node : list_.nodes) {
-    if (!may_part(node)) continue;
-    for (int f = node.field_begin; f < node.field_end; ++f)
-      slots.push_back(list_.fields[static_cast<std::size_t>(f)].slot);
-  }
+void Contact<Dim>::list_meeting_slots(int threads, std::vector<int>& slots) const {
+  slots.resize(list_.fields.size());
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), threads, 256, [&](std::int64_t k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    const bool parts = may_part(node);
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      const auto at = static_cast<std::size_t>(f);
+      slots[at] = parts ? list_.fields[at].slot : -1;
+    }
+  });
 }
 
 template <int Dim>
 void Contact<Dim>::share_pressed(State<Dim>& state) const {
   const double* mass = state.nodes.column(Nodal::mass);
   double* pressed = state.nodes.column(Nodal::pressed);
-  for (const auto& node : list_.nodes) {
-    if (may_part(node) || is_bridged(node)) continue;
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, 256, [&](std::int64_t k) {
+    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
+    if (may_part(node) || is_bridged(node)) return;
     double all = 0, part = 0;
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
@@ -264,7 +271,7 @@ void Contact<Dim>::share_pressed(State<Dim>& state) const {
       const int slot = list_.fields[static_cast<std::size_t>(f)].slot;
       pressed[slot] = part / all * mass[slot];
     }
-  }
+  });
 }
 
 // Here: the members that this file defines.

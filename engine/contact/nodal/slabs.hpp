@@ -64,6 +64,14 @@ class ContactSlabs {
     });
   }
 
+  /// f(begin, end) of the nodes of each stack, in parallel.
+  template <class F>
+  void for_each_stack(int threads, F f) const {
+    for_each_of(static_cast<std::int64_t>(groups_.size()) - 1, threads, 64, [&](std::int64_t g) {
+      f(groups_[static_cast<std::size_t>(g)], groups_[static_cast<std::size_t>(g) + 1]);
+    });
+  }
+
  private:
   struct Slab {
     std::size_t begin, end;  ///< into groups_
