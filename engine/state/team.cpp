@@ -26,24 +26,29 @@ void futex(std::atomic<int>& of, int operation, int value) {
   syscall(SYS_futex, &of, operation | FUTEX_PRIVATE_FLAG, value, nullptr, nullptr, 0);
 }
 
-/// Until done(value). A thread spins, then gives way to others for a turn at a time. If a turn is long,
-/// others need the processor: each turn would cost a slice of their time, so that for a while this thread
-/// sleeps until it is called, which the scheduler is quick to heed.
+/// Until done(value). A thread spins, then gives way to others for a turn at a time. If turns are long time
+/// and again, others need the processor: each turn would cost a slice of their time, so that for a while this
+/// thread sleeps until it is called, which the scheduler is quick to heed.
 template <class Done>
 void await(Signal& signal, const Done& done) {
   using Clock = std::chrono::steady_clock;
   constexpr int kSpins = 200, kTurns = 10000;  // some 10 µs, some 5 ms
   constexpr int kWhile = 100;                  // waits
   constexpr auto kLong = std::chrono::microseconds(50);
-  static thread_local int crowded = 0;
+  constexpr int kAgain = 1000;  // waits
+  static thread_local int crowded = 0, alert = 0;
   for (int k = 0; k < kSpins; ++k) {
     if (done(signal.value.load(std::memory_order_acquire))) return;
     relax();
   }
+  if (alert > 0) --alert;
   for (int turn = 0; crowded == 0 && turn < kTurns; ++turn) {
     const auto before = Clock::now();
     std::this_thread::yield();
-    if (Clock::now() - before > kLong) crowded = kWhile;
+    if (Clock::now() - before > kLong) {
+      if (alert > 0) crowded = kWhile;
+      alert = kAgain;
+    }
     if (done(signal.value.load(std::memory_order_acquire))) return;
   }
   if (crowded > 0) --crowded;

@@ -134,13 +134,15 @@ TEST_CASE("slow: a disk that spins a thousand turns neither makes nor loses ener
 }
 
 TEST_CASE("slow: ellipses that FLIP presses to 75 % keep their energy, with friction and without") {
-  const auto error = [](const char* friction) {
-    return energy_error(
-        "ellipses.yaml",
-        {{"grid.cell", "1/20 mm"}, {"method.update", "flip"}, {"contact.friction", friction}});
+  const auto error = [](const char* friction, const char* refit) {
+    return energy_error("ellipses.yaml", {{"grid.cell", "1/20 mm"},
+                                          {"method.update", "flip"},
+                                          {"contact.friction", friction},
+                                          {"contact.refit", refit}});
   };
-  CHECK(std::abs(error("0.2")) < 0.008);  // measured -0.3 %
-  CHECK(std::abs(error("0")) < 0.022);    // wanted 1.5 %; measured -1.9 %; -17 %
+  CHECK(std::abs(error("0.2", "0.3")) < 0.008);  // measured -0.2 %
+  // Wanted 1.5 %; measured -1.9 %; -17 %. With normals that are kept 2.3 %: all grains slide.
+  CHECK(std::abs(error("0", "0")) < 0.022);
 }
 
 TEST_CASE("without friction no friction work is booked, however many grains jam") {

@@ -291,10 +291,10 @@ void Contact<Dim>::follow(const Tiling<Dim>& tiling) {
 }
 
 /// What the fields of an entry's node have moved by, which is what the particles around have; what they slide
-/// counts more, since other particles come to lie foremost by that.
+/// where they touch counts more, since other particles come to lie foremost by that.
 template <int Dim>
 void Contact<Dim>::drift(const State<Dim>& state, double dt) {
-  constexpr double kSlide = 10;
+  constexpr double kSlide = 30;
   if (!keeps_fits_) return;
   for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, 1024, [&](std::int64_t k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
@@ -309,7 +309,7 @@ void Contact<Dim>::drift(const State<Dim>& state, double dt) {
       const auto at = static_cast<std::size_t>(e);
       const auto& entry = list_.entries[at];
       Vec<Dim> slides = Vec<Dim>::Zero();
-      if (entry.b >= 0) slides = velocity(entry.a) - velocity(entry.b);
+      if (entry.b >= 0 && entry.touching) slides = velocity(entry.a) - velocity(entry.b);
       slides -= slides.dot(entry.normal) * entry.normal;
       list_.fits[at].drift += dt * std::max(fastest, kSlide * slides.norm());
     }
