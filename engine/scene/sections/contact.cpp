@@ -56,7 +56,9 @@ void describe_regression(Keys& map, ContactSpec& contact) {
           Number{Measure::number, kTolerance});
   map.key("max_iterations", "Regression: at most so many passes.", contact.max_iterations, Whole{1, 1000});
   map.key("warm_start", "A regression starts from the plane of the last step.", contact.warm_start);
-  map.key("refit", "Cells that what is near may move before a node's normal is found anew; 0: in every step.",
+  map.key("refit",
+          "Cells that what is near may move, a thirtieth of which it may slide, before a node's normal is "
+          "found anew; 0: in every step.",
           contact.refit, Number{Measure::number, kHalf});
 }
 
