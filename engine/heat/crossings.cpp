@@ -1,7 +1,5 @@
 /// Heat between bodies: what touches, ties, friction, and what crosses a surface.
 
-#include <omp.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -137,7 +135,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
       return false;
     };
     const int count = node.field_end - node.field_begin;
-    std::vector<int>& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+    std::vector<int>& room = rooms_[static_cast<std::size_t>(own_number())];
     room.resize(2 * static_cast<std::size_t>(count));
     int *const slots = room.data(), *const group = slots + count;
     for (int f = 0; f < count; ++f) {

@@ -226,7 +226,7 @@ struct ContactSpec {
   double tolerance = 1e-5;    ///< on 1 − n'·n, where the regression stops
   int max_iterations = 15;    ///< of the regression
   bool warm_start = true;     ///< regressions start from the last step's plane
-  double refit = 0;           ///< cells that fields may move before normals are found anew
+  double refit = 0;           ///< cells that fields may move (slide: 1/30) before normals are found anew
   /// Rigid bodies give the normal by their gradient unless it is this factor smaller than the other's; ≥ 10:
   /// in place of a regression too (NN §3.5). 0: off.
   double rigid_bias = 0;

@@ -26,6 +26,9 @@ void futex(std::atomic<int>& of, int operation, int value) {
   syscall(SYS_futex, &of, operation | FUTEX_PRIVATE_FLAG, value, nullptr, nullptr, 0);
 }
 
+/// Waits of this thread in which it sleeps soon, and in which another long turn means that it is to.
+thread_local int crowded = 0, alert = 0;
+
 /// Until done(value). A thread spins, then gives way to others for a turn at a time. If turns are long time
 /// and again, others need the processor: each turn would cost a slice of their time, so that for a while this
 /// thread sleeps until it is called, which the scheduler is quick to heed.
@@ -36,7 +39,6 @@ void await(Signal& signal, const Done& done) {
   constexpr int kWhile = 100;                  // waits
   constexpr auto kLong = std::chrono::microseconds(50);
   constexpr int kAgain = 1000;  // waits
-  static thread_local int crowded = 0, alert = 0;
   for (int k = 0; k < kSpins; ++k) {
     if (done(signal.value.load(std::memory_order_acquire))) return;
     relax();
@@ -79,7 +81,7 @@ Team*& Team::led() {
   return team;
 }
 
-void Team::run(int most, Job job, const void* of) {
+void Team::run(int most, Job job, const void* of) noexcept {
   job_ = job;
   of_ = of;
   members_ = std::min(most, size_);
@@ -93,12 +95,14 @@ void Team::run(int most, Job job, const void* of) {
 }
 
 void Team::serve(int thread) {
+  own_number() = thread;
   for (int seen = 0;; ++seen) {
     await(called_, [&](int called) { return called != seen; });
-    if (!job_) return;
+    if (!job_) break;
     if (thread < members_) job_(of_, {thread, members_, this});
     if (done_.value.fetch_add(1) == size_ - 2) call(done_);
   }
+  own_number() = 0;
 }
 
 void Team::dismiss() {

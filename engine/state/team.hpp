@@ -2,7 +2,7 @@
 
 /// @file The threads of a step. They are gathered once and wait awake for what there is to do: OpenMP's own
 /// wait between two loops either takes the processor from other programs or falls asleep, and waking a thread
-/// costs more than a short loop. These sleep only where others want the processor.
+/// costs more than a short loop. These sleep only where others want the processor, or after some 5 ms.
 
 #include <omp.h>
 
@@ -14,6 +14,13 @@
 namespace mpmfast {
 
 class Team;
+
+/// The number of this thread among those that work together, 0 if it works alone. Not OpenMP's: a simulation
+/// may be one of many in a parallel region of the caller's.
+inline int& own_number() {
+  static thread_local int number = 0;
+  return number;
+}
 
 /// One of the threads that do something together.
 struct Member {
@@ -56,7 +63,8 @@ class Team {
     if (thrown) std::rethrow_exception(thrown);
   }
 
-  /// Calls f(member) on the threads of the team that this one leads and that have nothing to do.
+  /// Calls f(member) on the threads of the team that this one leads and that have nothing to do. What f
+  /// throws ends the program, as in a parallel region.
   /// @param most  so many of them at most
   /// @return false, and nothing done, if there is none
   template <class F>
@@ -73,7 +81,7 @@ class Team {
   using Job = void (*)(const void*, const Member&);
 
   static Team*& led();  ///< the team of which this thread is the first
-  void run(int most, Job job, const void* of);
+  void run(int most, Job job, const void* of) noexcept;
   void serve(int thread);
   void dismiss();
   void wait_for_all();
@@ -95,7 +103,11 @@ void on_threads(int threads, const F& f) {
   if (Team::hand_out(threads, f)) return;
   if (omp_in_parallel()) return f(Member{});
 #pragma omp parallel num_threads(threads)
-  f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
+  {
+    own_number() = omp_get_thread_num();
+    f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
+    own_number() = 0;
+  }
 }
 
 /// Calls f(begin, end) for stretches that make up [0, n), one a thread and in their order; for all at once

@@ -116,7 +116,7 @@ class BasisPasses final : public Passes<Dim> {
     outside_.assign(rooms_.size(), 0);
     const bool affine = state.particles.has(Quantity::velocity_slopes);
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
-      int& outside = outside_[static_cast<std::size_t>(omp_get_thread_num())];
+      int& outside = outside_[static_cast<std::size_t>(own_number())];
       if (outside) return;  // all of it will be done again
       const bool inside = with_force && !rigid ? project_force_tile<Dim, Basis>(c, room.project, load)
                                                : project_inertia(c, room.project, affine, inertia);
@@ -189,7 +189,7 @@ class BasisPasses final : public Passes<Dim> {
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
       if (rigid) return;
       if (!strain_force(c, room, velocity, dt_strain, terms, state, force))
-        inverted_[static_cast<std::size_t>(omp_get_thread_num())] = 1;
+        inverted_[static_cast<std::size_t>(own_number())] = 1;
     });
     return *std::max_element(inverted_.begin(), inverted_.end()) == 0;
   }

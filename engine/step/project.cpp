@@ -11,7 +11,8 @@ namespace mpmfast {
 
 /// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of
 /// date; half a cell is kept for the growth of CPDI domains. The fastest particles mostly vibrate and hardly
-/// leave their place: as long as a quarter cell holds what all have moved by, they may go as far again.
+/// leave their place: as long as all are within a quarter cell of the cell they were sorted to, they may go
+/// as far again.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
   const double cell = state_.grid.cell;

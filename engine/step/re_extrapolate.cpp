@@ -59,6 +59,7 @@ void Step<Dim>::find_moving_velocities() {
       contact_.list_meeting_slots(state_.threads, kept_slots_);
       contact_.share_pressed(state_);
     }
+    const auto meeting = static_cast<std::int64_t>(kept_slots_.size());
     conditions_.share_pressed(state_);
     conditions_.list_held_slots(kept_slots_);
     const auto kept = static_cast<std::int64_t>(kept_slots_.size());
@@ -79,10 +80,12 @@ void Step<Dim>::find_moving_velocities() {
         }
       }
     });
-    for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
+    const auto restore = [&](std::int64_t k) {
       const auto at = static_cast<std::size_t>(k);
       if (kept_slots_[at] >= 0) nodes.set(Nodal::velocity, kept_slots_[at], kept_velocities_[at]);
-    });
+    };
+    for_each_of(meeting, state_.threads, 1024, restore);
+    for (std::int64_t k = meeting; k < kept; ++k) restore(k);  // some for the second time
   });
   prolong({Nodal::velocity});
 }

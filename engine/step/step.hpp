@@ -162,10 +162,10 @@ class Step {
   PassClock clock_;
   Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
   TipSamples tip_samples_;
-  double dt_ = 0;                          ///< of the last step, s
-  double fastest_ = 0;                     ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;                   ///< bound on any particle's path since the last sort, m
-  double ramped_ = 1;                      ///< share of the body forces in this step
+  double dt_ = 0;         ///< of the last step, s
+  double fastest_ = 0;    ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;  ///< bound on paths since the last sort, or since all were near their places, m
+  double ramped_ = 1;     ///< share of the body forces in this step
   double body_force_work_ = 0;             ///< of this step, J
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s

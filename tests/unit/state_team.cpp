@@ -105,6 +105,24 @@ TEST_CASE("what is thrown comes out of the gathering, and the next one works") {
   }
 }
 
+// As where a caller runs a simulation on each thread: rooms are by own_number().
+TEST_CASE("in a parallel region of the caller's, what each of its threads does is its own") {
+  std::atomic<int> wrong{0}, turns{0};
+#pragma omp parallel num_threads(kThreads)
+  Team::gather(kThreads, [&] {
+    on_threads(kThreads, [&](const Member& me) { wrong += me.threads != 1 || own_number() != 0; });
+    for_each_of(10, kThreads, 1, [&](std::int64_t) { ++turns; });
+  });
+  CHECK(wrong == 0);
+  CHECK(turns == 10 * kThreads);
+  in_both([] {
+    std::atomic<int> other{0};
+    on_threads(kThreads, [&](const Member& me) { other += own_number() != me.thread; });
+    CHECK(other == 0);
+    CHECK(own_number() == 0);
+  });
+}
+
 // More threads than processors: those that wait give way, or this would take minutes.
 TEST_CASE("threads that wait give way to those that work") {
   const int threads = 4 * omp_get_num_procs();

@@ -2,8 +2,6 @@
 
 #include "engine/contact/cracks/cracks.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -173,7 +171,7 @@ void Cracks<Dim>::list_crossed(const State<Dim>& state, const Supports<Dim>& sup
     auto& out = crossed_[static_cast<std::size_t>(t)];
     out.clear();
     if (first_side_[static_cast<std::size_t>(tile.field)] >= 0)
-      cross(state, supports, tile, rooms_[static_cast<std::size_t>(omp_get_thread_num())], out);
+      cross(state, supports, tile, rooms_[static_cast<std::size_t>(own_number())], out);
   });
 }
 

@@ -1,7 +1,5 @@
 /// Interfaces on nodes (NN chapter 5): springs on what the displacements of two fields differ by.
 
-#include <omp.h>
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -126,7 +124,7 @@ void Contact<Dim>::bridge(State<Dim>& state, double dt, const ContactNode<Dim>& 
   int acting = 0;
   for (int e = node.entry_begin; e < node.entry_end; ++e) acting += start_bridge(state, dt, node, e);
   if (acting == 0) return;
-  auto& pulled = together_[static_cast<std::size_t>(omp_get_thread_num())].pulled;
+  auto& pulled = together_[static_cast<std::size_t>(own_number())].pulled;
   pulled.assign(static_cast<std::size_t>(node.field_end - node.field_begin), Vec<Dim>::Zero());
   for (int sweep = 0; sweep < (acting > 1 ? kSweeps : 1); ++sweep) {
     double change = 0, largest = 0;

@@ -14,6 +14,7 @@
 #include "engine/contact/nodal/smooth_normals.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
+#include "engine/state/team.hpp"
 #include "kernels/contact/collect.hpp"
 #include "kernels/contact/margin.hpp"
 #include "kernels/contact/regression.hpp"
@@ -155,7 +156,7 @@ class ContactFit {
                                                      known,        entry.separation < 0, doubted};
       }
       if (!choice.smooth) return;
-      kept_[k] = {omp_get_thread_num(), cloud.count, clouds.begin};
+      kept_[k] = {own_number(), cloud.count, clouds.begin};
       clouds.begin += static_cast<std::size_t>(padded_count(cloud.count));
     });
   }
@@ -176,7 +177,7 @@ class ContactFit {
     }
   }
 
-  Room& own_room() { return rooms_[static_cast<std::size_t>(omp_get_thread_num())]; }
+  Room& own_room() { return rooms_[static_cast<std::size_t>(own_number())]; }
 
   /// Where the particles of each field of a node begin and end in its cloud.
   struct FieldRanges {

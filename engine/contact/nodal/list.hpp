@@ -61,7 +61,7 @@ struct KeptFit {
   Vec<Dim> raw = Vec<Dim>::Zero();               ///< normal of the node's own cloud
   Vec<Dim> normal = Vec<Dim>::Zero();            ///< the mean over the nodes around, where that is asked for
   std::array<std::int32_t, 2> foremost{-1, -1};  ///< particles: of a furthest along the normal, of b back
-  double drift = 0;                              ///< the fields have moved by so much at most since, m
+  double drift = 0;                              ///< what the fields have moved since, slides times 30, m
   bool known = false;
   bool touches = false, doubted = false;  ///< as RawNormal
 };

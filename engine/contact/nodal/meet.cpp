@@ -244,7 +244,7 @@ bool Contact<Dim>::is_bridged(const ContactNode<Dim>& node) const {
 
 template <int Dim>
 void Contact<Dim>::list_meeting_slots(int threads, std::vector<int>& slots) const {
-  slots.resize(list_.fields.size());
+  slots.assign(list_.fields.size(), -1);  // some fields belong to no listed node
   for_each_of(static_cast<std::int64_t>(list_.nodes.size()), threads, 256, [&](std::int64_t k) {
     const auto& node = list_.nodes[static_cast<std::size_t>(k)];
     const bool parts = may_part(node);

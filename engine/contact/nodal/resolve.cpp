@@ -209,7 +209,7 @@ template <int Dim>
 template <class Laws>
 bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, Correction correction,
                                     double dt, const ContactNode<Dim>& node) {
-  Together& together = together_[static_cast<std::size_t>(omp_get_thread_num())];
+  Together& together = together_[static_cast<std::size_t>(own_number())];
   find_moving(state, node, together.solver.fields);
   find_acting(state, laws, correction, dt, node, together);
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {

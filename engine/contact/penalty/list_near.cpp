@@ -1,7 +1,5 @@
 /// Which facets of other bodies may touch which: lists that hold until a point has gone half of kSkin.
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -216,7 +214,7 @@ void Penalty<Dim>::list_all(int threads) {
     room.body = -1;
   }
   for_each_of(n, threads, 256, [&](std::int64_t k) {
-    Room& room = rooms_[static_cast<std::size_t>(omp_get_thread_num())];
+    Room& room = rooms_[static_cast<std::size_t>(own_number())];
     const int begin = static_cast<int>(room.listed.size());
     list_around(near_facets_[static_cast<std::size_t>(k)], room);
     const int end = static_cast<int>(room.listed.size());

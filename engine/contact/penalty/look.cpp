@@ -1,7 +1,5 @@
 /// Which boundary points lie below which facets.
 
-#include <omp.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -56,7 +54,7 @@ std::optional<Fold> Penalty<Dim>::look(const State<Dim>& state) {
   for_each_of(n, state.threads, 256, [&](std::int64_t k) {
     Listing& listing = listing_[static_cast<std::size_t>(k)];
     if (2 * moved < listing.clear) return;  // both sides may have gone as far
-    const bool outside = look_around(listing, rooms_[static_cast<std::size_t>(omp_get_thread_num())]);
+    const bool outside = look_around(listing, rooms_[static_cast<std::size_t>(own_number())]);
     if (fresh && outside) listing.clear = clearance(listing);
   });
   return std::nullopt;
@@ -104,7 +102,7 @@ int Penalty<Dim>::find_normals(int threads) {
     }
     const double length = sum.norm();
     if (!(length > kFolded)) {
-      int& fold = rooms_[static_cast<std::size_t>(omp_get_thread_num())].fold;
+      int& fold = rooms_[static_cast<std::size_t>(own_number())].fold;
       if (fold < 0) fold = wedge.point;
     }
     wedge_normal_[w] = sum / length;

@@ -202,8 +202,8 @@ void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& p
   stretch_energy_ = 0;
   pressed_ = 0;
   const auto rooms = static_cast<std::int64_t>(rooms_.size());
-  for_each_of(rooms, state.threads, 1,
-              [&](std::int64_t r) { push_out(state, elapsed, rooms_[static_cast<std::size_t>(r)]); });
+  share_out(rooms, state.threads, 1,
+            [&](std::int64_t r) { push_out(state, elapsed, rooms_[static_cast<std::size_t>(r)]); });
   // All in their order, whoever found them.
   for (const Room& room : rooms_) {
     pressed_ += room.pressed;
