@@ -49,7 +49,6 @@ struct FieldContact {
   double closing = 0;                    ///< the approach that closes a gap within the step, and is left, m/s
   bool both_ways = false;                ///< it pulls as it presses
   Hinders hinders = Hinders::nothing;    ///< found, as the law says
-  Vec<Dim> stick = Vec<Dim>::Zero();     ///< Δp_a that sticking would need while the others stay, N s
   Vec<Dim> impulse = Vec<Dim>::Zero();   ///< found: Δp_a, N s; b takes −Δp_a
   Vec<Dim> friction = Vec<Dim>::Zero();  ///< its tangential part while friction lags, N s
 };
@@ -126,7 +125,6 @@ class ContactsTogether {
     if (!is_bounded()) restart(law);
     lags_ = false;
     if (!settled) take_back_work();
-    for (FieldContact<Dim>& c : contacts) c.stick = c.impulse + c.reduced * slip(c);
     return settled;
   }
 
@@ -203,8 +201,8 @@ class ContactsTogether {
     largest_ = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       FieldContact<Dim>& c = contacts[k];
-      c.stick = c.impulse + c.reduced * slip(c);
-      const Demand<Dim> demand = lags_ ? pressing(law, k) : law(k, c.stick);
+      const Vec<Dim> stick = c.impulse + c.reduced * slip(c);
+      const Demand<Dim> demand = lags_ ? pressing(law, k, stick) : law(k, stick);
       const Vec<Dim> step = demand.impulse - c.impulse;
       add(c, step);
       c.impulse = demand.impulse;
@@ -237,9 +235,9 @@ class ContactsTogether {
 
   /// The demand of a contact whose friction is given.
   template <class Law>
-  Demand<Dim> pressing(const Law& law, std::size_t k) {
+  Demand<Dim> pressing(const Law& law, std::size_t k, const Vec<Dim>& stick) {
     const FieldContact<Dim>& c = contacts[k];
-    const Demand<Dim> demand = law(k, c.stick.dot(c.normal) * c.normal);
+    const Demand<Dim> demand = law(k, stick.dot(c.normal) * c.normal);
     return {demand.impulse.dot(c.normal) * c.normal + c.friction,
             demand.hinders == Hinders::nothing ? Hinders::nothing : Hinders::approach};
   }

@@ -146,6 +146,7 @@ template <int Dim>
 void check_energy() {
   std::mt19937_64 draw(3);
   int unsettled = 0;
+  double worst = 0;
   for (int trial = 0; trial < 400; ++trial) {
     ContactsTogether<Dim> node = jam<Dim>(draw, 3 + trial % 12, 9);
     const auto energy = [&] {
@@ -165,12 +166,14 @@ void check_energy() {
     CHECK(energy() <= before * (1 + 1e-9));
     CHECK((momentum_of(node) - momentum).norm() < 1e-9 * std::sqrt(before));
     double taken = 0;
-    for (const auto& c : node.contacts) taken += c.impulse.dot(c.stick - c.impulse) / c.reduced;
-    CHECK(taken >= -1e-6 * before);  // round-off of masses over nine orders: measured 6e-8
+    for (const auto& c : node.contacts)
+      taken += c.impulse.dot(node.fields[c.b].velocity - node.fields[c.a].velocity);
+    worst = std::min(worst, taken / before);
     CHECK(taken <= before * (1 + 1e-8));
   }
   CHECK(unsettled > 20);
-  MESSAGE("did not settle: ", unsettled, " of 400");
+  CHECK(worst >= -2e-8);  // round-off of masses over nine orders: measured 5e-9, on any processor
+  MESSAGE("did not settle: ", unsettled, " of 400; given at worst ", -worst, " of what was there");
 }
 
 TEST_CASE("contacts that jam and do not settle still take energy, never give it (2-D)") { check_energy<2>(); }
