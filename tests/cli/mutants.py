@@ -3,11 +3,12 @@ source is what it says. usage: mutants.py SOURCE_DIR"""
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 ROOT = pathlib.Path(sys.argv[1])
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tools"))
-from mutation import choose, places, tree  # noqa: E402
+from mutation import choose, page, places, tree  # noqa: E402
 
 SAMPLE = """\
 #pragma once
@@ -92,8 +93,35 @@ def check_seed():
     check(len(listed(7).splitlines()) == 20, "not as many as were asked for")
 
 
+def check_kept():
+    """A source that changes in another line keeps the ranks of its mutants' random numbers, so nearly all its mutants."""
+    def first(code):
+        ordered = sorted(choose.ranked("sample.hpp", code, 3), key=lambda r: r[0])
+        return [(c.kind, c.before, c.after) for _, c in ordered[:10]]
+    other = SAMPLE.replace("double sum = -v[0]", "double sum = v[0] - v[1]").replace("#pragma once", "#pragma once\n// more")
+    kept = len(set(first(SAMPLE)) & set(first(other)))
+    check(7 <= kept < 10, f"of ten mutants {kept} are kept where a line changed")
+
+
+def check_reasons():
+    """A reason is found by its file and change, or by the text of its line too."""
+    with tempfile.TemporaryDirectory() as folder:
+        root = pathlib.Path(folder)
+        (root / "tests").mkdir()
+        (root / "a.hpp").write_text("int x = 0;\nint y = 0;\n")
+        (root / page.REASONS).write_text("a.hpp :: int y = 0; :: 0 :: 1 :: set before\na.hpp :: 2 :: 3 :: of all\n")
+        why = page.Reasons(root)
+        def reason(begin, before, after):
+            return why.get(choose.Mutant(1, "a.hpp", 1, places.Change("coefficient", begin, begin + 1, before, after)))
+        check(reason(8, "0", "1") == "", "the reason of another line is taken")
+        check(reason(19, "0", "1") == "set before", "a line's reason is not found")
+        check(reason(8, "2", "3") == "of all", "a file's reason is not found")
+
+
 check_sample()
 check_switches()
+check_kept()
+check_reasons()
 check_seed()
 for failure in failures:
     print("FAILED:", failure)

@@ -1,7 +1,8 @@
-"""Which mutants a seed gives: the same in every run on the same sources."""
+"""Which mutants a seed gives: the same in every run on the same sources, and nearly the same on those of next month."""
 import dataclasses
+import hashlib
+import math
 import pathlib
-import random
 
 from mutation import places, tokens
 
@@ -50,33 +51,48 @@ def at_places(root, listed):
     return chosen
 
 
+def lines_of(code, change):
+    """The lines that a change stands on, their spaces put right."""
+    first, last = code.rfind("\n", 0, change.begin) + 1, code.find("\n", change.end)
+    return " ".join(code[first:last if last >= 0 else len(code)].split())
+
+
+def ranked(file, code, seed):
+    """[(rank, change)] of a file: the smaller the rank, the sooner a change is taken. Rank is exponential with the change's
+    share as its rate, so that the smallest are a weighted draw without putting back; its random number is of the change and
+    its line alone, so that a source that changes elsewhere keeps its mutants."""
+    by_kind = {}
+    for change in places.changes_of(code):
+        by_kind.setdefault(change.kind, []).append(change)
+    all_kinds, found, seen = sum(KINDS[kind] for kind in by_kind), [], {}
+    for kind, changes in by_kind.items():
+        share = code_lines(code) * KINDS[kind] / all_kinds / len(changes)
+        for change in changes:
+            what = (file, kind, change.before, change.after, lines_of(code, change))
+            seen[what] = seen.get(what, 0) + 1
+            digest = hashlib.sha256("\0".join((str(seed), *what, str(seen[what]))).encode()).digest()
+            uniform = (int.from_bytes(digest[:8], "big") + 0.5) / 2**64
+            found.append((-math.log(uniform) / share, change))
+    return found
+
+
 def choose(root, seed, count, under=ROOMS, first=()):
     """The first mutants of a seed, behind those that are asked for. Files are taken in proportion to their lines of code;
     no two mutants overlap, so that all fit into one build."""
-    draw = random.Random(seed)
-    files, weights, changes = [], [], {}
+    waiting, codes = [], {}
     for file in files_below(root, under):
-        code = pathlib.Path(root, file).read_text()
-        by_kind = {}
-        for change in places.changes_of(code):
-            by_kind.setdefault(change.kind, []).append(change)
-        if by_kind:
-            files.append(file)
-            weights.append(code_lines(code))
-            changes[file] = (code, by_kind)
-    chosen, taken, tries = list(first), {file: [] for file in files}, 0
+        codes[file] = pathlib.Path(root, file).read_text()
+        waiting += [(rank, file, change) for rank, change in ranked(file, codes[file], seed)]
+    chosen, taken = list(first), {}
     for m in first:
         taken.setdefault(m.file, []).append((m.change.begin, m.change.end))
-    while files and len(chosen) < count and tries < 50 * count:
-        tries += 1
-        file = draw.choices(files, weights)[0]
-        code, by_kind = changes[file]
-        kind = draw.choices(list(by_kind), [KINDS[k] for k in by_kind])[0]
-        change = draw.choice(by_kind[kind])
-        if any(change.begin < end and begin < change.end for begin, end in taken[file]):
+    for _, file, change in sorted(waiting, key=lambda w: w[:2]):
+        if len(chosen) >= count:
+            break
+        if any(change.begin < end and begin < change.end for begin, end in taken.get(file, ())):
             continue
-        taken[file].append((change.begin, change.end))
-        chosen.append(Mutant(len(chosen) + 1, file, code.count("\n", 0, change.begin) + 1, change))
+        taken.setdefault(file, []).append((change.begin, change.end))
+        chosen.append(Mutant(len(chosen) + 1, file, codes[file].count("\n", 0, change.begin) + 1, change))
     return chosen
 
 

@@ -66,7 +66,7 @@ def main(words):
     text = page.page(ROOT, mutants[:asked.count], state, asked)
     for path in filter(None, (out / "mutants.md", asked.page)):
         path.write_text(text)
-    print(page.summary(mutants[:asked.count], state, page.reasons(ROOT)))
+    print(page.summary(mutants[:asked.count], state, page.Reasons(ROOT)))
     return 0
 
 

@@ -10,19 +10,26 @@ ROWS = ("kernels", "engine/step", "engine/contact", "elsewhere")
 KILLED = ("failed", "timeout")
 
 
-def reasons(root):
-    """{(file, before, after): why} of the mutants that were judged; a line each, its parts between ` :: `."""
-    path, found = pathlib.Path(root, REASONS), {}
-    for line in path.read_text().splitlines() if path.is_file() else ():
-        parts = [part.strip() for part in line.split(" :: ")]
-        if len(parts) == 4 and not line.startswith("#"):
-            found[tuple(parts[:3])] = parts[3]
-    return found
+class Reasons:
+    """Why mutants that were judged change nothing: a line each, `file :: before :: after :: why`, or with the line's text
+    behind the file where others of the file look the same. Numbers of lines move, so none are used."""
 
+    def __init__(self, root):
+        self.root, self.found, self.codes = pathlib.Path(root), {}, {}
+        path = self.root / REASONS
+        for line in path.read_text().splitlines() if path.is_file() else ():
+            parts = [part.strip() for part in line.split(" :: ")]
+            if len(parts) in (4, 5) and not line.startswith("#"):
+                self.found[tuple(parts[:-1])] = parts[-1]
 
-def key_of(mutant):
-    """What the hand-kept reasons are found by: lines move."""
-    return mutant.file, mutant.change.before, mutant.change.after
+    def get(self, mutant):
+        """The reason, or nothing."""
+        code = self.codes.get(mutant.file)
+        if code is None:
+            code = self.codes[mutant.file] = (self.root / mutant.file).read_text()
+        of_file = mutant.change.before, mutant.change.after
+        of_line = choose.lines_of(code, mutant.change), *of_file
+        return self.found.get((mutant.file, *of_line)) or self.found.get((mutant.file, *of_file), "")
 
 
 def state_of(mutant, state):
@@ -37,7 +44,7 @@ def table(head, groups, state, why):
     for name, mutants in groups:
         states = [state_of(m, state) for m in mutants]
         killed = sum(s in KILLED for s in states)
-        same = sum(s not in KILLED and key_of(m) in why for m, s in zip(mutants, states))
+        same = sum(s not in KILLED and bool(why.get(m)) for m, s in zip(mutants, states))
         lines.append(f"| {name} | {len(mutants)} | {killed} | {states.count('timeout')} | {states.count('survived')} "
                      f"| {states.count('not covered')} | {same} | {percent(killed, len(mutants))} "
                      f"| {percent(killed, len(mutants) - same)} |")
@@ -68,7 +75,7 @@ def summary(mutants, state, why):
 
 def page(root, mutants, state, asked):
     """The whole page."""
-    why, mutants = reasons(root), tried(mutants, state)
+    why, mutants = Reasons(root), tried(mutants, state)
     cases = [c for file in state["tests"].values() for c in file["cases"].values()]
     failing = [name for file in state["tests"].values() for name, c in file["cases"].items() if not c["passed"]]
     lines = ["# Mutants", "", "Made by `tools/mutate`; [how it works](README.md#mutants).", "",
@@ -85,7 +92,7 @@ def page(root, mutants, state, asked):
         verdict = state_of(m, state)
         if verdict not in KILLED:
             lines.append(f"| {m.file}:{m.line} | {m.change.kind} | {quoted(m.change.before)} | {quoted(m.change.after)} "
-                         f"| {verdict} | {why.get(key_of(m), '')} |")
+                         f"| {verdict} | {why.get(m)} |")
     return "\n".join(lines) + "\n"
 
 
