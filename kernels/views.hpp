@@ -93,6 +93,8 @@ struct TileContext {
   const ParticleRun<Dim>* runs;
   const BodyView<Dim>* bodies;
   const GridView<Dim>* grid;
+  /// Sums go on from the tile before in its window, and to the next one (transfer/window.hpp).
+  bool goes_on_from = false, goes_on_to = false;
 };
 
 template <int Dim>

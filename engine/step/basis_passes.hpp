@@ -309,7 +309,8 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap,
-  /// and each slot adds up its tiles in the order of the colours, whatever the threads.
+  /// and each slot adds up its tiles in the order of the colours, whatever the threads. Of a strip f must
+  /// take all tiles or none, or sums that go on from one to the next are lost.
   template <class F>
   void scatter_tiles(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
@@ -323,7 +324,12 @@ class BasisPasses final : public Passes<Dim> {
           const Strip& strip = colours[c][static_cast<std::size_t>(k)];
           const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
-          for (int tile = strip.begin; tile < strip.end; ++tile) f(context(state, view, tile), room, rigid);
+          TileContext<Dim> c = context(state, view, strip.begin);
+          for (; c.tile != state.tiling.tiles.data() + strip.end; ++c.tile) {
+            const bool last = c.tile + 1 == state.tiling.tiles.data() + strip.end;
+            c.goes_on_from = std::exchange(c.goes_on_to, !last && goes_on<Dim>(c.tile[0], c.tile[1]));
+            f(c, room, rigid);
+          }
         });
         me.wait_for_all();
       }

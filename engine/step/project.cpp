@@ -9,16 +9,19 @@
 
 namespace mpmfast {
 
-/// A particle may drift by one cell before the cell table that contact clouds are gathered from is out of
-/// date; half a cell is kept for the growth of CPDI domains. The fastest particles mostly vibrate and hardly
-/// leave their place: as long as all are within a quarter cell of the cell they were sorted to, they may go
-/// as far again.
+/// A particle may drift by one cell before it leaves its window, or the cell table that contact clouds are
+/// gathered from is out of date, of which a quarter is kept for the growth of CPDI domains. The fastest
+/// particles mostly vibrate and hardly leave their place: as long as all are near the cell they were sorted
+/// to, they may go as far again.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
-  const double cell = state_.grid.cell;
+  const bool looked_for =
+      plan_.contact || cracks_.active() || penalty_.active() || facts(plan_.basis).convected;
+  const double cell = state_.grid.cell, near = (looked_for ? 0.25 : 0.5) * cell,
+               further = (looked_for ? 0.5 : 0.45) * cell;
   bool due = sort_due_;
-  if (!due && travelled_ >= 0.5 * cell) {
-    due = !clock_.time(Pass::sort, [&] { return passes_->near_home(state_, 0.75 * cell); });
+  if (!due && travelled_ >= further) {
+    due = !clock_.time(Pass::sort, [&] { return passes_->near_home(state_, cell - near); });
     if (!due) travelled_ = 0;
   }
   if (due) sort();

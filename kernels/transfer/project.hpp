@@ -51,13 +51,13 @@ inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int c
 /// @return     false if the tile must be sorted anew (out is then untouched)
 template <int Dim, class Basis>
 bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
-  clear(room.mass_momentum);
+  begin_sums(c, room.mass_momentum);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(*c.particles, begin, count, room.record);
         for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
       });
-  if (inside) flush_window(room.mass_momentum, *c.tile, out);
+  if (inside) end_sums(c, room.mass_momentum, out);
   return inside;
 }
 
@@ -71,13 +71,13 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
   auto& at = room.load.at;
   constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;
   constexpr bool single = wide && Dim == 2;  // one record has all of a particle
-  clear(room.load);
+  begin_sums(c, room.load);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(p, begin, count, room.inertia);
         stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
                      single ? &room.inertia : room.stress);
-        for (int k = 0; k < count; ++k) {
+        for_each_apart(count, [&](int k) {
           if constexpr (single) {
             scatter_pairs(w, k, room.inertia[k], at[0]);
           } else if constexpr (wide) {
@@ -86,9 +86,9 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
             scatter_values(w, k, room.inertia[k], at[0]);
             scatter_stress<Dim>(w, k, room.stress, at[1]);
           }
-        }
+        });
       });
-  if (inside) flush_window(room.load, *c.tile, out);
+  if (inside) end_sums(c, room.load, out);
   return inside;
 }
 

@@ -52,7 +52,7 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
   const ParticleView<Dim>& p = *c.particles;
   const bool weighs_pressed = out.column[Dim] != nullptr;
   load_window(in, *c.tile, room.in);
-  clear(room.out);
+  begin_sums(c, room.out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
@@ -74,7 +74,7 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
           scatter_values(w, k, m * v, room.out.at[0]);
         }
       });
-  flush_window(room.out, *c.tile, out);
+  end_sums(c, room.out, out);
 }
 
 }  // namespace mpmfast

@@ -98,7 +98,7 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
   const ParticleView<Dim>& p = *c.particles;
   bool sound = true;
   if (dt_strain > 0) load_window(for_gradients(velocity), *c.tile, room.velocity);
-  clear(room.force);
+  begin_sums(c, room.force);
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
                                ChunkStress<Dim> stress = stress_columns(p, begin);
@@ -115,7 +115,7 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
                                scatter_force(p, stress, w, begin, count, room);
                                if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
                              });
-  flush_window(room.force, *c.tile, for_gradients(force));
+  end_sums(c, room.force, for_gradients(force));
   return sound;
 }
 

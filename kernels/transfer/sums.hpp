@@ -32,6 +32,18 @@ inline auto pair_lanes(int d) {
 
 }  // namespace detail
 
+/// Calls f(k) for each particle of a chunk, neighbours not one after the other: they lie in the same cell,
+/// and each would wait for what the one before it adds to a node.
+template <class F>
+inline void for_each_apart(int count, const F& f) {
+  const int half = (count + 1) / 2;
+  for (int k = 0; k + half < count; ++k) {
+    f(k);
+    f(k + half);
+  }
+  if (count % 2) f(half - 1);
+}
+
 /// Number of records that hold the gradient of a vector.
 template <int Dim>
 inline constexpr int kGradientRecords = Dim == 2 ? 1 : Dim;
@@ -118,22 +130,28 @@ inline R gather_pairs(const ChunkWeights<2, K>& w, int k, const R* window) {
   return sum[0];
 }
 
-// Weights that are products.
+// Weights that are products. (Factors along x are copied: next to stores into the window they would be read
+// again for each row.)
 
 /// With a plane A = w_z a + g_z b_z, B = w_z b: row P = w_y A + g_y B_y, Q = w_y B_x, node w_x P + g_x Q.
 template <int Dim, int K, class R>
 inline void scatter(const ProductWeights<Dim, K>& w, int k, R a, const R (&b)[Dim], R* window) {
-  R plane = a, along_x = b[0], along_y = b[1];
+  R plane = a, along_x = b[0], along_y = b[1], value[2][K], slope[2][K];
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i < K; ++i) {
+      value[d][i] = broadcast<R>(w.value[d][i][k]);
+      slope[d][i] = broadcast<R>(w.slope[d][i][k]);
+    }
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, R* row) {
     if (Dim == 3 && y == 0) {
-      const Real value = w.value[Dim - 1][z][k];
-      plane = value * a + w.slope[Dim - 1][z][k] * b[Dim - 1];
-      along_x = value * b[0];
-      along_y = value * b[1];
+      const Real value_z = w.value[Dim - 1][z][k];
+      plane = value_z * a + w.slope[Dim - 1][z][k] * b[Dim - 1];
+      along_x = value_z * b[0];
+      along_y = value_z * b[1];
     }
-    const R p = w.value[1][y][k] * plane + w.slope[1][y][k] * along_y, q = w.value[1][y][k] * along_x;
+    const R p = value[1][y] * plane + slope[1][y] * along_y, q = value[1][y] * along_x;
 #pragma GCC unroll 4
-    for (int x = 0; x < K; ++x) row[x] += w.value[0][x][k] * p + w.slope[0][x][k] * q;
+    for (int x = 0; x < K; ++x) row[x] = row[x] + value[0][x] * p + slope[0][x] * q;
   });
 }
 
@@ -144,12 +162,13 @@ inline void scatter_gradients(const ProductWeights<Dim, K>& w, int k, const R (&
 
 template <int Dim, int K, class R>
 inline void scatter_values(const ProductWeights<Dim, K>& w, int k, R a, R* window) {
-  R plane = a;
+  R plane = a, value_x[K];
+  for (int x = 0; x < K; ++x) value_x[x] = broadcast<R>(w.value[0][x][k]);
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, R* row) {
     if (Dim == 3 && y == 0) plane = w.value[Dim - 1][z][k] * a;
     const R p = w.value[1][y][k] * plane;
 #pragma GCC unroll 4
-    for (int x = 0; x < K; ++x) row[x] += w.value[0][x][k] * p;
+    for (int x = 0; x < K; ++x) row[x] += value_x[x] * p;
   });
 }
 

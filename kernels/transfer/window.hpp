@@ -32,10 +32,11 @@ struct NodeColumns {
 
 namespace detail {
 
-/// Calls f(slot, window index) for each row of four nodes of each tile under the window.
+/// Calls f(slot, window index) for each row of four nodes of each tile under the window, or of every other
+/// one.
 template <int Dim, class F>
-inline void for_each_row(const int (&tile_slot)[kCorners<Dim>], F f) {
-  for (int corner = 0; corner < kCorners<Dim>; ++corner) {
+inline void for_each_row(const int (&tile_slot)[kCorners<Dim>], F f, int step = 1) {
+  for (int corner = 0; corner < kCorners<Dim>; corner += step) {
     int base = 0, stride = 1;
     for (int d = 0; d < Dim; ++d) {
       base += (corner >> d & 1) * kTileSide * stride;
@@ -89,23 +90,27 @@ inline void load_rows(const NodeColumns<NC>& columns, const int (&tile_slot)[kCo
   });
 }
 
-/// Adds the window to the columns. Tiles whose windows overlap must not run at the same time.
+/// Adds the window, or with a step of 2 the half that is lower along x, to the columns. Tiles whose windows
+/// overlap must not run at the same time.
 template <int Dim, int NC>
 inline void flush_rows(Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
-                       const NodeColumns<NC>& columns) {
-  detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
+                       const NodeColumns<NC>& columns, int step = 1) {
+  detail::for_each_row<Dim>(
+      tile_slot,
+      [&](int slot, int at) {
 #pragma GCC unroll 4
-    for (int q = 0; 4 * q < NC; ++q) {
-      Record row[4];
-      for (int c = 0; c < 4; ++c) row[c] = detail::load_record(window.quad(q, at + c));
-      transpose(row[0], row[1], row[2], row[3]);
-      for (int c = 0; c < 4 && 4 * q + c < NC; ++c) {
-        double* column = columns.column[4 * q + c];
-        if (column)
-          detail::store_row(column + slot, detail::load_row(column + slot) + detail::to_row(row[c]));
-      }
-    }
-  });
+        for (int q = 0; 4 * q < NC; ++q) {
+          Record row[4];
+          for (int c = 0; c < 4; ++c) row[c] = detail::load_record(window.quad(q, at + c));
+          transpose(row[0], row[1], row[2], row[3]);
+          for (int c = 0; c < 4 && 4 * q + c < NC; ++c) {
+            double* column = columns.column[4 * q + c];
+            if (column)
+              detail::store_row(column + slot, detail::load_row(column + slot) + detail::to_row(row[c]));
+          }
+        }
+      },
+      step);
 }
 
 /// The same node by node, for tiles whose nodes take sides.
@@ -136,6 +141,37 @@ inline void flush_window(Window<Dim, NC>& window, const Tile& tile, const NodeCo
   if (tile.node_slot) [[unlikely]]
     return flush_nodes<Dim>(window, tile.node_slot, columns);
   flush_rows(window, tile.slot, columns);
+}
+
+// Sums along a strip of tiles: what a tile and the next one both add to stays in the window from one to the
+// other. (In 2-D: in 3-D to move half a window costs as much as it saves.)
+
+/// Are the nodes of the upper half of the window of `tile` those of the lower half of that of `next`?
+template <int Dim, class Tile>
+inline bool goes_on(const Tile& tile, const Tile& next) {
+  bool same = Dim == 2 && !tile.node_slot && !next.node_slot;
+  for (int corner = 0; corner < kCorners<Dim>; corner += 2)
+    same &= tile.slot[corner + 1] == next.slot[corner];
+  return same;
+}
+
+/// Readies a window for the sums of a tile. @param c a TileContext
+template <int Dim, int NC, class Context>
+inline void begin_sums(const Context& c, Window<Dim, NC>& window) {
+  if (!c.goes_on_from) clear(window);
+}
+
+/// Adds to the columns what is complete.
+template <int Dim, int NC, class Context>
+inline void end_sums(const Context& c, Window<Dim, NC>& window, const NodeColumns<NC>& columns) {
+  if (!c.goes_on_to) return flush_window(window, *c.tile, columns);
+  flush_rows(window, c.tile->slot, columns, 2);
+  constexpr std::size_t half = kTileSide * sizeof window.at[0][0];
+  for (auto& records : window.at)
+    for (int row = 0; row < kWindowNodes<Dim>; row += kWindowSide) {
+      std::memcpy(records + row, records + row + kTileSide, half);
+      std::memset(static_cast<void*>(records + row + kTileSide), 0, half);
+    }
 }
 
 /// Records of a chunk from what is known by component: entry c < N of record k is lane 0 of value(c, k), that

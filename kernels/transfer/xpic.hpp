@@ -21,7 +21,7 @@ void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const 
                const NodeColumns<NC>& out) {
   const ParticleView<Dim>& p = *c.particles;
   load_window(in, *c.tile, room.in);
-  clear(room.out);
+  begin_sums(c, room.out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k)
@@ -31,7 +31,7 @@ void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const 
                            room.out.at[r]);
           }
       });
-  flush_window(room.out, *c.tile, out);
+  end_sums(c, room.out, out);
 }
 
 }  // namespace mpmfast

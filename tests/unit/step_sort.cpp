@@ -9,7 +9,7 @@ namespace {
 using namespace test;
 
 template <int Dim>
-Scene block(const char* basis) {
+Scene block(const char* basis, const char* contact = "none") {
   return scene_from(Dim == 2 ? R"(
 space: plane_strain
 grid: {size: [20 mm, 16 mm], cell: 1 mm}
@@ -24,7 +24,7 @@ time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 bodies: [{name: b, sphere: {centre: [7 mm, 6 mm, 6 mm], radius: 2 mm}, material: m}]
 )",
-                    {{"method.basis", basis}});
+                    {{"method.basis", basis}, {"contact", contact}});
 }
 
 template <int Dim>
@@ -64,6 +64,45 @@ TEST_CASE("a particle that strays from the cell it was sorted to is noticed, one
     check_strays<2>(basis);
     check_strays<3>(basis);
   }
+}
+
+/// Bodies alone with contact are sorted sooner: others ask which particles lie in a cell.
+template <int Dim>
+void check_flight(const char* basis, const char* contact, double cells_a_step) {
+  CAPTURE(std::string(basis));
+  CAPTURE(std::string(contact));
+  CAPTURE(cells_a_step);
+  Scene scene = block<Dim>(basis, contact);
+  Step<Dim> step(scene);
+  auto& state = step.state();
+  auto& particles = state.particles;
+  const double cell = state.grid.cell, dt = 1e-6, speed = cells_a_step * cell / dt;
+  Vec<Dim> velocity = Vec<Dim>::Constant(speed);
+  velocity[1] = -velocity[1];
+  std::vector<Vec<Dim>> places(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    places[particles.id()[p]] = particles.vector(Quantity::position, p);
+    for (int d = 0; d < Dim; ++d) particles.column(Quantity::velocity, d)[p] = velocity[d];
+  }
+  const int steps = static_cast<int>(2.9 / cells_a_step);
+  for (int k = 0; k < steps; ++k) step.advance(dt);
+  double furthest = 0, deformed = 0;
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const Vec<Dim> way = particles.vector(Quantity::position, p) - places[particles.id()[p]];
+    furthest = std::max(furthest, (way - steps * dt * velocity).norm() / cell);
+    deformed = std::max(deformed, (particles.deformation_gradient(p) - Mat<Dim>::Identity()).norm());
+  }
+  CHECK(furthest < 1e-9);  // of rounding, steps of cells
+  CHECK(deformed < 1e-9);
+}
+
+TEST_CASE("a body in free flight moves as a whole, however far it goes in a step and between two sorts") {
+  for (const char* basis : bases())
+    for (const char* contact : {"none", "{law: coulomb, friction: 0.3}"})
+      for (const double cells : {0.07, 0.24, 0.46, 0.95}) {
+        check_flight<2>(basis, contact, cells);
+        check_flight<3>(basis, contact, cells);
+      }
 }
 
 }  // namespace
