@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 #include "engine/output/output.hpp"
 
@@ -10,6 +11,12 @@ namespace {
 
 double share(std::uint64_t part, std::uint64_t whole) {
   return whole >= kEnoughToJudge ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+/// In per cent, two digits and no exponent.
+std::string percent(double share) {
+  const double value = 100 * share;
+  return std::abs(value) < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
 const char* cure_of_drift(const RunSummary& summary) {
@@ -27,33 +34,30 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
   std::vector<RunWarning> out;
   const auto& contact = summary.contact;
   if (const double part = share(contact.unconverged, contact.regressions); part > kMostUnconverged)
-    out.push_back(
-        {"convergence",
-         fmt::format("{:.2g} % of the contact normals did not converge (usual: below {:g} %); a larger "
-                     "contact.tolerance or contact.max_iterations may help",
-                     100 * part, 100 * kMostUnconverged)});
+    out.push_back({"convergence",
+                   fmt::format("{} % of the contact normals did not converge (usual: below {:g} %); a larger "
+                               "contact.tolerance or contact.max_iterations may help",
+                               percent(part), 100 * kMostUnconverged)});
   if (const double part = share(contact.doubtful, contact.touching); part > kMostDoubtful)
     out.push_back(
         {"fallbacks",
          fmt::format(
-             "{:.2g} % of the normals of surfaces that touch or overlap fell back on a simpler method, and "
+             "{} % of the normals of surfaces that touch or overlap fell back on a simpler method, and "
              "nothing around bears them out (usual: below {:g} %): the bodies have too few particles there, "
              "or overlap; smaller cells help",
-             100 * part, 100 * kMostDoubtful)});
+             percent(part), 100 * kMostDoubtful)});
   if (const double part = share(contact.pair_fallbacks, contact.pair_nodes); part > kMostPairFallbacks)
     out.push_back(
         {"pairs",
-         fmt::format(
-             "on {:.2g} % of the nodes of three and more fields the pairs were not solved for one by one "
-             "(usual: below {:g} %)",
-             100 * part, 100 * kMostPairFallbacks)});
+         fmt::format("on {} % of the nodes of three and more fields the pairs were not solved for one by one "
+                     "(usual: below {:g} %)",
+                     percent(part), 100 * kMostPairFallbacks)});
   if (const double part = share(contact.screened, contact.meetings); part > kMostScreened)
     out.push_back(
         {"screens",
-         fmt::format(
-             "{:.2g} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
-             "contact.volume_screen or contact.mass_screen",
-             100 * part, 100 * kMostScreened)});
+         fmt::format("{} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
+                     "contact.volume_screen or contact.mass_screen",
+                     percent(part), 100 * kMostScreened)});
   if (summary.third_cracks > 0)
     out.push_back(
         {"cracks", fmt::format("{} times a particle saw a node behind a third crack, which does not part "
@@ -68,9 +72,9 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
              summary.spacing_body, summary.spacing, summary.most_spacing,
              summary.most_spacing > 1 ? "" : " or a CPDI basis")});
   if (std::abs(summary.energy_error) > kMostDrift)
-    out.push_back(
-        {"energy", fmt::format("the energy balance drifted by {:+.2g} % (history.csv shows when): {}",
-                               100 * summary.energy_error, cure_of_drift(summary))});
+    out.push_back({"energy", fmt::format("the energy balance drifted by {}{} % (history.csv shows when): {}",
+                                         summary.energy_error > 0 ? "+" : "", percent(summary.energy_error),
+                                         cure_of_drift(summary))});
   return out;
 }
 

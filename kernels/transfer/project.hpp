@@ -55,7 +55,7 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(*c.particles, begin, count, room.record);
-        for (int k = 0; k < count; ++k) scatter_values(w, k, room.record[k], room.mass_momentum.at[0]);
+        for_each_apart(count, [&](int k) { scatter_values(w, k, room.record[k], room.mass_momentum.at[0]); });
       });
   if (inside) end_sums(c, room.mass_momentum, out);
   return inside;

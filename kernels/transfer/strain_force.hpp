@@ -60,7 +60,7 @@ template <int Dim, class Weights, class Room>
 inline void scatter_force(const ParticleView<Dim>& p, const ChunkStress<Dim>& stress, const Weights& w,
                           std::uint32_t begin, int count, Room& room) {
   stack_stress(p, stress, begin, count, 0, room.row);
-  for (int k = 0; k < count; ++k) scatter_stress<Dim>(w, k, room.row, room.force.at[0]);
+  for_each_apart(count, [&](int k) { scatter_stress<Dim>(w, k, room.row, room.force.at[0]); });
 }
 
 /// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The

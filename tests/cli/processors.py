@@ -93,7 +93,9 @@ def aarch64(source, build):
     if not root:
         return kernel_tests(source, build)
     folders = [f"{os.path.abspath(root)}/{folder}/{CROSS}" for folder in ("usr/lib", "lib")]
-    emulator = ["qemu-aarch64", "-L", f"/usr/{CROSS}", "-E", f"LD_LIBRARY_PATH={':'.join(folders)}"]
+    # The loader of the same release as the C library: the compiler's own reads the lists of threads elsewhere.
+    emulator = ["qemu-aarch64", "-L", os.path.abspath(root), "-E",
+                f"LD_LIBRARY_PATH={':'.join([*folders, f'/usr/{CROSS}/lib'])}"]
     build_and_test(source, build, "unit", "MPMFAST_NATIVE=OFF", "CMAKE_SYSTEM_NAME=Linux", "CMAKE_SYSTEM_PROCESSOR=aarch64",
                    f"CMAKE_CXX_COMPILER={CROSS}-g++", f"CMAKE_FIND_ROOT_PATH={os.path.abspath(root)}",
                    *(f"CMAKE_FIND_ROOT_PATH_MODE_{kind}=BOTH" for kind in ("LIBRARY", "INCLUDE", "PACKAGE")),

@@ -8,7 +8,10 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "engine/library/simulation.hpp"
 
@@ -154,6 +157,79 @@ TEST_CASE("a folder that is there is replaced by force only, and the message has
     CHECK(std::string(error.what()).find("with force") != std::string::npos);
   }
   run(folder.scene, folder.path / "out", {}, true);
+}
+
+TEST_CASE("a way in parts says how many steps each part took, and none where the time is past") {
+  Simulation simulation = simulation_of({{"time.end", "20 us"}});
+  const std::uint64_t first = simulation.advance_to(0.4 * simulation.end());
+  CHECK(first > 0);
+  CHECK(first == simulation.steps());
+  const std::uint64_t second = simulation.advance_to(simulation.end());
+  CHECK(second > 0);
+  CHECK(first + second == simulation.steps());
+  CHECK(simulation.advance_to(0.5 * simulation.end()) == 0);
+}
+
+TEST_CASE("a column has the name and the unit of what it holds, a scalar no component") {
+  const Simulation simulation = simulation_of();
+  const std::vector<std::pair<std::string, std::string>> known{
+      {"position.x", "m"},           {"velocity.y", "m/s"},     {"mass", "kg"},
+      {"kirchhoff_stress.xy", "Pa"}, {"initial_volume", "m^3"}, {"deformation_gradient.yx", "-"}};
+  for (const auto& column : known) {
+    CAPTURE(column.first);
+    REQUIRE(simulation.has_column(column.first));
+    CHECK(simulation.unit(column.first) == column.second);
+  }
+  double mass = 0;
+  for (const double m : simulation.column("mass")) mass += m;
+  CHECK(mass == doctest::Approx(1000 * 2 * 3e-3 * 4e-3));  // two bodies, a metre thick
+  const std::vector<std::string> columns = simulation.columns();
+  const auto of_mass = [](const std::string& name) { return name.rfind("mass", 0) == 0; };
+  CHECK(std::count_if(columns.begin(), columns.end(), of_mass) == 1);
+}
+
+TEST_CASE(
+    "a body in flight has its kinetic energy and no other, and energies are none until they are known") {
+  Simulation simulation = simulation_of({{"time.end", "20 us"}});
+  const auto others = [](const Energies& e) {
+    return std::abs(e.stored) + std::abs(e.friction) + std::abs(e.dissipated) + std::abs(e.boundary_work) +
+           std::abs(e.body_force_work);
+  };
+  const double kinetic = 0.5 * 1000 * 3e-3 * 4e-3 * 5 * 5;  // J, of the left one
+  for (const bool at_start : {true, false}) {
+    if (!at_start) simulation.advance_to(simulation.end());
+    const Energies now = simulation.energies();
+    CHECK(now.kinetic == doctest::Approx(kinetic));
+    CHECK(others(now) < 1e-9 * kinetic);
+  }
+  const Energies none;
+  CHECK(none.kinetic + others(none) == 0);
+}
+
+TEST_CASE("as many threads may be asked for as the message says, and not one more") {
+  const auto kind = [](int threads) {  // of a run that finds no scene, so that no thread is made
+    return kind_of([&] { run("/nowhere/scene.yaml", "/nowhere/out", {}, false, threads); });
+  };
+  std::string message;
+  try {
+    run("/nowhere/scene.yaml", "/nowhere/out", {}, false, std::numeric_limits<int>::max());
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  const std::size_t at = message.find("(1 to ");
+  REQUIRE(at != std::string::npos);
+  const int most = std::stoi(message.substr(at + 6));
+  CHECK(kind(most) != Error::Kind::misuse);
+  CHECK(kind(0) != Error::Kind::misuse);
+  CHECK(kind(most + 1) == Error::Kind::misuse);
+}
+
+TEST_CASE("run.json of a library's run has its settings as --set would give them") {
+  const Folder folder;
+  const std::string json =
+      run(folder.scene, folder.path / "out", {{"time.end", "2 us"}, {"bodies.0.velocity", "[3, 1]"}});
+  CHECK(json.find("\"time.end=2 us\"") != std::string::npos);
+  CHECK(json.find("\"bodies.0.velocity=[3, 1]\"") != std::string::npos);
 }
 
 }  // namespace

@@ -223,5 +223,20 @@ TEST_CASE("a pull just below the strength is borne for good, and one just above 
     }
 }
 
+TEST_CASE("a bond of the least stiffness is whole up to its strength, and then breaks at once") {
+  for (const Softening shape : kShapes) {
+    CAPTURE(static_cast<int>(shape));
+    Cohesive law = law_of(shape);
+    law.normal_strength = law.shear_strength = 2;
+    law.normal_toughness = law.shear_toughness = 4;
+    law.initial_stiffness = law.least_stiffness();
+    REQUIRE(law.length(1) == 0);
+    CHECK(law.integrity(1, 0) == 1);
+    CHECK(law.integrity(1.001, 0) == 0);
+    CHECK(law.integrity_of(law.way_to(1)) == 1);
+    CHECK(law.work(1, 0) == 1);
+  }
+}
+
 }  // namespace
 }  // namespace mpmfast

@@ -258,4 +258,22 @@ TEST_CASE("momenta whose squares underflow give finite impulses") {
   CHECK(infinite == 0);
 }
 
+/// A film drags surfaces that slide on it and presses nothing: J·n is zero where J is not.
+TEST_CASE("a contact that drags and does not press takes its share of the slip") {
+  for (const Vec<2>& slip : {Vec<2>(0, 1), Vec<2>(0, -3)}) {
+    ContactsTogether<2> node;
+    node.fields = {{Vec<2>::Zero(), 1 / 2.0}, {slip, 1 / 3.0}, {Vec<2>(5, 0), 1 / 4.0}};
+    add_contact<2>(node, 0, 1, {1, 0});
+    add_contact<2>(node, 1, 2, {1, 0});  // parts
+    const double share = 0.25, reduced = node.contacts[0].reduced;
+    CHECK(node.solve([&](std::size_t k, const Vec<2>& stick) -> Demand<2> {
+      if (k == 1) return {Vec<2>::Zero(), Hinders::nothing};
+      return {Vec<2>(0, share * stick[1]), Hinders::approach};
+    }));
+    CHECK((node.contacts[0].impulse - share * reduced * slip).norm() < 1e-12);
+    CHECK((node.fields[0].velocity - share * reduced / 2 * slip).norm() < 1e-12);
+    CHECK(node.contacts[1].impulse.norm() == 0);
+  }
+}
+
 }  // namespace

@@ -126,6 +126,14 @@ TEST_CASE("points on a surface belong to the lower side") {
   CHECK_FALSE(contains(square, {0.5, 1, 0}));
 }
 
+TEST_CASE("the ends of a turned ellipse belong to the lower side too") {
+  const EllipsoidShape upright{{0, 0, 0}, {2, 1, 0}, std::numbers::pi / 2};
+  for (const double y : {-1e-9, 1e-9}) {  // on the surface: what they are off it is below the last digit
+    CHECK(contains(upright, {-1, y, 0}));
+    CHECK_FALSE(contains(upright, {1, y, 0}));
+  }
+}
+
 TEST_CASE("a bitmap's row 0 is its top, and a point belongs to its pixel") {
   auto image = std::make_shared<GreyImage>();
   image->width = 2;

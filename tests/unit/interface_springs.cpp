@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "kernels/contact/interface.hpp"
 
@@ -81,6 +82,27 @@ TEST_CASE("an interface of two stiffnesses keeps its energy over a hundred bounc
         most = std::max(most, std::abs(o.rate));
       }
       CHECK(0.5 * most * most == doctest::Approx(0.5).epsilon(0.005).scale(0));
+    }
+}
+
+TEST_CASE("jumps, rates and pulls that are so many times smaller end with rates so many times smaller") {
+  const volatile double stiff = 4;
+  for (double jump : {-0.25, -0.125, 0.0, 0.125})
+    for (double rate : {-1.0, 0.5, 1.0}) {
+      // Beside others the pull for which the equation of a jump that changes its sign has no linear term.
+      const double turning = stiff * jump - 2 * oscillator_mass(stiff, 1, 1) * rate;
+      for (double pull : {turning, -1.0, 0.0, 2.0})
+        for (const auto& [tension, compression] : {std::pair{4.0, 0.0}, {0.0, 4.0}, {4.0, 1.0}}) {
+          CAPTURE(jump);
+          CAPTURE(rate);
+          CAPTURE(pull);
+          const double small = 1.0 / 1024;
+          const JumpStart whole{jump, rate, pull}, part{small * jump, small * rate, small * pull};
+          CHECK(rate_after_springs(tension, compression, 1, 1, part) ==
+                doctest::Approx(small * rate_after_springs(tension, compression, 1, 1, whole))
+                    .epsilon(1e-12)
+                    .scale(small));
+        }
     }
 }
 

@@ -139,6 +139,27 @@ TEST_CASE("beyond the cut-off nothing is held but the tension, and a gap closes 
   CHECK(pressure(sand) == doctest::Approx(0.5 * kSand.bulk * (1 - std::exp(-6e-3))).epsilon(1e-4));
 }
 
+TEST_CASE(
+    "soil that shear closes in one step ends on its cone, however soft its shear is beside its volume") {
+  // An open volume is sheared: its dilation takes it back below the cut-off, where pressure makes strength.
+  for (const double ratio : {1e-2, 1e-3, 3e-4})
+    for (const double open : {0.05, 0.1, 0.3})
+      for (const double shear : {0.2, 0.4, 0.8}) {
+        CAPTURE(ratio);
+        CAPTURE(open);
+        CAPTURE(shear);
+        DruckerPrager law = soil(0, 30);
+        law.shear = ratio * law.bulk;
+        Sample<3, DruckerPrager> sample(law);
+        sample.strain(diagonal<3>(open / 3, open / 3, open / 3), 1);
+        sample.strain(diagonal<3>(-0.5 * shear, -0.5 * shear, shear), 1);
+        REQUIRE(sample.state.plastic_strain > 0);
+        CHECK(
+            sample.von_mises() ==
+            doctest::Approx(law.slope(law.friction_angle) * pressure(sample)).epsilon(1e-9).scale(law.shear));
+      }
+}
+
 TEST_CASE("a lower cut-off takes the tip of the cone") {
   DruckerPrager law = soil(5e3, 0);
   law.tension = 1e3;

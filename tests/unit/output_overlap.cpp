@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "tests/support.hpp"
 #include "tests/unit/output_fixture.hpp"
@@ -131,6 +133,29 @@ TEST_CASE("bodies that touch do not overlap, nor do domains of one body") {
   add_block(own, 0.5, 0.5, 1, 4, 7);
   CHECK(same_bits(measure_overlap(own, 1), {}));
   CHECK(same_bits(measure_overlap({}, 1), {}));
+}
+
+TEST_CASE("sparse pairs that overlap count once each, also where they are very many") {
+  std::vector<ParticleDomain> domains;
+  constexpr int kSide = 185;  // more than 2^16 domains, and about as many bins
+  for (int j = 0; j < kSide; ++j)
+    for (int i = 0; i < kSide; ++i) {
+      domains.push_back(square(i, j, 0.125, 0));
+      domains.push_back(square(i + 0.125, j, 0.125, 1));  // its centre on the edge of the first
+    }
+  const Overlap overlap = measure_overlap(domains, 1);
+  CHECK(overlap.area == doctest::Approx(kSide * kSide * 0.125 * 0.25).epsilon(1e-12));
+  CHECK(overlap.inside == doctest::Approx(2 * kSide * kSide * 0.0625).epsilon(1e-12));
+  CHECK(overlap.particles_inside == 2 * kSide * kSide);
+}
+
+TEST_CASE("an overlap names the owners of a particle inside another's domain, and nobody where none is") {
+  const std::vector<ParticleDomain> inside{square(0, 0, 1, 3), square(1.5, 0, 1, 5), square(0, 0.25, 0.5, 7)};
+  const std::pair<int, int> owners = measure_overlap(inside, 1).owners;
+  CHECK((owners == std::pair(3, 7) || owners == std::pair(7, 3)));
+  const std::vector<ParticleDomain> corners{square(0, 0, 1, 3), square(1.5, 1.5, 1, 5)};
+  CHECK(measure_overlap(corners, 1).area > 0);
+  CHECK(measure_overlap(corners, 1).owners == std::pair(-1, -1));
 }
 
 TEST_CASE("domains that are lines, points, far away or not a number spoil nothing") {

@@ -4,6 +4,8 @@
 #define STB_IMAGE_IMPLEMENTATION
 #include <stb_image.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -258,6 +260,16 @@ TEST_CASE("stresses that are round-off of the modulus are zero") {
   CHECK(values[0] == 1e3);
   CHECK(values[1] == 0);
   CHECK(values[13] == 0);
+}
+
+TEST_CASE("a compression is no round-off: of either sign a stress is what it was") {
+  const Scene scene = small_scene(Space::plane_strain);
+  Particles<2> particles = lattice(2);
+  const std::array<double, 4> stresses{1e3, -1e3, 1e-9, -1e-9};  // Pa, of a modulus of 1 MPa
+  std::copy(stresses.begin(), stresses.end(), particles.column(Quantity::kirchhoff_stress, 0));
+  CHECK(field_values(particles, scene, "stress_xx").value == std::vector<double>{1e3, -1e3, 0, 0});
+  CHECK(field_values(particles, scene, "pressure").value[0] ==
+        -field_values(particles, scene, "pressure").value[1]);
 }
 
 TEST_CASE("ticks are round and units of a sensible size") {

@@ -217,6 +217,23 @@ TEST_CASE("the stress difference in the plane is that of the principal stresses 
   CHECK(stress.difference_in_plane() == doctest::Approx(4));
 }
 
+TEST_CASE("von Mises' stress is √3 times a pure shear in any plane, and the same along any axes") {
+  for (std::size_t k = 3; k < 6; ++k) {
+    CauchyStress shear;
+    shear.component[k] = -2;
+    CHECK(shear.von_mises() == doctest::Approx(2 * std::sqrt(3.0)));
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    CauchyStress tension;
+    tension.component[k] = 5;
+    CHECK(tension.von_mises() == doctest::Approx(5));
+  }
+  CauchyStress one, other;  // x, y, z and z, x, y
+  one.component = {3, -1, 7, 0.5, 5, 6};
+  other.component = {7, 3, -1, 6, 0.5, 5};
+  CHECK(one.von_mises() == doctest::Approx(other.von_mises()));
+}
+
 TEST_CASE("an animation read as a viewer does shows the pictures that went in") {
   const TemporaryFolder folder;
   constexpr int kWidth = 7, kHeight = 5;

@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <sys/resource.h>
 
 #include <bit>
 #include <cmath>
@@ -6,6 +7,9 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/errors.hpp"
 #include "tests/unit/output_fixture.hpp"
@@ -212,4 +216,59 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   const TemporaryFolder folder;
   write_run_json(folder.path(), doubtful);
   CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 6);
+}
+
+TEST_CASE("what a warning calls usual is where it begins") {
+  using Contact = RunSummary::Contact;
+  struct Share {
+    std::uint64_t Contact::*part;
+    std::uint64_t Contact::*whole;
+  };
+  constexpr std::uint64_t kWhole = 100000;
+  for (const auto [part, whole] :
+       {Share{&Contact::unconverged, &Contact::regressions}, Share{&Contact::doubtful, &Contact::touching},
+        Share{&Contact::pair_fallbacks, &Contact::pair_nodes},
+        Share{&Contact::screened, &Contact::meetings}}) {
+    RunSummary summary;
+    summary.contact.*whole = summary.contact.*part = kWhole;
+    const auto all = run_warnings(summary);
+    REQUIRE(all.size() == 1);
+    const std::string mark = "(usual: below ";
+    const std::size_t at = all[0].text.find(mark);
+    REQUIRE(at != std::string::npos);
+    const double usual = std::stod(all[0].text.substr(at + mark.size())) / 100;
+    REQUIRE(usual < 1);
+    summary.contact.*part = static_cast<std::uint64_t>(0.99 * usual * kWhole);
+    CHECK(run_warnings(summary).empty());
+    summary.contact.*part = static_cast<std::uint64_t>(1.01 * usual * kWhole);
+    CHECK(run_warnings(summary).size() == 1);
+  }
+}
+
+TEST_CASE("a warning of energy has the sign and the two digits of the drift") {
+  const std::vector<std::pair<double, std::string>> known{{0.8, "drifted by +80 %"},
+                                                          {-0.8, "drifted by -80 %"},
+                                                          {0.12, "drifted by +12 %"},
+                                                          {1.5, "drifted by +150 %"}};
+  for (const auto& [error, said] : known) {
+    RunSummary summary;
+    summary.energy_error = error;
+    const auto warnings = run_warnings(summary);
+    REQUIRE(warnings.size() == 1);
+    CHECK_MESSAGE(warnings[0].text.find(said) != std::string::npos, warnings[0].text);
+  }
+}
+
+TEST_CASE("the peak of memory is known where no file of the system's can be opened") {
+  rlimit files{};
+  REQUIRE(getrlimit(RLIMIT_NOFILE, &files) == 0);
+  rlimit none = files;
+  none.rlim_cur = 0;
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &none) == 0);
+  const bool closed = !std::ifstream("/proc/self/status");
+  const std::uint64_t peak = peak_memory_bytes();
+  REQUIRE(setrlimit(RLIMIT_NOFILE, &files) == 0);
+  WARN(closed);
+  CHECK(peak > std::uint64_t{1} << 20);
+  CHECK(peak < std::uint64_t{1} << 42);
 }

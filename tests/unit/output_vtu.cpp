@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -239,6 +240,23 @@ TEST_CASE("a VTU file that was altered is refused or read, and no size in it is 
     found += refused(altered) ? 1u : 0u;
   }
   CHECK(found > (text.size() - 32 - data) / 14);
+}
+
+TEST_CASE("components of a VTU array have a name each or none, and the file says which") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "names.vtu";
+  VtuFile out(std::vector<double>{0, 0, 0});
+  constexpr std::array<std::string_view, 2> kNames{"A", "B"};
+  out.add_point_data("pair", std::vector<double>{1, 2}, kNames);
+  out.write(path, 0);
+  CHECK(fault(path) == "");
+  const std::string text = read_text(path), second = "ComponentName1=\"B\"";
+  const std::size_t at = text.find(second);
+  REQUIRE(at != std::string::npos);
+  for (const std::string replaced : {"ComponentName2=\"B\"", ""}) {  // of a third component; of none
+    write_text(path, std::string(text).replace(at, second.size(), replaced));
+    CHECK(fault(path).find("names.vtu: ") != std::string::npos);
+  }
 }
 
 TEST_CASE("a PVD file that is none is refused") {

@@ -54,5 +54,11 @@ TEST_CASE("contact, boundaries and gravity are passes where there are some") {
     CHECK(has(walls, part));
 }
 
+TEST_CASE("what contact projects to the nodes beside masses is one pass, which names all of it") {
+  const auto gradients = passes_of({{"contact", "{normal: average_gradient, separation: displacement}"}});
+  CHECK(std::find(gradients.begin(), gradients.end(), "project volume gradients, mean displacements") !=
+        gradients.end());
+}
+
 }  // namespace
 }  // namespace mpmfast

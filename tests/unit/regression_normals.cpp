@@ -250,3 +250,20 @@ TEST_CASE_TEMPLATE(
   CHECK(worst_warm < worst_cold);
   CHECK(warm_iterations < 0.8 * cold_iterations);
 }
+
+TEST_CASE("every particle of a cloud counts, the last one of an odd number too") {
+  // Mirror images in x, and one on the axis: the normal is along x. 1, 3, 5 and 9 particles fill no vector.
+  const double rows[4][3] = {{-0.4, 0.3, -1}, {-0.9, 0.8, -1}, {0.3, 0.9, 1}, {0.5, 0.2, 1}};
+  for (int pairs : {2, 4})
+    for (const Fit kind : {Fit::least_squares, Fit::likelihood, Fit::linear}) {
+      CAPTURE(pairs);
+      Cloud<2> cloud;
+      cloud.add({-0.2, 0}, -1);
+      for (int mirror : {1, -1})
+        for (int k = 4 - pairs / 2; k < 4; ++k) cloud.add({rows[k][0], mirror * rows[k][1]}, rows[k][2]);
+      for (int mirror : {1, -1})
+        for (int k = 0; k < pairs / 2; ++k) cloud.add({rows[k][0], mirror * rows[k][1]}, rows[k][2]);
+      const auto found = fit_normal<2>(cloud.view(), {.fit = kind, .penalty = 1e-2});
+      CHECK((found.normal - Vec<2>(1, 0)).norm() < 1e-9);
+    }
+}

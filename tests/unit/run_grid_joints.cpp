@@ -54,6 +54,43 @@ TEST_CASE("grid files have the jump of surfaces that springs join, seen from eit
   CHECK(VtuReader(file).find("jump") == nullptr);
 }
 
+TEST_CASE("where a body is joined to two, grid files have the jump to the one that is farther apart") {
+  for (const bool left_first : {true, false}) {
+    CAPTURE(left_first);
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "grid.vtu";
+    const std::string slow = ", velocity: [0, 0.25 m/s]}\n", fast = ", velocity: [0, 1 m/s]}\n";
+    const Scene scene =
+        scene_from(R"(
+space: plane_strain
+grid: {size: [12 mm, 12 mm], cell: 1 mm}
+time: {end: 1 ms}
+materials: {soft: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+contact: {law: interface, normal_stiffness: 1 GPa/m, shear_stiffness: 0}
+bodies:
+  - {name: low, box: {from: [2 mm, 2 mm], to: [10 mm, 6 mm]}, material: soft}
+  - {name: left, box: {from: [2 mm, 6 mm], to: [6 mm, 10 mm]}, material: soft)" +
+                   (left_first ? fast : slow) +
+                   "  - {name: right, box: {from: [6 mm, 6 mm], to: [10 mm, 10 mm]}, material: soft" +
+                   (left_first ? slow : fast));
+    Step<2> step(scene);
+    advance(step, 5);
+    write_grid(file, step, scene);
+    const VtuReader reader(file);
+    const auto jump = reader.values(*reader.find("jump")), field = reader.values(*reader.find("field")),
+               points = reader.points();
+    int seen = 0;
+    for (std::size_t k = 0; k < reader.size(); ++k) {
+      if (field[k] != 0 || std::abs(points[3 * k + 1] - 6e-3) > 1e-9 || std::abs(points[3 * k] - 6e-3) > 1e-9)
+        continue;
+      CHECK(jump[3 * k + 1] ==
+            doctest::Approx(step.state().time * 1).epsilon(0.05).scale(0));  // soft springs
+      ++seen;
+    }
+    CHECK(seen == 1);
+  }
+}
+
 TEST_CASE("grid files have the damage of bonds: a crack is broken, what is drawn apart is worn") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "grid.vtu";

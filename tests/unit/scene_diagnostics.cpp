@@ -121,3 +121,7 @@ TEST_CASE("whole numbers are decimal and whole") {
                   text);
   }
 }
+
+TEST_CASE("words behind a text in quotes that ends on the next line are told where they stand") {
+  CHECK(fault(plain_scene() + "title: \"one\n: two\" three\n").starts_with("scene.yaml:9:8: not valid YAML"));
+}

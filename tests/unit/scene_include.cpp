@@ -176,3 +176,14 @@ TEST_CASE("pictures and surfaces that an included file names lie beside it") {
   CHECK(holds(folder.faults("scene.yaml", {{"space", "3d"}, {"grid.size", "[1, 1, 1]"}}),
               "cannot read the surface lib/part.stl"));
 }
+
+TEST_CASE("sixty-four files may be included, and not one more") {
+  const SceneFolder folder;
+  folder.write("a.yaml", "gravity: [0, 1]\n");
+  std::string names = "[a.yaml";
+  for (int k = 1; k < 64; ++k) names += ", a.yaml";
+  folder.write("scene.yaml", without_materials(names + "]") + kSteel);
+  CHECK(folder.faults("scene.yaml") == "good");
+  folder.write("scene.yaml", without_materials(names + ", a.yaml]") + kSteel);
+  CHECK(holds(folder.faults("scene.yaml"), "include.64: cannot include a.yaml: too many files (at most 64)"));
+}

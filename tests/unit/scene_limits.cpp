@@ -117,3 +117,18 @@ TEST_CASE("a picture that promises more than its file holds is refused before it
   CHECK(holds(fault_of(with(good, 18, 0x10)), "damaged: "));
   CHECK(holds(fault_of(with(good, 16, 0x10)), "at most 32768 along an edge"));
 }
+
+TEST_CASE("what an alias holds may reach down to level 32, and no further") {
+  // The map of the scene is level 1, the lists around the alias are 20 more.
+  const auto deep = [](const std::string& open, const std::string& close, int levels) {
+    return faults("a: &a " + repeated(open, levels) + "1" + repeated(close, levels) +
+                  "\nb: " + repeated("[", 20) + "*a" + repeated("]", 20) + "\n");
+  };
+  const auto too_deep = [](const std::vector<std::string>& all) {
+    return all.size() == 1 && holds(all[0], "nested too deeply");
+  };
+  CHECK_FALSE(too_deep(deep("[", "]", 11)));
+  CHECK(too_deep(deep("[", "]", 12)));
+  CHECK_FALSE(too_deep(deep("{k: ", "}", 11)));
+  CHECK(too_deep(deep("{k: ", "}", 12)));
+}

@@ -60,6 +60,13 @@ TEST_CASE("units may be compound and in the spellings that people paste") {
   CHECK(value("0.5 \u03bcs", Measure::time) == 5e-7);
 }
 
+TEST_CASE("prefixes above and below a line cancel, whichever is the larger") {
+  CHECK(value("5 um/ms", Measure::velocity) == 0.005);
+  CHECK(value("5 mm/us", Measure::velocity) == 5000);
+  CHECK(value("5 mm/ms", Measure::velocity) == 5);
+  CHECK(value("7 mm^2/cm", Measure::length) == 7e-4);
+}
+
 TEST_CASE("a unit of another dimension is named as what it is") {
   CHECK(error("5 mm", Measure::pressure) == "'mm' is a length (a pressure: Pa, kPa, MPa, GPa)|");
   CHECK(error("5 GPa", Measure::time) == "'GPa' is a pressure (a time: s, ms, us, ns)|");

@@ -167,3 +167,24 @@ TEST_CASE("a bitmap that is none, or is coloured, or lacks what the scene says o
   std::filesystem::resize_file(folder / "grains.png", 20);
   CHECK(holds(wrong("extent: [1 mm, 1 mm], material: steel"), "not a PNG file"));
 }
+
+TEST_CASE("the extent of a bitmap comes back where it is not the difference of its corners") {
+  // Of 1.5 + ulp and -(0.5 + ulp/2), with ulp = 2^-52, the sum lies half an ulp above 1 and rounds to 1; from
+  // there back the difference rounds to 1.5, which, added again, falls short of 1.
+  const Folder folder;
+  write_image(folder / "grains.png");
+  const std::string extent = "1.5000000000000002", lower = "-0.50000000000000011";
+  const std::string text =
+      replaced(bitmap_scene("origin: [" + lower + ", " + lower + "], extent: [" + extent + ", " + extent +
+                            "], material: steel"),
+               "size: [10 mm, 20 mm], cell: 1 mm", "origin: [-1, -1], size: [2, 2], cell: 0.125");
+  const Scene first = parse_scene(text, folder / "scene.yaml");
+  const Scene second = parse_scene(first.resolved_yaml, folder / "scene.yaml");
+  REQUIRE(second.bodies.size() == first.bodies.size());
+  const auto& drawn = std::get<BitmapShape>(first.bodies[0].shape);
+  const auto& again = std::get<BitmapShape>(second.bodies[0].shape);
+  REQUIRE(drawn.upper[0] == 1);
+  REQUIRE(drawn.lower[0] + (drawn.upper[0] - drawn.lower[0]) < 1);
+  CHECK(again.lower == drawn.lower);
+  CHECK(again.upper == drawn.upper);
+}

@@ -293,3 +293,28 @@ TEST_CASE("checkpoints are asked for by wall time, by steps, by both or not at a
   CHECK(holds(wrong("{step: 5}"), "Did you mean 'steps'?"));
   CHECK(holds(wrong("often"), "none or a map {every, steps}"));
 }
+
+TEST_CASE("a node by itself is the one nearest to its point, counted from the grid's origin") {
+  const std::string moved = replaced(plain_scene(), "size:", "origin: [-2 mm, -4 mm], size:");
+  const auto with = [&](const std::string& point) {
+    return moved + "boundaries: {pin: {node: " + point + ", direction: x, speed: 1}}\n";
+  };
+  const auto pin = std::get<VelocityBoxSpec>(parse(with("[-1.6 mm, 2.4 mm]")).boundaries[0].condition);
+  CHECK(pin.lower[0] == doctest::Approx(-2e-3));
+  CHECK(pin.lower[1] == doctest::Approx(2e-3));
+  CHECK(pin.upper == pin.lower);
+  CHECK(faults(with("[8 mm, 16 mm]")).empty());  // the upper corner of the grid
+  CHECK(holds(fault(with("[9 mm, 16 mm]")), "no node of the grid lies there in x"));
+  CHECK(holds(fault(with("[0, -5 mm]")), "no node of the grid lies there in y"));
+}
+
+TEST_CASE("half of each pair of elastic constants is no pair, and three are too many") {
+  const auto moduli = [](const std::string& text) {
+    return fault(replaced(replaced(plain_scene(), "linear_elastic", "neo_hookean"),
+                          "young: 210 GPa, poisson: 0.3", text));
+  };
+  const std::string needs = "needs either bulk and shear or young and poisson, ";
+  CHECK(holds(moduli("shear: 1 GPa, young: 2 GPa"), needs + "but has only shear and young"));
+  CHECK(holds(moduli("bulk: 1 GPa, poisson: 0.3"), needs + "but has only bulk and poisson"));
+  CHECK(holds(moduli("bulk: 1 GPa, young: 2 GPa, poisson: 0.3"), needs + "not more"));
+}

@@ -153,3 +153,35 @@ TEST_CASE(
     }
   CHECK(found == meant);
 }
+
+TEST_CASE("a curve of springs that goes on to where surfaces let go is told at its key") {
+  const auto scene = [](const std::string& normal, const std::string& shear) {
+    return plain_scene() + "contact: {law: nonlinear_interface, normal_curve: " + normal +
+           ", shear_curve: " + shear + "}\n";
+  };
+  // Cells of 1 mm; springs too soft for waves to matter.
+  const std::string within = "[[0, 0], [0.9 mm, 1 Pa]]", beyond = "[[0, 0], [2 mm, 1 Pa]]";
+  const std::string says =
+      ": goes on to 0.002 m, and surfaces that are a cell apart (0.001 m) let go before. Larger cells, or "
+      "another unit\n";
+  CHECK(warnings(scene(within, within)).empty());
+  CHECK(warnings(scene(beyond, within)) == "scene.yaml:8:51: warning: contact.normal_curve" + says);
+  CHECK(warnings(scene(within, beyond)) == "scene.yaml:8:90: warning: contact.shear_curve" + says);
+}
+
+TEST_CASE("springs as stiff as steps can follow are not told, stiffer ones are") {
+  // NN Eq. 5.36 with powers of two, exact in any order: rho c^2 = 2^30 Pa as Poisson's ratio is 0, cfl = 1/2
+  // and h = 1/4 m allow 2^30 / (2 / 4 / 4) = 2^33 Pa/m.
+  const auto told = [](const std::string& stiffness) {
+    return warnings(
+        "space: plane_strain\n"
+        "grid: {size: [4, 4], cell: 0.25}\n"
+        "time: {end: 1 s, cfl: 0.5}\n"
+        "materials: {a: {model: linear_elastic, density: 4096, young: 1073741824, poisson: 0}}\n"
+        "bodies: [{box: {from: [1, 1], to: [3, 3]}, material: a}]\n"
+        "contact: {law: interface, normal_stiffness: " +
+        stiffness + ", shear_stiffness: 1}\n");
+  };
+  CHECK(told("8589934592").empty());
+  CHECK(holds(told("8589934593"), "contact.normal_stiffness: 8.59e+09 Pa/m swings faster than steps follow"));
+}

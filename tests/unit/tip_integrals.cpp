@@ -99,6 +99,38 @@ TEST_CASE("where a side of the crack was not seen, all that is released counts a
   }
 }
 
+TEST_CASE("what one tip has seen of its crack is nothing to the next tip") {
+  constexpr double kModulus = 8e9;
+  TipSample right, left, ahead;
+  right.slope = right.stress = Mat<2>::Zero();
+  right.area = 1e-6;
+  right.energy = 0;
+  left = ahead = right;
+  right.place = {-0.5 * kRadius, -0.1 * kRadius};
+  right.moved = {0, -1e-6};
+  left.place = {-0.5 * kRadius, 0.1 * kRadius};
+  left.moved = {0, 1e-6};
+  ahead.place = {0.7 * kRadius, 0};
+  ahead.moved = {0, 0};
+  ahead.energy = 1e3;
+  struct {  // side by side in memory, with a number that is none of theirs
+    TipIntegrals tip{straight(), kRadius, kModulus};
+    double beside;
+  } each[2];
+  each[0].beside = each[1].beside = 1;
+  for (auto& one : each) {
+    one.tip.add(ahead);
+    one.tip.add(right);
+  }
+  each[1].tip.add(left);
+  for (auto& one : each) {
+    REQUIRE(one.tip.release() > 0);
+    const double all = std::sqrt(kModulus * one.tip.release());
+    CHECK(one.tip.intensities()[1] == doctest::Approx(all).epsilon(1e-12));
+    CHECK(one.tip.intensities()[0] == 0);
+  }
+}
+
 TEST_CASE("a stress along the crack changes none of them") {
   const double kappa = 3 - 4 * kPoisson;
   const TipIntegrals without = integrate(1e6, 0.3e6, 0, kappa), with = integrate(1e6, 0.3e6, 5e6, kappa);

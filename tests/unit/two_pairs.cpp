@@ -103,3 +103,42 @@ TEST_CASE("pairs without a common field are solved as each by itself") {
     }
   }
 }
+
+/// What both contacts ask for at first, changed at once or always of the same one first, chases itself.
+TEST_CASE("a light wedge between two blocks settles to the same impulses whichever contact is named first") {
+  struct Wedge {
+    double mass, angle, friction[2];
+    Vec<2> velocity[3];
+  };
+  for (const Wedge& wedge : {Wedge{1e-4, 0.4, {0.7, 0.2}, {{2, -0.5}, {1.5, 2}, {-1.5, -1.5}}},
+                             Wedge{1e-4, 0.3, {0.1, 0.5}, {{-1, 1.5}, {-2, -0.5}, {1.5, -2}}},
+                             Wedge{1e-4, 0.2, {0.7, 0.2}, {{1.5, 0}, {1, 1}, {-1.5, -2}}},
+                             Wedge{1e-3, 0.1, {0.4, 0.8}, {{0, -1}, {-0.5, -1.5}, {1.5, -1.5}}}}) {
+    Vec<2> impulse[2];
+    for (int first = 0; first < 2; ++first) {
+      CAPTURE(wedge.angle);
+      CAPTURE(first);
+      Draw draw(1);
+      Chain<2> chain(draw, wedge.mass);
+      chain.velocity[2] = wedge.velocity[2];
+      for (int k = 0; k < 2; ++k) {
+        const int side = k == 0 ? first : 1 - first;
+        chain.mass[k] = 1;
+        chain.velocity[k] = wedge.velocity[side];
+        auto& pair = chain.pair[k];
+        pair.normal = side == 0 ? Vec<2>(1, 0) : Vec<2>(-std::cos(wedge.angle), std::sin(wedge.angle));
+        pair.jump = chain.velocity[2] - chain.velocity[k];
+        pair.inverse_mass = 1 + 1 / wedge.mass;
+      }
+      const double one = wedge.friction[first], two = wedge.friction[1 - first];
+      REQUIRE(solve_two_pairs(chain.pair, chain.coupling(), AnyLaw(Coulomb{one}), AnyLaw(Coulomb{two})));
+      check_coulomb(chain, 0, one);
+      check_coulomb(chain, 1, two);
+      for (int k = 0; k < 2; ++k) {
+        Vec<2>& same = impulse[k == 0 ? first : 1 - first];
+        if (first == 1) CHECK((chain.pair[k].impulse - same).norm() < 1e-9);
+        same = chain.pair[k].impulse;
+      }
+    }
+  }
+}

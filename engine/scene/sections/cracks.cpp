@@ -42,7 +42,9 @@ bool runs_through(const Shape& shape, const Points& points) {
     }
     for (int place = 0; first <= last && place <= kPlaces; ++place) {
       const double share = first + (last - first) * place / kPlaces;
-      const auto at = [&](std::size_t d) { return (1 - share) * points[k - 1][d] + share * points[k][d]; };
+      const auto at = [&](std::size_t d) {  // (along an axis exactly on it: edges belong to one side alone)
+        return points[k - 1][d] + share * (points[k][d] - points[k - 1][d]);
+      };
       if (contains(shape, {at(0), at(1), 0})) return true;
     }
   }
