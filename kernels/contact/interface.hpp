@@ -73,11 +73,15 @@ inline double rate_after_springs(double tension, double compression, double mass
   const double a = inertia + 0.5 * entered,
                b = entered * start.jump - inertia * start.rate * dt - start.opening,
                c = 0.5 * (entered - left) * start.jump * start.jump;
-  const double root = std::sqrt(std::max(0.0, b * b - 4 * a * c));
-  const double twice = -(b + std::copysign(root, b));  // the root that does not cancel, then the other
-  const double first = 0.5 * twice / a, second = twice != 0 ? 2 * c / twice : 0;
-  const double way = opens ? std::max(first, second) : std::min(first, second);
-  return 2 * way / dt - start.rate;
+  if (const double square = b * b - 4 * a * c; square >= 0) {
+    const double twice =
+        -(b + std::copysign(std::sqrt(square), b));  // the root that does not cancel, then the other
+    const double first = 0.5 * twice / a, second = twice != 0 ? 2 * c / twice : 0;
+    const double way = opens ? std::max(first, second) : std::min(first, second);
+    if (opens ? start.jump + way >= 0 : start.jump + way <= 0) return 2 * way / dt - start.rate;
+  }
+  // With the inertia of the stiffer side it stays where it is.
+  return rate_with_spring(left, share * mass / dt, dt, start);
 }
 
 /// x turned as the least rotation turns one unit vector into another; where these are more than a right angle

@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <utility>
 
 #include "kernels/contact/interface.hpp"
@@ -104,6 +106,35 @@ TEST_CASE("jumps, rates and pulls that are so many times smaller end with rates 
                     .scale(small));
         }
     }
+}
+
+// Kinetic and stored energy gain what the pull does, with the inertia of the side it stays on or of the
+// stiffer one.
+TEST_CASE("a step of two stiffnesses gains the work of its pull, however near to the border it turns") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> share(-1, 1);
+  double worst = 0;
+  for (int trial = 0; trial < 200000; ++trial) {
+    const double compression = 4, tension = trial % 3 == 0 ? 0 : 4 * std::pow(10, 2 * share(random));
+    const JumpStart start{trial % 7 == 0 ? 0.1 : share(random), share(random), 2 * share(random)};
+    const double rate = rate_after_springs(tension, compression, 1, 1, start);
+    const double end = start.jump + 0.5 * (start.rate + rate);
+    const auto stored = [&](double jump) { return 0.5 * (jump > 0 ? tension : compression) * jump * jump; };
+    double least = 1e300;
+    for (const double stiffness : {tension, compression}) {
+      const double inertia = oscillator_mass(stiffness, 1, 1), work = start.opening * (end - start.jump),
+                   before = 0.5 * inertia * start.rate * start.rate + stored(start.jump),
+                   after = 0.5 * inertia * rate * rate + stored(end);
+      least = std::min(least, std::abs(after - before - work) / (after + before + std::abs(work)));
+    }
+    worst = std::max(worst, least);
+  }
+  CHECK(worst < 1e-10);  // of rounding
+  // Pulls that just do not, and just do, bring it back over the border.
+  for (const double pull : {1.5, 1.6, 1.63, 1.634, 1.7, 1.81}) {
+    CAPTURE(pull);
+    CHECK(std::abs(rate_after_springs(0, 4, 1, 1, {0.1, -1, pull})) < 2);
+  }
 }
 
 TEST_CASE("surfaces that springs leave free in tension part with the speed they came with") {
