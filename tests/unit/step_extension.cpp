@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/scene/text/diagnostic.hpp"
@@ -219,6 +220,31 @@ bodies: [{name: b, box: {from: [-2.3 mm, -4 mm], to: [2.3 mm, 1.2 mm]}, material
     CHECK(low.size() > 10);
     CHECK(following(basis, true) == low);
   }
+}
+
+/// The box ends within cells of the spline, which lie about its nodes (bspline2) or between them.
+TEST_CASE("a cell that is filled to the occupation, no more, has not enough, wherever it lies") {
+  const auto following = [](const char* basis, double begin, const char* occupation) {
+    const auto mm = [](double x) { return std::to_string(x) + " mm"; };
+    Projected<2> p(R"(
+space: plane_strain
+grid: {size: [60 mm, 12 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: b, box: {from: [)" +
+                       mm(begin) + ", " + mm(begin - std::floor(begin) + 3) + "], to: [" + mm(begin + 4.5) +
+                       ", " + mm(begin - std::floor(begin) + 7.5) + "]}, material: m}]\n",
+                   basis, occupation);
+    return p.extension.following().size();
+  };
+  for (const auto& [basis, edge] : {std::pair{"bspline2", 0.0}, {"bspline3", 0.5}})
+    for (int cell = 3; cell < 50; ++cell) {
+      CAPTURE(std::string(basis));
+      CAPTURE(cell);
+      const auto half = following(basis, cell + edge, "0.5");
+      CHECK(half == following(basis, cell + edge, "0.52"));
+      CHECK(half > following(basis, cell + edge, "0.48"));
+    }
 }
 
 template <int Dim>

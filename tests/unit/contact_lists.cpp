@@ -1,0 +1,228 @@
+// What contact nodes, entries and slabs of them are, where several bodies meet.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "engine/contact/nodal/slabs.hpp"
+#include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/run/threads.hpp"
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+/// A scene of some bodies after a step.
+struct Met {
+  Scene scene;
+  Step<2> step;
+
+  Met(const std::string& bodies, const std::string& contact, const std::string& basis = "bspline2")
+      : scene(scene_from(R"(
+space: plane_strain
+grid: {size: [96 mm, 24 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}, tool: {model: rigid}}
+bodies:
+)" + bodies + "contact: {" +
+                         contact + "}\nmethod: {basis: " + basis + "}\n")),
+        step(scene) {
+    advance(step, 1);
+  }
+
+  const ContactList<2>& list() const { return step.contact_list(); }
+  /// The number of a field of a node; of an entry's a or b.
+  int field(const ContactNode<2>& node, int k) const {
+    return list().fields[static_cast<std::size_t>(node.field_begin + k)].field;
+  }
+  static int fields(const ContactNode<2>& node) { return node.field_end - node.field_begin; }
+  const ContactEntry<2>& entry(int e) const { return list().entries[static_cast<std::size_t>(e)]; }
+};
+
+const std::string kFloor =
+                      "  - {name: floor, box: {from: [2 mm, 2 mm], to: [14 mm, 6 mm]}, material: tool}\n",
+                  kLeft = "  - {name: left, box: {from: [4.3 mm, 6 mm], to: [8 mm, 9 mm]}, material: m}\n",
+                  kSliver =
+                      "  - {name: sliver, box: {from: [8 mm, 6.1 mm], to: [8.5 mm, 9 mm]}, material: m}\n",
+                  kRight = "  - {name: right, box: {from: [8 mm, 6.3 mm], to: [11 mm, 9 mm]}, material: m}\n",
+                  kBehind =
+                      "  - {name: right, box: {from: [8.5 mm, 6 mm], to: [11 mm, 9 mm]}, material: m}\n";
+
+TEST_CASE("each two of three bodies at a node have the normal and the separation that they have alone") {
+  using Place = std::array<int, 2>;
+  const std::string method = "fields: simultaneous, normal: linear_regression, separation: ellipsoid";
+  for (const std::array<std::string, 3>& order :
+       {std::array{kFloor, kLeft, kRight}, {kLeft, kFloor, kRight}, {kLeft, kRight, kFloor}}) {
+    CAPTURE(order[0]);
+    const Met all(order[0] + order[1] + order[2], method);
+    for (int out = 0; out < 3; ++out) {
+      CAPTURE(out);
+      const int first = out == 0 ? 1 : 0, second = out == 2 ? 1 : 2;
+      const Met two(order[static_cast<std::size_t>(first)] + order[static_cast<std::size_t>(second)], method);
+      std::map<Place, const ContactEntry<2>*> alone;
+      std::map<Place, bool> swapped;
+      for (const auto& node : two.list().nodes) {
+        const Place at{node.node[0], node.node[1]};
+        alone[at] = &two.entry(node.entry_begin);
+        swapped[at] = two.field(node, alone[at]->a) == 1;
+      }
+      int seen = 0;
+      for (const auto& node : all.list().nodes) {
+        const Place at{node.node[0], node.node[1]};
+        if (Met::fields(node) < 3 || !alone.contains(at)) continue;
+        for (int e = node.entry_begin; e < node.entry_end; ++e) {
+          const auto& entry = all.entry(e);
+          const int a = all.field(node, entry.a), b = all.field(node, entry.b);
+          if (std::min(a, b) != first || std::max(a, b) != second) continue;
+          const double sign = (a == second) == swapped[at] ? 1 : -1;
+          CHECK((entry.normal - sign * alone[at]->normal).norm() < 1e-9);
+          CHECK(std::abs(entry.separation - alone[at]->separation) < 1e-9 * 1e-3);
+          ++seen;
+        }
+      }
+      CHECK(seen > 3);
+    }
+  }
+}
+
+TEST_CASE("no two entries of a list have the same name") {
+  for (const char* fields : {"lump", "pairs", "simultaneous"}) {
+    CAPTURE(std::string(fields));
+    const Met met(kLeft + kSliver + kBehind, std::string("normal: linear_regression, fields: ") + fields);
+    std::set<std::uint64_t> keys;
+    std::size_t entries = 0;
+    for (const auto& node : met.list().nodes)
+      for (int e = node.entry_begin; e < node.entry_end; ++e, ++entries)
+        keys.insert(entry_key(met.step.state(), met.list(), node, met.entry(e)));
+    CHECK(std::any_of(met.list().nodes.begin(), met.list().nodes.end(),
+                      [](const auto& node) { return Met::fields(node) == 3; }));
+    CHECK(keys.size() == entries);
+  }
+}
+
+TEST_CASE("the sides of a crack keep their name, whichever fields they are") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [24 mm, 24 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: block, box: {from: [2 mm, 2 mm], to: [22 mm, 22 mm]}, material: m}]
+cracks:
+  - {body: block, law: frictionless, line: [[3 mm, 15.1 mm], [21 mm, 15.1 mm]]}
+  - {body: block, law: frictionless, line: [[3 mm, 5.1 mm], [21 mm, 5.1 mm]]}
+)");
+  Step<2> step(scene);
+  advance(step, 1);
+  const auto& list = step.contact_list();
+  ContactList<2> turned = list;
+  int seen[2] = {0, 0};
+  for (const auto& node : list.nodes) {
+    auto &one = turned.fields[static_cast<std::size_t>(node.field_begin)],
+         &two = turned.fields[static_cast<std::size_t>(node.field_begin + 1)];
+    std::swap(one.field, two.field);
+    const auto& entry = list.entries[static_cast<std::size_t>(node.entry_begin)];
+    REQUIRE(entry.crack >= 0);
+    CHECK(entry_key(step.state(), list, node, entry) == entry_key(step.state(), turned, node, entry));
+    ++seen[entry.crack];
+  }
+  CHECK(seen[0] > 10);
+  CHECK(seen[1] > 10);
+}
+
+/// A unit vector for each two fields, from the lower to the higher.
+Vec<2> made_up_normal(int a, int b) {
+  const double angle = 1 + std::min(a, b) + 0.3 * std::max(a, b);
+  return (a < b ? 1.0 : -1.0) * Vec<2>(std::cos(angle), std::sin(angle));
+}
+
+/// The means over the nodes around of normals that are the same wherever two fields meet.
+void check_means(const Met& met, bool pairs, int most) {
+  const auto& list = met.list();
+  std::vector<RawNormal<2>> raw(list.entries.size());
+  const NormalMean<2> mean(met.step.state(), list, raw, pairs);
+  const auto other = [&](const auto& node, const auto& entry) {
+    return met.field(node, entry.b >= 0 ? entry.b : 1 - entry.a);
+  };
+  int fields = 0;
+  for (const auto& node : list.nodes) {
+    fields = std::max(fields, Met::fields(node));
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = met.entry(e);
+      raw[static_cast<std::size_t>(e)] =
+          mean.raw(node, entry, made_up_normal(met.field(node, entry.a), other(node, entry)), true, false);
+    }
+  }
+  REQUIRE(fields == most);
+  std::vector<Vec<2>> sums;
+  for (const auto& node : list.nodes) {
+    mean(mean.around(node), node, sums);
+    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      const auto& entry = met.entry(e);
+      const Vec<2>& sum = sums[static_cast<std::size_t>(e - node.entry_begin)];
+      REQUIRE(sum.norm() > 0);
+      CHECK((sum.normalized() - made_up_normal(met.field(node, entry.a), other(node, entry))).norm() < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("the mean of the normals around a node is of the same two bodies, and of no others") {
+  // A layer so thin that nodes of its one face lie beside those of the other, and none has all three.
+  const std::string layers = R"(
+  - {name: high, box: {from: [2 mm, 9.5 mm], to: [20 mm, 13 mm]}, material: m}
+  - {name: layer, box: {from: [2 mm, 7.5 mm], to: [20 mm, 9.5 mm]}, material: m}
+  - {name: low, box: {from: [2 mm, 4 mm], to: [20 mm, 7.5 mm]}, material: m}
+)";
+  const Met two(layers, "normal: smoothed_max_margin", "linear");
+  check_means(two, false, 2);
+  for (const std::string& bodies : {kFloor + kLeft + kSliver + kBehind, kLeft + kFloor + kSliver + kBehind,
+                                    kLeft + kSliver + kBehind + kFloor}) {
+    CAPTURE(bodies);
+    check_means(Met(bodies, "fields: simultaneous, normal: smoothed_max_margin"), true, 4);
+  }
+}
+
+TEST_CASE("slabs hold each node once, and all around a slab's nodes lies in slabs up to its last") {
+  const ThreadCount one(1);
+  Met met(R"(
+  - {name: low, box: {from: [2 mm, 5 mm], to: [94 mm, 7 mm]}, material: m}
+  - {name: high, box: {from: [2 mm, 7 mm], to: [94 mm, 9 mm]}, material: m}
+)",
+          "normal: average_gradient");
+  const auto& list = met.list();
+  State<2>& state = met.step.state();
+  state.threads = 1;
+  ContactSlabs<2> slabs;
+  slabs.cut(state, list, true);
+  REQUIRE(slabs.size() > 1);
+  std::vector<std::size_t> slab_of(list.nodes.size(), slabs.size());
+  for (std::size_t s = 0; s < slabs.size(); ++s)
+    slabs.for_each_node(s, state, list, [&](std::size_t k, const auto&) {
+      CHECK(slab_of[k] == slabs.size());
+      slab_of[k] = s;
+    });
+  std::size_t waited = 0;
+  for (std::size_t k = 0; k < list.nodes.size(); ++k) {
+    const std::size_t s = slab_of[k];
+    REQUIRE(s < slabs.size());
+    CHECK(slabs.surrounded_by(s) - s < slabs.at_once());
+    for (int m = 0; m < 9; ++m) {
+      const int beside = contact_neighbour(state.tiling, list, list.nodes[k], m);
+      if (beside < 0) continue;
+      const std::size_t there = slab_of[static_cast<std::size_t>(beside)];
+      CHECK(there <= slabs.surrounded_by(s));
+      CHECK(s <= slabs.surrounded_by(there));
+      waited += there > s;
+    }
+  }
+  CHECK(waited > 0);
+}
+
+}  // namespace
+}  // namespace mpmfast
