@@ -130,8 +130,8 @@ inline R gather_pairs(const ChunkWeights<2, K>& w, int k, const R* window) {
   return sum[0];
 }
 
-// Weights that are products. (Factors along x are copied: next to stores into the window they would be read
-// again for each row.)
+// Weights that are products. (Factors that several rows need are copied: next to stores into the window they
+// would be read again for each.)
 
 /// With a plane A = w_z a + g_z b_z, B = w_z b: row P = w_y A + g_y B_y, Q = w_y B_x, node w_x P + g_x Q.
 template <int Dim, int K, class R>
