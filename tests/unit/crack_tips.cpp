@@ -95,6 +95,27 @@ TEST_CASE(
   }
 }
 
+/// Faster than .75 cells a step some particles come to cells whose nodes had no mass.
+TEST_CASE("nothing drives a crack in a body that flies without strain, whatever the basis and however fast") {
+  for (const char* basis : {"linear", "ugimp", "bspline2"})
+    for (const Point& speed : {Point{10, 0}, Point{7, 7}, Point{-40, 25}}) {
+      CAPTURE(basis);
+      CAPTURE(speed[0]);
+      const Scene scene =
+          scene_from(block({0, kMiddle}, {13.3, kMiddle + 0.2},
+                           "method: {basis: " + std::string(basis) + "}\n", "law: frictionless"));
+      Step<2> step(scene);
+      auto& particles = step.state().particles;
+      for (std::size_t p = 0; p < particles.size(); ++p)
+        for (std::size_t d = 0; d < 2; ++d)
+          particles.column(Quantity::velocity, static_cast<int>(d))[p] = speed[d];
+      for (int k = 0; k < 60 && step.state().time < 90e-6; ++k) {
+        step.advance(k % 2 ? step.stable_dt() : 0.3 * step.stable_dt());
+        CHECK(std::abs(step.tip_load(0, true).release) < 1e-9);
+      }
+    }
+}
+
 /// A slanted crack in a block that a wall bears, all turned by quarters; bodies fall downwards.
 TipLoad borne(int quarters) {
   constexpr double kFall = 9e4;  // m/s²
@@ -106,13 +127,13 @@ TipLoad borne(int quarters) {
             "gravity: " + pair(down[quarters], "m/s^2") + "\nboundaries: {" + walls[quarters] + "}\n",
             "law: frictionless"));
   Step<2> step(scene);
-  while (step.state().time < 50e-6) step.advance(step.stable_dt());
+  while (step.state().time < 100e-6) step.advance(step.stable_dt());
   return step.tip_load(0, true);
 }
 
 TEST_CASE("what drives a crack in a body that bears its weight is the same when all is turned by a quarter") {
   const TipLoad upright = borne(0);
-  REQUIRE(upright.release > 0.1);
+  REQUIRE(upright.release > 10);
   for (int quarters = 1; quarters < 4; ++quarters) {
     CAPTURE(quarters);
     const TipLoad load = borne(quarters);

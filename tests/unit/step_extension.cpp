@@ -237,9 +237,10 @@ bodies: [{name: b, box: {from: [)" +
                    basis, occupation);
     return p.extension.following().size();
   };
-  for (const auto& [basis, edge] : {std::pair{"bspline2", 0.0}, {"bspline3", 0.5}})
+  for (const auto& spline : {std::pair{"bspline2", 0.0}, {"bspline3", 0.5}})
     for (int cell = 3; cell < 50; ++cell) {
-      CAPTURE(std::string(basis));
+      const auto [basis, edge] = spline;
+      CAPTURE(std::string(spline.first));
       CAPTURE(cell);
       const auto half = following(basis, cell + edge, "0.5");
       CHECK(half == following(basis, cell + edge, "0.52"));

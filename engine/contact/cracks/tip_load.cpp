@@ -60,9 +60,12 @@ struct GridReader {
     return tile->slot[corner] < 0 ? -1 : tile->slot[corner] + local;
   }
 
+  /// Where a node has no mass, as of a cell that the particle came to in the step, it moves with the particle
+  /// and is as fast driven as the others.
   void read(const Vec<Dim>& x, double dt, TipSample& out) const {
     NodeIndex<Dim> low;
     Vec<Dim> share;
+    double seen = 0;
     for (int d = 0; d < Dim; ++d) {
       const double cells = (x[d] - state->grid.origin[d]) * state->grid.inverse_cell;
       low[d] = static_cast<int>(std::floor(cells));
@@ -79,11 +82,13 @@ struct GridReader {
         for (int e = 0; e < 2; ++e) slope[e] *= e == d ? (up ? 1 : -1) : up ? share[d] : 1 - share[d];
       }
       const int at = slot(node);
-      if (at < 0) continue;
+      if (at < 0 || !(state->nodes.column(Nodal::mass)[at] > 0)) continue;
       const Vec<2> velocity = state->nodes.vector(Nodal::velocity, at).template head<2>();
+      seen += weight;
       out.acceleration += weight / dt * state->nodes.vector(Nodal::force, at).template head<2>();
-      out.velocity_slope += velocity * slope.transpose();
+      out.velocity_slope += (velocity - out.velocity) * slope.transpose();
     }
+    if (seen > 0) out.acceleration /= seen;
   }
 };
 
@@ -230,6 +235,18 @@ void list_samples(State<Dim>& state, int field, const TipQuestion& question, con
   }
 }
 
+/// J is the same for whoever flies along with the body; its sums over particles are not: the terms of a
+/// velocity that all share cancel in integrals alone.
+void fly_along(TipSamples& samples) {
+  Vec<2> sum = Vec<2>::Zero();
+  double area = 0;
+  for (const TipSample& one : samples) {
+    sum += one.area * one.velocity;
+    area += one.area;
+  }
+  for (TipSample& one : samples) one.velocity -= sum / area;
+}
+
 /// The forces that contact lets a crack carry across. Those of bonds that soften are left out: of these J is
 /// the energy.
 template <int Dim>
@@ -290,6 +307,7 @@ TipLoad tip_load(State<Dim>& state, const ContactList<Dim>& contacts, const Crac
     load.through = true;
     return load;
   }
+  fly_along(samples);
   load.modulus = modulus_of(state, line.field);
   load.across = across_end(samples, to_end, load.ahead, end.straight, cell);
   Mat<2> axes;  // rows
