@@ -27,7 +27,8 @@ double place_of(const Scene& scene, const HeatConditionSpec& condition, double t
 
 }  // namespace
 
-/// The nodes of conditions: at and beyond a face where they hold, around it where they feed, or in a box.
+/// The nodes of conditions: at and beyond a face where they hold, with those before it that its heat comes
+/// to; around it where they feed; or in a box.
 template <int Dim>
 void Heat<Dim>::list_nodes(const State<Dim>& state) {
   fed_.clear();
@@ -38,10 +39,11 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
       const NodeIndex<Dim> node = state.tiling.node(stack, local);
       for (std::size_t c = 0; c < conditions.size(); ++c) {
         const HeatConditionSpec& condition = conditions[c];
-        bool in = true;
+        bool in = true, inside = false;
         if (condition.face) {
           const int beyond = (condition.upper ? 1 : -1) * (node[condition.axis] - row_[c]);
-          in = holds(static_cast<int>(c)) ? beyond >= 0 : std::abs(beyond) <= kRowsAround;
+          inside = holds(static_cast<int>(c)) && beyond < 0;
+          in = holds(static_cast<int>(c)) ? beyond >= -kRowsAround : std::abs(beyond) <= kRowsAround;
         } else {
           for (std::size_t d = 0; d < Dim; ++d) {
             const double x = grid.origin[d] + node[static_cast<int>(d)] * grid.cell,
@@ -53,13 +55,18 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
         for (int t = stack.begin; t < stack.end; ++t) {
           const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
           if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
+          NodeIndex<Dim> row = node;
+          if (inside) row[condition.axis] = row_[c];
+          const int across = inside ? state.tiling.slot(row, field) : -1;
+          if (inside && across < 0) continue;
           Fed& fed = fed_.emplace_back();
+          fed.across = across;
           fed.slot = t * kTileNodes<Dim> + local;
           fed.condition = static_cast<int>(c);
           fed.node = node;
           fed.field = field;
         }
-        if (holds(static_cast<int>(c))) break;  // the first that holds a node counts
+        if (holds(static_cast<int>(c)) && !inside) break;  // the first that holds a node counts
       }
     }
 }
@@ -92,6 +99,22 @@ void Heat<Dim>::mirror(const State<Dim>& state, Fed& fed) const {
   for (std::size_t k = 0; k < 2; ++k) fed.by_inner[k] = -share[k] / (1 + own);
 }
 
+/// Inside of a face that holds, what conducts ends within the supports of nodes that are free: conduction
+/// alone would keep their share of what comes through the face, ∫ k ∂T/∂n N_i dS, as if they were insulated.
+/// With it, a straight line of temperatures stays, wherever the face cuts the cells.
+template <int Dim>
+void Heat<Dim>::let_through(State<Dim>& state, const Fed& fed, double dt) {
+  auto& nodes = state.nodes;
+  const double* capacity = nodes.column(Nodal::heat_capacity);
+  if (!(capacity[fed.slot] > 0) || !(capacity[fed.across] > 0)) return;
+  const HeatConditionSpec& condition = scene_->heat.conditions[static_cast<std::size_t>(fed.condition)];
+  const double out = nodes.column(Nodal::conducting_surface, condition.axis)[fed.slot];
+  if (!(condition.upper ? out > 0 : out < 0)) return;
+  const double flow = out * nodes.column(Nodal::heat_slope, condition.axis)[fed.slot] / capacity[fed.slot];
+  nodes.column(Nodal::heat_flow)[fed.slot] += flow;
+  sums_.conditions[static_cast<std::size_t>(fed.condition)] += flow * dt;
+}
+
 /// Heat through faces, ∫ q N_i dS: Σ G_pi V_p is ∫ N_i n dS over the surface of a body.
 template <int Dim>
 void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
@@ -113,7 +136,11 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
   const double* capacity = nodes.column(Nodal::heat_capacity);
   for (Fed& fed : fed_) {
     const HeatConditionSpec& condition = conditions[static_cast<std::size_t>(fed.condition)];
-    if (holds(fed.condition)) {
+    if (fed.across >= 0) {
+      let_through(state, fed, dt);
+      continue;
+    }
+    if (holds(fed)) {
       if (condition.face) mirror(state, fed);
       continue;
     }

@@ -57,8 +57,9 @@ bool Heat<Dim>::advance(State<Dim>& state, HeatCarrier<Dim>& carrier, const Cont
   const auto clear = [&](std::int64_t begin, std::int64_t end) {
     for (Nodal q : {Nodal::heat_capacity, Nodal::heat_content, Nodal::heat_flow})
       std::fill(nodes.column(q) + begin, nodes.column(q) + end, 0.0);
-    for (int d = 0; d < Dim; ++d)
-      std::fill(nodes.column(Nodal::heat_slope, d) + begin, nodes.column(Nodal::heat_slope, d) + end, 0.0);
+    for (Nodal q : {Nodal::heat_slope, Nodal::conducting_surface})
+      for (int d = 0; d < nodes.width(q); ++d)
+        std::fill(nodes.column(q, d) + begin, nodes.column(q, d) + end, 0.0);
   };
   for_each_slot(state, clear);
   carrier.project_heat(state, scale_);
@@ -121,17 +122,17 @@ void Heat<Dim>::end(State<Dim>& state, double t, double dt) {
            scale_.reference;
   };
   for (Fed& fed : fed_)
-    if (holds(fed.condition))
+    if (holds(fed))
       fed.end = held(fed, face(fed, t + dt), [&](int slot) { return temperature[slot] + flow[slot]; });
   for (const Fed& fed : fed_) {
-    if (!holds(fed.condition) || !(capacity[fed.slot] > 0)) continue;
+    if (!holds(fed) || !(capacity[fed.slot] > 0)) continue;
     const double rise = fed.end - temperature[fed.slot];
     sums_.conditions[static_cast<std::size_t>(fed.condition)] += capacity[fed.slot] * (rise - flow[fed.slot]);
     flow[fed.slot] = rise;
   }
   // What slopes are taken from: as the step began.
   for (const Fed& fed : fed_)
-    if (holds(fed.condition))
+    if (holds(fed))
       temperature[fed.slot] = held(fed, face(fed, t), [&](int slot) { return temperature[slot]; });
 }
 
@@ -147,7 +148,7 @@ void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Conta
     for (std::int64_t i = begin; i < end; ++i) rest[i] = temperature[i] + rise[i];
   });
   for (const Fed& fed : fed_)
-    if (holds(fed.condition)) rest[fed.slot] = fed.end;
+    if (holds(fed)) rest[fed.slot] = fed.end;
   for_each_slot(state, [&](std::int64_t begin, std::int64_t end) {
     std::copy(rest + begin, rest + end, series + begin);
   });
@@ -166,7 +167,7 @@ void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Conta
     });
     // What the filter would do to nodes that are held comes in through their condition instead.
     for (const Fed& fed : fed_) {
-      if (!holds(fed.condition)) continue;
+      if (!holds(fed)) continue;
       sums_.conditions[static_cast<std::size_t>(fed.condition)] -= capacity[fed.slot] * rest[fed.slot];
       rest[fed.slot] = 0;
     }

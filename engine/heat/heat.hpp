@@ -60,6 +60,9 @@ class Heat {
     std::array<int, 2> inner{};  ///< slots
     std::array<double, 2> by_inner{};
     double end = 0;  ///< T at the end of the step, from the scene's, K
+    /// Inside of a face that holds: the node of the first row at or beyond it, a slot; −1: this is no such
+    /// node.
+    int across = -1;
   };
   /// Of a surface: its jump, and what drives it.
   struct Jump {
@@ -95,6 +98,7 @@ class Heat {
   void cross(State<Dim>& state, const Contact<Dim>& contact, double dt);
   void list_nodes(const State<Dim>& state);
   void mirror(const State<Dim>& state, Fed& fed) const;
+  void let_through(State<Dim>& state, const Fed& fed, double dt);
   /// What areas want beside a section: 2π r about an axis, m; else 1.
   static double around(const State<Dim>& state, const NodeIndex<Dim>& node) {
     return state.depth == Depth::hoop ? kFullTurn * (state.grid.origin[0] + node[0] * state.grid.cell) : 1;
@@ -113,6 +117,7 @@ class Heat {
   void feed(State<Dim>& state, double t, double dt);
   void end(State<Dim>& state, double t, double dt);
   void filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Contact<Dim>& contact);
+  bool holds(const Fed& fed) const { return fed.across < 0 && holds(fed.condition); }
   bool holds(int condition) const {
     return scene_->heat.conditions[static_cast<std::size_t>(condition)].kind ==
            HeatConditionSpec::Kind::temperature;

@@ -141,9 +141,13 @@ void plan_heat(const Scene& scene, Plan& plan) {
   if (scene.heat.filter_order > 0)
     for (Nodal q : {Nodal::temperature_filter, Nodal::temperature_series}) plan.nodal_columns.push_back(q);
   const auto& conditions = scene.heat.conditions;
-  const bool fed = std::any_of(conditions.begin(), conditions.end(), [](const HeatConditionSpec& condition) {
-    return condition.kind != HeatConditionSpec::Kind::temperature;
-  });
+  const auto any = [&](bool held) {
+    return std::any_of(conditions.begin(), conditions.end(), [&](const HeatConditionSpec& condition) {
+      return (condition.kind == HeatConditionSpec::Kind::temperature) == held && (condition.face || !held);
+    });
+  };
+  const bool fed = any(false);
+  if (any(true)) plan.nodal_columns.push_back(Nodal::conducting_surface);
   const auto conducts = [](const SurfaceLaw& law) {
     return law.conductance.touching > 0 || law.conductance.gap > 0;
   };

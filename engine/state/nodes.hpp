@@ -37,10 +37,11 @@ enum class Nodal {
   heat_slope,          ///< Σ S_pi M_p c g_p, g = ∇T
   temperature,         ///< T_i, held where conditions hold it
   heat_flow,           ///< heat that comes to a node, W; then what that warms it in a step, K
+  conducting_surface,  ///< Σ G_pi V_p k: where what conducts ends
   temperature_filter,  ///< (I − B)ᵏT of the filter of temperatures
   temperature_series,  ///< their sum
 };
-inline constexpr int kNodalQuantities = 23;
+inline constexpr int kNodalQuantities = 24;
 
 struct NodalInfo {
   Nodal quantity;
@@ -72,6 +73,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::heat_slope, "heat_slope", true, false, "heat"},
     {Nodal::temperature, "temperature", false, false, "heat"},
     {Nodal::heat_flow, "heat_flow", false, false, "heat"},
+    {Nodal::conducting_surface, "conducting_surface", true, false, "faces that hold a temperature"},
     {Nodal::temperature_filter, "temperature_filter", false, false, "heat that is filtered"},
     {Nodal::temperature_series, "temperature_series", false, false, "heat that is filtered"},
 }};

@@ -227,7 +227,10 @@ class BasisPasses final : public Passes<Dim> {
     NodeColumns<Dim + 2> content;
     content.column[0] = nodes.column(Nodal::heat_capacity);
     set_led(nodes, content.column + 1);
-    const NodeColumns<1> flow = nodes.template columns<1>(Nodal::heat_flow);
+    NodeColumns<1 + Dim> flow{{nodes.column(Nodal::heat_flow)}};
+    for (int d = 0; d < Dim; ++d)
+      flow.column[1 + d] =
+          nodes.has(Nodal::conducting_surface) ? nodes.column(Nodal::conducting_surface, d) : nullptr;
     scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
       project_heat_tile<Dim, Basis>(c, *room.heat, scale, content, flow);
     });

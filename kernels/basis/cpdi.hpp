@@ -122,12 +122,17 @@ struct CpdiBasis {
         }
         add_corners(value, sum);
         if constexpr (W != Wanted::gradients) store_lanes(&out.value[n][k], sum[0] * mean);
-        if constexpr (W != Wanted::values)
+        if constexpr (W != Wanted::values) {
+          Lanes slope[Dim];
           for (int d = 0; d < Dim; ++d) {
-            Lanes slope = inverse[0][d] * sum[1];
-            for (int j = 1; j < Dim; ++j) slope += inverse[j][d] * sum[1 + j];
-            store_lanes(&out.gradient[d][n][k], slope);
+            slope[d] = inverse[0][d] * sum[1];
+            for (int j = 1; j < Dim; ++j) slope[d] += inverse[j][d] * sum[1 + j];
           }
+          if constexpr (Dim == 2)
+            store_pairs(out.slope[0][n][k], slope[0], slope[1]);
+          else
+            for (int d = 0; d < Dim; ++d) store_lanes(out.slope[d][n][k], slope[d]);
+        }
       }
     }
     return place_in_window<Dim, K>(first, g, out.first);

@@ -136,10 +136,9 @@ struct SeparableBasis {
         const Lanes node = Function::first_node(r);
         store_lanes(&first[d][k], node);
         Function::weights(r - node, g.half_size[d] * g.inverse_cell, value, slope);
-        for (int i = 0; i < K; ++i) {
-          store_lanes(&out.value[d][i][k], value[i]);
-          if constexpr (W != Wanted::values) store_lanes(&out.slope[d][i][k], slope[i] * g.inverse_cell);
-        }
+        for (int i = 0; i < K; ++i)
+          store_pairs(out.factor[d][i][k], value[i],
+                      W == Wanted::values ? Lanes{} : slope[i] * g.inverse_cell);
       }
     return place_in_window<Dim, K>(first, g, out.first);
   }

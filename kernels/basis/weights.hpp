@@ -42,44 +42,53 @@ inline constexpr int kSortedOffset = Basis::kMaxSupport <= kWindowSide - kTileSi
 /// window_offset(n).
 template <int Dim, int K>
 struct ChunkWeights {
-  static constexpr int kNodes = power(K, Dim);
+  static constexpr int kDim = Dim, kSide = K, kNodes = power(K, Dim);
+  static constexpr bool kProducts = false;
   int first[kChunk<Dim>];
-  alignas(64) Real value[kNodes][kChunk<Dim>];          ///< S_pi
-  alignas(64) Real gradient[Dim][kNodes][kChunk<Dim>];  ///< G_pi, 1/m
+  alignas(64) Real value[kNodes][kChunk<Dim>];  ///< S_pi
+  /// G_pi, 1/m; in 2-D ∂/∂x and ∂/∂y of a particle side by side: sums want both at once.
+  alignas(64) Real slope[Dim == 2 ? 1 : Dim][kNodes][kChunk<Dim>][Dim == 2 ? 2 : 1];
+
+  Real gradient(int d, int n, int k) const { return Dim == 2 ? slope[0][n][k][d] : slope[d][n][k][0]; }
 
   double value_at(int n, int k) const { return value[n][k]; }
-  double gradient_at(int d, int n, int k) const { return gradient[d][n][k]; }
+  double gradient_at(int d, int n, int k) const { return gradient(d, n, k); }
 };
 
 /// The same of weights that are products of one-dimensional functions, S_pi = Π_d N_d: the factors alone.
 /// Sums over the nodes are then taken direction after direction (transfer/sums.hpp).
 template <int Dim, int K>
 struct ProductWeights {
-  static constexpr int kNodes = power(K, Dim);
+  static constexpr int kDim = Dim, kSide = K, kNodes = power(K, Dim);
+  static constexpr bool kProducts = true;
   int first[kChunk<Dim>];
-  alignas(64) Real value[Dim][K][kChunk<Dim>];  ///< N_d on the K nodes along d
-  alignas(64) Real slope[Dim][K][kChunk<Dim>];  ///< its derivative, 1/m
+  /// N_d on the K nodes along d and its derivative, 1/m, side by side: sums want both of a particle at once.
+  alignas(64) Real factor[Dim][K][kChunk<Dim>][2];
+
+  Real value(int d, int i, int k) const { return factor[d][i][k][0]; }
+  Real slope(int d, int i, int k) const { return factor[d][i][k][1]; }
 
   double value_at(int n, int k) const {
     double product = 1;
-    for (int d = 0; d < Dim; ++d, n /= K) product *= value[d][n % K][k];
+    for (int d = 0; d < Dim; ++d, n /= K) product *= value(d, n % K, k);
     return product;
   }
   double gradient_at(int along, int n, int k) const {
     double product = 1;
-    for (int d = 0; d < Dim; ++d, n /= K) product *= d == along ? slope[d][n % K][k] : value[d][n % K][k];
+    for (int d = 0; d < Dim; ++d, n /= K) product *= factor[d][n % K][k][d == along];
     return product;
   }
 };
 
-/// Index of the n-th node (x fastest) of a K-cube within the window, relative to its first node.
-template <int Dim, int K>
+/// Index of the n-th node (x fastest) of a K-cube within the window, relative to its first node; or within
+/// another cube of nodes.
+template <int Dim, int K, int Side = kWindowSide>
 constexpr int window_offset(int n) {
   int offset = 0, stride = 1;
   for (int d = 0; d < Dim; ++d) {
     offset += (n % K) * stride;
     n /= K;
-    stride *= kWindowSide;
+    stride *= Side;
   }
   return offset;
 }

@@ -188,9 +188,10 @@ template <int Dim, class V>
   for (int i = 0; i < Dim * Dim; ++i) f[i] = g[i];
 }
 
-/// F ← (I + Δt L [+ ½ Δt² L²]) F, exp(Δt L) F or (I − Δt L)⁻¹ F.
+/// F ← (I + Δt L [+ ½ Δt² L²]) F, exp(Δt L) F or (I − Δt L)⁻¹ F. (Always inline, as deform.)
 template <int Dim, class V>
-inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms, V (&f)[Dim * Dim]) {
+[[gnu::always_inline]] inline void advance_deformation(const V (&l)[Dim * Dim], double dt, int terms,
+                                                       V (&f)[Dim * Dim]) {
   if (terms == kAllTerms) return advance_by_exponential<Dim>(l, dt, f);
   V a[Dim * Dim];
   deformation_increment<Dim>(l, dt, terms, a);

@@ -70,6 +70,18 @@ inline void store_lanes(float* p, Lanes v) {
   std::memcpy(p, &rounded, sizeof rounded);
 }
 
+/// a and b by turns: a₀, b₀, a₁, b₁ ….
+template <class Number>
+inline void store_pairs(Number* p, Lanes a, Lanes b) {
+  const auto half = [&]<int... I>(int from, std::integer_sequence<int, I...>) {
+    return from == 0 ? __builtin_shufflevector(a, b, (I / 2 + I % 2 * kLanes)...)
+                     : __builtin_shufflevector(a, b, (kLanes / 2 + I / 2 + I % 2 * kLanes)...);
+  };
+  const auto lanes = std::make_integer_sequence<int, kLanes>();
+  store_lanes(p, half(0, lanes));
+  store_lanes(p + kLanes, half(1, lanes));
+}
+
 /// Whole numbers as int.
 inline void store_indices(int* p, Lanes v) {
   using Indices = int __attribute__((vector_size(4 * kLanes)));

@@ -34,12 +34,12 @@ inline void scatter_linear(const ProductWeights<Dim, K>& w, int k, Record a, con
   Record plane = a, along_y = a;
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, Record* row) {
     if (y == 0) along_y = plane;
-    const Real weight = (Dim == 3 ? w.value[Dim - 1][z][k] : Real{1}) * w.value[1][y][k];
+    const Real weight = (Dim == 3 ? w.value(Dim - 1, z, k) : Real{1}) * w.value(1, y, k);
     Record node = weight * along_y;
     const Record step = weight * b[0];
 #pragma GCC unroll 4
     for (int x = 0; x < K; ++x) {
-      row[x] += w.value[0][x][k] * node;
+      row[x] += w.value(0, x, k) * node;
       node += step;
     }
     along_y += b[1];
@@ -53,11 +53,11 @@ inline void gather_moments(const ProductWeights<Dim, K>& w, int k, const R* wind
   for (auto& o : out) o = R{};
   R plane{};
   detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, const R* row) {
-    const Real weight = (Dim == 3 ? w.value[Dim - 1][z][k] : Real{1}) * w.value[1][y][k];
-    R sum = w.value[0][0][k] * row[0], moment{};
+    const Real weight = (Dim == 3 ? w.value(Dim - 1, z, k) : Real{1}) * w.value(1, y, k);
+    R sum = w.value(0, 0, k) * row[0], moment{};
 #pragma GCC unroll 4
     for (int x = 1; x < K; ++x) {
-      const R share = w.value[0][x][k] * row[x];
+      const R share = w.value(0, x, k) * row[x];
       sum += share;
       moment += static_cast<Real>(x) * share;
     }

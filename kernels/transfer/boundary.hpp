@@ -2,6 +2,8 @@
 
 /// @file Boundary points beside the other particles: what pushes them, and what they leave to the grid.
 
+#include <cstring>
+
 #include "kernels/transfer/project.hpp"
 
 namespace mpmfast {
@@ -58,17 +60,18 @@ void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const
           const std::uint32_t p = begin + static_cast<std::uint32_t>(k);
           const Record settled = gather_values(w, k, grid.at[0]);
           const Vec<Dim>& force = force_of(run, p);
-          typename Given::Node gives[Given::kRecords]{};
-          const auto give = [&](int e, double value) {
-            gives[e / Given::kPerNode][e % Given::kPerNode] = static_cast<Real>(value);
-          };
+          alignas(typename Given::Node) Real gives[Given::kRecords * Given::kPerNode] = {};
           for (int d = 0; d < Dim; ++d) {
             const double excess = particles.mass[p] * (particles.velocity[d][p] - settled[d]);
-            give(d, -excess);
-            give(Dim + d, excess / dt + force[d]);
+            gives[d] = static_cast<Real>(-excess);
+            gives[Dim + d] = static_cast<Real>(excess / dt + force[d]);
             particles.velocity[d][p] = settled[d];
           }
-          for (int r = 0; r < Given::kRecords; ++r) scatter_values(w, k, gives[r], given.at[r]);
+          for (int r = 0; r < Given::kRecords; ++r) {
+            typename Given::Node record;
+            std::memcpy(&record, gives + r * Given::kPerNode, sizeof record);
+            scatter_values(w, k, record, given.at[r]);
+          }
         }
       });
   flush_window(given, *c.tile, out);

@@ -25,7 +25,8 @@ struct HeatRoom {
   WeightRoom<Dim, Basis> weights;
   Window<Dim, Dim + 2> content;
   Window<Dim, Dim + 1> filtered;
-  Window<Dim, 1> flow, temperature;
+  Window<Dim, 1 + Dim> flow;
+  Window<Dim, 1> temperature;
   Window<Dim, 3> update;
 };
 
@@ -75,10 +76,10 @@ inline void lead(const TileContext<Dim>& c, std::uint32_t q, double capacity, do
 
 /// One tile.
 /// @param content  Nodal::heat_capacity, heat_content, heat_slope, J/K, J, J/m; accumulated
-/// @param flow     Nodal::heat_flow by conduction, W; accumulated
+/// @param flow     Nodal::heat_flow by conduction, W, and conducting_surface, W/K; accumulated
 template <int Dim, class Basis>
 void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, HeatScale scale,
-                       const NodeColumns<Dim + 2>& content, const NodeColumns<1>& flow) {
+                       const NodeColumns<Dim + 2>& content, const NodeColumns<1 + Dim>& flow) {
   const ParticleView<Dim>& p = *c.particles;
   clear(room.content);
   clear(room.flow);
@@ -95,9 +96,14 @@ void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, He
                                  if (heat.conductivity == 0) continue;
                                  const double conducts = -detail::current_volume(p, q) * heat.conductivity;
                                  Record along[Dim];
-                                 for (int d = 0; d < Dim; ++d)
+                                 for (int d = 0; d < Dim; ++d) {
                                    along[d] = Record{static_cast<Real>(conducts * slope(d))};
-                                 scatter_gradients(w, k, along, room.flow.at[0]);
+                                   along[d][1 + d] = static_cast<Real>(-conducts);
+                                 }
+                                 Record hoop{};  // sections of rings grow with r: that is no surface
+                                 if (Dim == 2 && p.depth == Depth::hoop)
+                                   hoop[1] = static_cast<Real>(-conducts / p.position[0][q]);
+                                 scatter(w, k, hoop, along, room.flow.at[0]);
                                }
                              });
   flush_window(room.content, *c.tile, content);

@@ -55,7 +55,7 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         detail::stack_inertia(*c.particles, begin, count, room.record);
-        for_each_apart(count, [&](int k) { scatter_values(w, k, room.record[k], room.mass_momentum.at[0]); });
+        scatter_chunk_values(w, count, room.record, room.mass_momentum.at[0]);
       });
   if (inside) end_sums(c, room.mass_momentum, out);
   return inside;
@@ -77,16 +77,16 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
         detail::stack_inertia(p, begin, count, room.inertia);
         stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
                      single ? &room.inertia : room.stress);
-        for_each_apart(count, [&](int k) {
-          if constexpr (single) {
-            scatter_pairs(w, k, room.inertia[k], at[0]);
-          } else if constexpr (wide) {
+        if constexpr (single) {
+          scatter_chunk_pairs(w, count, room.inertia, at[0]);
+        } else if constexpr (wide) {
+          for_each_apart(count, [&](int k) {
             scatter(w, k, room.inertia[k], {room.stress[0][k], room.stress[1][k], room.stress[2][k]}, at[0]);
-          } else {
-            scatter_values(w, k, room.inertia[k], at[0]);
-            scatter_stress<Dim>(w, k, room.stress, at[1]);
-          }
-        });
+          });
+        } else {
+          scatter_chunk_values(w, count, room.inertia, at[0]);
+          scatter_stress<Dim>(w, count, room.stress, at[1]);
+        }
       });
   if (inside) end_sums(c, room.load, out);
   return inside;

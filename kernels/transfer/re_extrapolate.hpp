@@ -60,19 +60,21 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
           stack<Dim>(count, room.record, 0,
                      [&](int d, int k) { return detail::load_row(p.velocity[d] + begin + k); });
         if (weighs_pressed) find_pressed(p, begin, count, room.pressed);
-        for_each_apart(count, [&](int k) {
+        for (int k = 0; k < count; ++k) {
           const auto m = static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]);
           Record v = gather_values(w, k, room.in.at[0]);
           if (velocity == ParticleUpdate::flip) v += room.record[k];
           if constexpr (Basis::kSpread > 0) {
             if (velocity == ParticleUpdate::apic) {
               scatter_affine<Dim, Basis>(c, run, w, begin, count, k, m, v, room.in.at[0], room.out.at[0]);
-              return;
+              continue;
             }
           }
           if (weighs_pressed) v[Dim] = static_cast<Real>(room.pressed[k]);
-          scatter_values(w, k, m * v, room.out.at[0]);
-        });
+          room.record[k] = m * v;
+        }
+        if (Basis::kSpread > 0 && velocity == ParticleUpdate::apic) return;
+        scatter_chunk_values(w, count, room.record, room.out.at[0]);
       });
   end_sums(c, room.out, out);
 }

@@ -43,7 +43,7 @@ inline void unstack_pairs(const R* in, int count, int quad, Room& room) {
 template <int Dim, class Weights, class Room>
 inline void gather_velocity_gradient(const Weights& w, int count, const Record* velocity, Room& room) {
   if constexpr (Dim == 2) {
-    for (int k = 0; k < count; ++k) room.row[0][k] = gather_pairs(w, k, velocity);
+    gather_chunk_pairs(w, count, velocity, room.row[0]);
     unstack_pairs(room.row[0], count, 0, room);
   } else {
     for (int k = 0; k < count; ++k) {
@@ -60,7 +60,7 @@ template <int Dim, class Weights, class Room>
 inline void scatter_force(const ParticleView<Dim>& p, const ChunkStress<Dim>& stress, const Weights& w,
                           std::uint32_t begin, int count, Room& room) {
   stack_stress(p, stress, begin, count, 0, room.row);
-  for_each_apart(count, [&](int k) { scatter_stress<Dim>(w, k, room.row, room.force.at[0]); });
+  scatter_stress<Dim>(w, count, room.row, room.force.at[0]);
 }
 
 /// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The

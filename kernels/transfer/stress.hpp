@@ -23,13 +23,15 @@ inline void stack_stress(const ParticleView<Dim>& p, const ChunkStress<Dim>& of,
     });
 }
 
-/// window_i += Σ_d G_pi,d (row d of the staged stress of particle k).
+/// window_i += Σ_p Σ_d G_pi,d (row d of the staged stress of particle p of a chunk).
 template <int Dim, class Weights>
-inline void scatter_stress(const Weights& w, int k, const Record (*stress)[kChunk<Dim>], Record* window) {
+inline void scatter_stress(const Weights& w, int count, const Record (*stress)[kChunk<Dim>], Record* window) {
   if constexpr (Dim == 2)
-    scatter_pairs(w, k, stress[0][k], window);
+    scatter_chunk_pairs(w, count, stress[0], window);
   else
-    scatter_gradients(w, k, {stress[0][k], stress[1][k], stress[2][k]}, window);
+    for_each_apart(count, [&](int k) {
+      scatter_gradients(w, k, {stress[0][k], stress[1][k], stress[2][k]}, window);
+    });
 }
 
 }  // namespace mpmfast

@@ -70,7 +70,7 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
   constexpr int last = Window<2, NC>::kRecords - 1, pairs = 4 / Window<2, NC>::kPerNode;
   for (int r = 0; r <= last; ++r)
     if (gradient && r == pairs)
-      for (int k = 0; k < count; ++k) from.value[r][k] = gather_pairs(w, k, from.window.at[r]);
+      gather_chunk_pairs(w, count, from.window.at[r], from.value[r]);
     else
       for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   unstack<2, 4>(from.value[0], count, room.value);

@@ -1,5 +1,6 @@
 // Faces that hold a temperature, wherever they cut the cells.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -53,6 +54,32 @@ TEST_CASE("a straight line of temperatures goes on through held faces, wherever 
           beyond += line(x) > 400.001 || line(x) < 299.999;
         }
       CHECK((beyond > 0 || cut == 0));
+    }
+}
+
+/// By conduction and through the faces, in whose cells the slab ends. (Linear functions: while a particle
+/// lies in those.)
+TEST_CASE("a slab between held faces comes to rest with a straight line of temperatures, wherever they cut") {
+  for (const char* basis : bases())
+    for (const double cut : {0.0, 0.2, 0.45, 0.8, 0.95}) {
+      if (basis == std::string("linear") && cut > 0.5) continue;
+      CAPTURE(std::string(basis));
+      CAPTURE(cut);
+      const double from = 2 + cut, to = from + 9.5;
+      const Scene scene = slab(from, to, basis);
+      const auto line = [&](double x) { return 400 - 100 * (1e3 * x - from) / (to - from); };
+      Step<2> step(scene);
+      const auto worst = [&] {
+        const auto& particles = step.state().particles;
+        double most = 0;
+        for (std::size_t p = 0; p < particles.size(); ++p)
+          most = std::max(most, std::abs(particles.column(Quantity::temperature)[p] -
+                                         line(particles.column(Quantity::position, 0)[p])));
+        return most;
+      };
+      REQUIRE(worst() > 40);
+      for (int k = 0; k < 1500; ++k) step.advance(step.stable_dt());
+      CHECK(worst() < 1e-6);
     }
 }
 

@@ -121,6 +121,29 @@ void check_sums(const Weights<Dim, K>& w, int k, Draw& draw) {
   }
 }
 
+/// A chunk is the sum of its particles; some that follow each other lie in one cell, others do not.
+template <class R, int Dim, int K, template <int, int> class Weights>
+void check_chunk(const Weights<Dim, K>& w, int count, Draw& draw) {
+  std::vector<R> field(kWindowNodes<Dim>), a(static_cast<std::size_t>(count)), out = a;
+  for (R& node : field) node = random_record<R>(draw);
+  for (R& one : a) one = random_record<R>(draw);
+  const auto check_scatter = [&](auto chunk, auto one) {
+    std::vector<R> window = field, expected = field;
+    chunk(window.data());
+    for (int k = 0; k < count; ++k) one(k, a[static_cast<std::size_t>(k)], expected.data());
+    for (std::size_t i = 0; i < window.size(); ++i) REQUIRE(difference(window[i], expected[i]) < kTolerance);
+  };
+  check_scatter([&](R* window) { scatter_chunk_values(w, count, a.data(), window); },
+                [&](int k, R one, R* window) { scatter_values(w, k, one, window); });
+  if constexpr (Dim == 2) {
+    check_scatter([&](R* window) { scatter_chunk_pairs(w, count, a.data(), window); },
+                  [&](int k, R one, R* window) { scatter_pairs(w, k, one, window); });
+    gather_chunk_pairs(w, count, field.data(), out.data());
+    for (int k = 0; k < count; ++k)
+      CHECK(difference(out[static_cast<std::size_t>(k)], gather_pairs(w, k, field.data())) < kTolerance);
+  }
+}
+
 template <int Dim, class Basis>
 void check_basis() {
   Draw draw(7);
@@ -131,6 +154,10 @@ void check_basis() {
   for (int k = 0; k < Cloud<Dim>::kCount; ++k) {
     check_sums<Record>(room->narrow, k, draw);
     check_sums<WideRecord>(room->wide, k, draw);
+  }
+  for (int count : {1, 2, Cloud<Dim>::kCount}) {
+    check_chunk<Record>(room->narrow, count, draw);
+    check_chunk<WideRecord>(room->wide, count, draw);
   }
 }
 
