@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/contact/nodal/fit.hpp"
@@ -318,13 +319,13 @@ class BasisPasses final : public Passes<Dim> {
   void scatter_tiles(State<Dim>& state, F f) {
     const ParticleView<Dim> view = state.view();
     const auto& colours = state.tiling.colours;
-    for (std::size_t c = 0; c < colours.size(); ++c)
-      shares_[c].cut(state.threads, static_cast<std::int64_t>(colours[c].size()), 1);
+    for (std::size_t colour = 0; colour < colours.size(); ++colour)
+      shares_[colour].cut(state.threads, static_cast<std::int64_t>(colours[colour].size()), 1);
     on_threads(state.threads, [&](const Member& me) {
       Room& room = *rooms_[static_cast<std::size_t>(me.thread)];
-      for (std::size_t c = 0; c < colours.size(); ++c) {
-        shares_[c].for_each(me.thread, [&](std::int64_t k) {
-          const Strip& strip = colours[c][static_cast<std::size_t>(k)];
+      for (std::size_t colour = 0; colour < colours.size(); ++colour) {
+        shares_[colour].for_each(me.thread, [&](std::int64_t k) {
+          const Strip& strip = colours[colour][static_cast<std::size_t>(k)];
           const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
           TileContext<Dim> c = context(state, view, strip.begin);
