@@ -46,6 +46,14 @@ inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int c
 
 }  // namespace detail
 
+/// What mass and momentum are made of.
+template <int Dim>
+[[gnu::always_inline]] inline void fetch_inertia(const ParticleView<Dim>& p, std::uint32_t end, int count) {
+  fetch_ahead(p.position, Dim, end, count);
+  fetch_ahead(p.velocity, Dim, end, count);
+  fetch_ahead(&p.mass, 1, end, count);
+}
+
 /// Nodal mass and momentum of one tile (N20 Eq. 5): m_i = Σ S_pi M_p, p_i = Σ S_pi M_p V_p.
 /// @param out  mass, momentum; accumulated
 /// @return     false if the tile must be sorted anew (out is then untouched)
@@ -54,6 +62,7 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
   begin_sums(c, room.mass_momentum);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        fetch_inertia(*c.particles, begin + static_cast<std::uint32_t>(count), count);
         detail::stack_inertia(*c.particles, begin, count, room.record);
         scatter_chunk_values(w, count, room.record, room.mass_momentum.at[0]);
       });
@@ -74,6 +83,10 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
   begin_sums(c, room.load);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+        const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
+        fetch_inertia(p, end, count);
+        fetch_ahead(p.stress, kSymmetric<Dim>, end, count);
+        fetch_ahead(&p.volume, 1, end, count);
         detail::stack_inertia(p, begin, count, room.inertia);
         stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
                      single ? &room.inertia : room.stress);

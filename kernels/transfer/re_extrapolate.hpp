@@ -56,6 +56,13 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+        if constexpr (Dim == 3) {
+          const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
+          fetch_ahead(p.position, Dim, end, count);
+          if (velocity == ParticleUpdate::flip) fetch_ahead(p.velocity, Dim, end, count);
+          if (weighs_pressed) fetch_ahead(p.deformation, Dim * Dim, end, count);
+          fetch_ahead(&p.mass, 1, end, count);
+        }
         if (velocity == ParticleUpdate::flip)
           stack<Dim>(count, room.record, 0,
                      [&](int d, int k) { return detail::load_row(p.velocity[d] + begin + k); });

@@ -101,6 +101,12 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
   begin_sums(c, room.force);
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+                               if constexpr (Dim == 3) {
+                                 const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
+                                 fetch_ahead(p.position, Dim, end, count);
+                                 fetch_ahead(p.deformation, Dim * Dim, end, count);
+                                 fetch_ahead(&p.volume, 1, end, count);
+                               }
                                ChunkStress<Dim> stress = stress_columns(p, begin);
                                if (dt_strain > 0) {
                                  gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);

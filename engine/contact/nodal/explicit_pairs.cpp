@@ -76,7 +76,6 @@ PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction corr
           return resolve_pair<Dim>(touching.stick[0], p.normal, -1.0, law, 1 / p.inverse_mass, p.area_time);
         },
         *touching.law[0]);
-    p.slip = p.jump - p.inverse_mass * p.impulse;
   } else {
     const auto &one = *touching.entry[0], &two = *touching.entry[1];
     const bool same = one.a == two.a || one.b == two.b, crossed = one.a == two.b || one.b == two.a;
