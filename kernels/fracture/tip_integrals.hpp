@@ -7,9 +7,10 @@
 ///
 ///   J = ∫ [(σ_ij u_i,k − (W + T) δ_jk) q_k,j + ρ (a_i u_i,k − v_i v_i,k) q_k] dA − ∫ t_i [u_i],k q_k ds,
 ///
-/// T = ρ v²/2, a what stresses accelerate, t the traction on one side and [u] what that is ahead of the other
-/// (Nakamura, Shih and Freund 1985). On each circle about the tip q is the direction that the crack has where
-/// it crosses that: so it lies along the sides of a crack that bends, and these add nothing else.
+/// T = ρ v²/2, v best from that of the material at the tip (J is the same for whoever flies along, sums over
+/// particles are not), a what stresses accelerate, t the traction on one side and [u] what that is ahead of
+/// the other (Nakamura, Shih and Freund 1985). On each circle about the tip q is the direction that the crack
+/// has where it crosses that: so it lies along the sides of a crack that bends, and these add nothing else.
 ///
 /// Both jumps grow as √r behind a tip, so that K_I : K_II = δ_n : δ_t however far one looks, and a crack that
 /// is pressed closed has none of mode I.
