@@ -77,8 +77,10 @@ TEST_CASE("grains pressed until many jam on a node keep their energy") {
     return energy_error("hard/grains.yaml",
                         {{"bodies.0.bitmap", "grains_6.png"}, {"contact.friction", friction}});
   };
-  CHECK(std::abs(error("0.2")) < 0.005);  // measured -0.04 %; with pairs that did not settle +18 %
-  CHECK(std::abs(error("0")) < 0.015);    // -1.1 %; the other packings -0.1 to -1.1
+  // Such grains forget how they began: time steps that differ by 1e-7 give -1.2 to 0.5 %, ten of them -0.3 %
+  // in the mean. With pairs that did not settle +18 %.
+  CHECK(std::abs(error("0.2")) < 0.02);
+  CHECK(std::abs(error("0")) < 0.015);  // -1.1 %; the other packings -0.1 to -1.1
 }
 
 TEST_CASE("what pairs lose as they part falls with the cell") {
