@@ -95,7 +95,7 @@ TEST_CASE(
   }
 }
 
-/// Faster than .75 cells a step some particles come to cells whose nodes had no mass.
+/// Velocities count from that at the tip: what all share drives nothing.
 TEST_CASE("nothing drives a crack in a body that flies without strain, whatever the basis and however fast") {
   for (const char* basis : {"linear", "ugimp", "bspline2"})
     for (const Point& speed : {Point{10, 0}, Point{7, 7}, Point{-40, 25}}) {
