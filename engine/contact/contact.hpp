@@ -8,10 +8,12 @@
 #include "engine/contact/cracks/cracks.hpp"
 #include "engine/contact/fitter.hpp"
 #include "engine/contact/nodal/list.hpp"
+#include "engine/contact/nodal/motion.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
+#include "kernels/contact/nodes_together.hpp"
 #include "kernels/contact/resolve_pair.hpp"
 #include "kernels/contact/set_rule.hpp"
 #include "kernels/contact/together.hpp"
@@ -181,7 +183,8 @@ class Contact {
                    Vec<Dim>& end) const;
   double stored_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
-  void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node) const;
+  void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node,
+             NodeMotion<Dim>& motion) const;
   struct Total {
     double mass = 0;
     Vec<Dim> momentum = Vec<Dim>::Zero();
@@ -194,21 +197,37 @@ class Contact {
   /// A pair of a node that may have an impulse while all of them are solved together.
   struct Acting {
     ContactEntry<Dim>* entry;
-    double area_time;  ///< A_c Δt, m² s, for laws that use the area
-    bool in_set;       ///< the step's one set: by its rule
+    double reduced;        ///< kg
+    double area_time = 0;  ///< A_c Δt, m² s, for laws that use the area
+    bool in_set;           ///< the step's one set: by its rule
     SetRule<Dim> rule;
+    Coulomb friction;  ///< where that is its law
+  };
+  /// Nodes of so many fields that wait to be solved together, in lanes.
+  template <int kFields>
+  struct Waiting {
+    NodesTogether<Dim, kFields> solver;
+    std::array<const ContactNode<Dim>*, kLanes> nodes;
   };
   /// What one thread solves the pairs of a node in.
   struct alignas(64) Together {
+    NodeMotion<Dim> motion;
+    std::vector<Vec<Dim>> velocities;  ///< of its fields, along what conditions leave free, m/s
     ContactsTogether<Dim> solver;
-    std::vector<Acting> acting;    ///< as the solver's contacts
+    std::vector<Acting> acting;  ///< as the solver's contacts
+    Waiting<3> of_three;
+    Waiting<4> of_four;
     std::vector<Vec<Dim>> pulled;  ///< impulses of springs on the node's fields, N s
   };
-  void find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
-                   std::vector<MovingField<Dim>>& fields) const;
   template <class Laws>
   void find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                    const ContactNode<Dim>& node, Together& together);
+  bool is_rigid(const State<Dim>& state, const ContactNode<Dim>& node, int k) const {
+    const int field = list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
+    return state.field_rigid[static_cast<std::size_t>(field)];
+  }
+  void pose(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node,
+            Together& together) const;
   template <class Laws>
   void finish(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
               const Together& together) const;
@@ -216,8 +235,14 @@ class Contact {
   void with_law(const Laws& laws, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry, F f) const;
   int law_between(const ListedEntry<Dim>& entry, const ContactNode<Dim>& node, int other) const;
   template <class Laws>
-  bool resolve_together(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
-                        const ContactNode<Dim>& node);
+  bool resolve_together(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+                        Together& together) const;
+  template <int kFields>
+  void put_in_lane(const State<Dim>& state, const Together& together, const ContactNode<Dim>& node,
+                   Waiting<kFields>& waiting) const;
+  template <int kFields>
+  void finish_lane(Correction correction, const ContactNode<Dim>& node,
+                   const NodesTogether<Dim, kFields>& solver, int lane);
   template <class Law>
   Demand<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                          Correction correction, const Law& law, double area_time) const;
@@ -233,16 +258,16 @@ class Contact {
   bool both_ways(const ContactEntry<Dim>& entry, Correction correction) const;
   bool holds_slip(const ContactEntry<Dim>& entry, Correction correction) const;
   Vec<Dim> free_part(const ContactNode<Dim>& node, const Vec<Dim>& x) const;
-  Vec<Dim> slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                   const ContactEntry<Dim>& entry) const;
-  void see_slips(const State<Dim>& state, const ContactNode<Dim>& node);
+  void read_motion(const State<Dim>& state, const ContactNode<Dim>& node, NodeMotion<Dim>& motion) const;
+  Vec<Dim> slip_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                   const NodeMotion<Dim>& motion) const;
+  void see_slips(const ContactNode<Dim>& node, const NodeMotion<Dim>& motion);
   void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
-  bool touches_on(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
-                  const Vec<Dim>& slip) const;
-  double spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                   const ContactEntry<Dim>& entry) const;
+  bool touches_on(const ContactEntry<Dim>& entry, double mass, const Vec<Dim>& slip) const;
+  double spring_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
+                   const NodeMotion<Dim>& motion) const;
   double force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const;
-  void settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node);
+  void settle(Correction correction, const ContactNode<Dim>& node, const NodeMotion<Dim>& motion);
   double friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const;
   void book_friction(const State<Dim>& state);
   std::size_t place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
@@ -272,6 +297,7 @@ class Contact {
   bool bridges_;                 ///< some law joins surfaces by springs
   bool bonds_;                   ///< some law joins them by bonds that break
   bool keeps_fits_;              ///< normals outlast a step
+  bool solves_in_lanes_;         ///< nodes of three and four fields, many at once
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;         ///< of the entries
   std::vector<int> field_begin_;            ///< by stack, into the list's fields

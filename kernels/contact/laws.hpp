@@ -245,6 +245,11 @@ inline Coulomb Cohesive::contact() const { return {friction, static_friction}; }
 using AnyLaw = std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhesion, VelocityFriction,
                             Viscous, Interface, NonlinearInterface, Cohesive>;
 
+/// Has a law no friction, or that of Coulomb, or is there no contact by it?
+template <class Law>
+inline constexpr bool kRubsDry =
+    std::is_same_v<Law, Coulomb> || std::is_same_v<Law, Frictionless> || std::is_same_v<Law, Ignore>;
+
 /// Does it join surfaces by springs or a bond?
 inline bool joins(const AnyLaw& law) {
   return std::visit([](const auto& one) { return one.scope == LawScope::bridged; }, law);

@@ -29,61 +29,6 @@ void Contact<Dim>::book(const State<Dim>& state) {
   }
 }
 
-/// v_a − v_b, b the others of a lump or the rigid body, m/s.
-template <int Dim>
-Vec<Dim> Contact<Dim>::slip_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                               const ContactEntry<Dim>& entry) const {
-  const double* mass = state.nodes.column(Nodal::mass);
-  const auto slot_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-  };
-  const auto momentum = [&](int k) { return state.nodes.vector(Nodal::momentum, slot_of(k)); };
-  const int other = entry.b >= 0 ? entry.b : node.rigid;
-  double mass_b = other >= 0 ? mass[slot_of(other)] : 0;
-  Vec<Dim> momentum_b = other >= 0 ? momentum(other) : Vec<Dim>(Vec<Dim>::Zero());
-  for (int k = 0; other < 0 && k < node.field_end - node.field_begin; ++k) {
-    if (k == entry.a) continue;
-    mass_b += mass[slot_of(k)];
-    momentum_b += momentum(k);
-  }
-  const Vec<Dim> slip = momentum(entry.a) / mass[slot_of(entry.a)] - momentum_b / mass_b;
-  return node.constrained ? free_part(node, slip) : slip;
-}
-
-/// What the slips are before the first correction.
-template <int Dim>
-void Contact<Dim>::see_slips(const State<Dim>& state, const ContactNode<Dim>& node) {
-  if (!one_set_ && !first_correction_stays_) return;
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    entry.slip_start = entry.slip_held = slip_of(state, node, entry);
-  }
-}
-
-/// What a correction leaves to know.
-template <int Dim>
-void Contact<Dim>::settle(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node) {
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const bool acts = !entry.impulse.isZero(0);
-    if (correction == Correction::initial) {
-      entry.first = entry.impulse;
-      entry.held = acts;
-      if (one_set_ || first_correction_stays_) entry.slip_held = slip_of(state, node, entry);
-    } else if (correction == Correction::final) {
-      entry.second = entry.impulse + entry.passed;
-      entry.touching = acts;
-      if (one_set_) {
-        entry.slip_pulled = slip_of(state, node, entry);
-        entry.touching = touches_on(state, node, entry, entry.slip_pulled);
-        entry.spring = spring_of(state, node, entry);
-      }
-    }
-    if (correction == (one_set_ && !first_correction_stays_ ? Correction::strain : Correction::final))
-      entry.slip_end = slip_of(state, node, entry);
-  }
-}
-
 /// What the particles lose by sliding, J: the tangential impulse on the mean of the slips that the strains of
 /// the step see, and what forces do to slips that strains do not see because the pair sticks. (Normal parts
 /// do no work: tools/manual/theory.md, "The energy of a contact".) Where each correction finds its pairs by

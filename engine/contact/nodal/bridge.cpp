@@ -262,17 +262,20 @@ double Contact<Dim>::stored_of(const AnyLaw& law, const ContactEntry<Dim>& entry
 /// hold.
 template <int Dim>
 void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
-  for (const auto& node : list_.nodes)
+  auto& motion = together_.front().motion;
+  for (const auto& node : list_.nodes) {
+    read_motion(state, node, motion);
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       auto& bridge = list_.bridges[static_cast<std::size_t>(e)];
       if (!bridge.acts) continue;
-      const Vec<Dim> from = bridge.jump, mean = 0.5 * (bridge.rate - slip_of(state, node, entry));
+      const Vec<Dim> from = bridge.jump, mean = 0.5 * (bridge.rate - slip_of(node, entry, motion));
       bridge.jump += dt * mean;
       bridge.friction_work = bridge.friction.dot(mean);
       if (const auto* law = bonds_ ? std::get_if<Cohesive>(&law_of(state, node, entry)) : nullptr)
         if (!bond_of(entry).follows()) end_bond(*law, from, bridge, bond_of(entry));
     }
+  }
   if (bonds_) carry_bonds(state, dt);
   books_.stored = books_.lost = 0;
   for (const auto& node : list_.nodes)

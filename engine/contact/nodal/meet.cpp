@@ -95,18 +95,6 @@ typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const
   return meeting;
 }
 
-/// The separation that decides on contact. Both corrections judge by where the free velocities take the
-/// surfaces: positions that follow the end velocity close a gap up to a touch and no further, so that the
-/// first correction, asked for an overlap now, would hardly ever act.
-template <int Dim>
-double Contact<Dim>::separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const {
-  double separation = entry.separation;
-  if (entry.touched) separation -= spec_.hysteresis * cell_;
-  if (spec_.advance_separation)
-    separation += meeting.stick.dot(entry.normal) * dt / meeting.reduced;  // NN Eq. 3.56
-  return separation;
-}
-
 /// Contact area of an entry, m² (of the scene's thickness in 2-D).
 ///
 /// volume_gradient: g = Σ G_pi V_p = ∫ N_i n dS over the surface of a field, so that g_a·n and −g_b·n are
@@ -145,57 +133,6 @@ void Contact<Dim>::judge(const ContactNode<Dim>& node) {
                   entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
     entry.closing = entry.lasts ? 0 : std::max(0.0, entry.separation) / dt_;
   }
-}
-
-/// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),
-/// T the time in which the fastest of all waves and motions crosses a cell. That is 2 h ε between bodies that
-/// are strained by ε, a layer of h on each side. A mean over some ten steps.
-template <int Dim>
-double Contact<Dim>::spring_of(const State<Dim>& state, const ContactNode<Dim>& node,
-                               const ContactEntry<Dim>& entry) const {
-  constexpr double kNew = 0.1;
-  const double* mass = state.nodes.column(Nodal::mass);
-  const auto mass_of = [&](int k) {
-    return mass[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];
-  };
-  const double own = mass_of(entry.a);
-  const bool on_rigid = node.rigid >= 0 && (entry.b < 0 || entry.b == node.rigid);
-  const double other = entry.b >= 0 ? mass_of(entry.b) : together(state, node).mass - own;
-  const double reduced = on_rigid ? own : own * other / (own + other);
-  const double pressed = std::max(0.0, -entry.second.dot(entry.normal));
-  const double now = 0.5 * pressed * crossing_ * crossing_ / (reduced * dt_);
-  return entry.touched ? entry.spring_before + kNew * (now - entry.spring_before) : now;
-}
-
-/// Is the pair held whichever way it goes?
-template <int Dim>
-bool Contact<Dim>::both_ways(const ContactEntry<Dim>& entry, Correction correction) const {
-  return correction != Correction::final && entry.lasts;
-}
-
-/// Is the slip of the pair held where friction is no force: has it stuck at the last step's second
-/// correction, or this one's? (With FLIP alone: XPIC's filter takes what particles slip of itself, and more
-/// of them that are held.)
-template <int Dim>
-bool Contact<Dim>::holds_slip(const ContactEntry<Dim>& entry, Correction correction) const {
-  if (!holds_sticking_) return false;
-  return correction == Correction::initial  ? entry.lasts && entry.stuck_before
-         : correction == Correction::strain ? entry.stuck
-                                            : false;
-}
-
-/// Does the second correction leave the pair of the set in contact: has it pressed, or did the first and no
-/// force pulls? Speeds of 1e-10 cells a step are round-off, which must not decide.
-/// @param slip  that it leaves
-template <int Dim>
-bool Contact<Dim>::touches_on(const State<Dim>& state, const ContactNode<Dim>& node,
-                              const ContactEntry<Dim>& entry, const Vec<Dim>& slip) const {
-  const double least = 1e-10 * cell_ / dt_;
-  const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + entry.a)].slot;
-  const double mass = state.nodes.column(Nodal::mass)[slot];
-  if (entry.impulse.dot(entry.normal) < -least * mass) return true;
-  if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
-  return entry.closing - slip.dot(entry.normal) <= least;
 }
 
 /// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within

@@ -8,6 +8,7 @@
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
+#include "engine/contact/nodal/correct.hpp"
 #include "engine/plan/contact_law.hpp"
 #include "engine/state/team.hpp"
 
@@ -60,6 +61,11 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& c
   for (const CrackSpec& crack : scene.cracks) laws_.push_back(law_on(crack.law, scene));
   bonds_ = bridges_ && std::any_of(laws_.begin(), laws_.end(),
                                    [](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); });
+  solves_in_lanes_ =
+      one_set_ && !bridges_ && scene.cracks.empty() &&
+      std::all_of(laws_.begin(), laws_.end(), [](const AnyLaw& law) {
+        return std::visit([](const auto& l) { return kRubsDry<std::decay_t<decltype(l)>>; }, law);
+      });
 }
 
 template <int Dim>
@@ -80,33 +86,73 @@ template <class Laws>
 void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
   std::atomic<std::uint64_t> all_solved{0}, all_lumped{0};
-  const auto visit = [&](const ContactNode<Dim>& node, std::uint64_t& solved, std::uint64_t& lumped) {
-    if (bridges_ && correction == Correction::final) bridge(state, dt, node);
-    if (correction == (first_correction_ ? Correction::initial : Correction::final)) {
-      see_slips(state, node);
-      judge(node);
-    }
-    auto outcome = PairOutcome::lump;
-    if (node.pair_begin < node.entry_end) {
-      outcome = resolve_pairs(state, correction, dt, node);
-      solved += outcome == PairOutcome::solved;
-      lumped += outcome == PairOutcome::lump;
-    }
-    if (spec_.fields == ManyFields::simultaneous && node.field_end - node.field_begin > 2) {
-      const bool settled = resolve_together(state, laws, correction, dt, node);
-      solved += settled;
-      lumped += !settled;
-    } else if (outcome == PairOutcome::lump) {
-      resolve_each(state, laws, correction, dt, node);
-    }
-    if (correction == Correction::final && one_set_) see_gaps(state, node);
-    apply(state, correction, dt, node);
-    settle(state, correction, node);
-  };
   for_each_stretch(n, state.threads, 64, [&](std::int64_t begin, std::int64_t end) {
     std::uint64_t solved = 0, lumped = 0;
-    for (std::int64_t k = begin; k < end; ++k)
-      visit(list_.nodes[static_cast<std::size_t>(k)], solved, lumped);
+    Together& together = together_[static_cast<std::size_t>(own_number())];
+    const auto finish_node = [&](const ContactNode<Dim>& node) {
+      if (correction == Correction::final && one_set_ && node.field_end - node.field_begin == 2)
+        see_gaps(state, node);
+      apply(state, correction, dt, node, together.motion);
+      settle(correction, node, together.motion);
+    };
+    const auto solve_alone = [&](const ContactNode<Dim>& node) {
+      pose(state, correction, node, together);
+      const bool settled = resolve_together(laws, correction, node, together);
+      solved += settled;
+      lumped += !settled;
+      finish_node(node);
+    };
+    const auto solve_waiting = [&](auto& waiting) {
+      const int count = waiting.solver.count();
+      const unsigned settled = waiting.solver.solve();
+      for (int lane = 0; lane < count; ++lane) {
+        const ContactNode<Dim>& node = *waiting.nodes[static_cast<std::size_t>(lane)];
+        read_motion(state, node, together.motion);
+        if (!(settled >> lane & 1)) {
+          find_acting(state, laws, correction, dt, node, together);
+          solve_alone(node);
+          continue;
+        }
+        ++solved;
+        finish_lane(correction, node, waiting.solver, lane);
+        finish_node(node);
+      }
+    };
+    const auto wait_in = [&](auto& waiting, const ContactNode<Dim>& node) {
+      put_in_lane(state, together, node, waiting);
+      if (waiting.solver.is_full()) solve_waiting(waiting);
+    };
+    for (std::int64_t k = begin; k < end; ++k) {
+      const ContactNode<Dim>& node = list_.nodes[static_cast<std::size_t>(k)];
+      const int fields = node.field_end - node.field_begin;
+      if (bridges_ && correction == Correction::final) bridge(state, dt, node);
+      read_motion(state, node, together.motion);
+      if (correction == (first_correction_ ? Correction::initial : Correction::final)) {
+        see_slips(node, together.motion);
+        judge(node);
+      }
+      auto outcome = PairOutcome::lump;
+      if (node.pair_begin < node.entry_end) {
+        outcome = resolve_pairs(state, correction, dt, node);
+        solved += outcome == PairOutcome::solved;
+        lumped += outcome == PairOutcome::lump;
+      }
+      if (spec_.fields == ManyFields::simultaneous && fields > 2) {
+        find_acting(state, laws, correction, dt, node, together);
+        const bool waits = solves_in_lanes_ && together.acting.size() > 1;
+        if (waits && fields == 3)
+          wait_in(together.of_three, node);
+        else if (waits && fields == 4)
+          wait_in(together.of_four, node);
+        else
+          solve_alone(node);
+        continue;
+      }
+      if (outcome == PairOutcome::lump) resolve_each(state, laws, correction, dt, node);
+      finish_node(node);
+    }
+    solve_waiting(together.of_three);
+    solve_waiting(together.of_four);
     all_solved += solved;
     all_lumped += lumped;
   });
@@ -202,16 +248,13 @@ SetRule<Dim> Contact<Dim>::rule_of(const ContactEntry<Dim>& entry, double separa
   return rule;
 }
 
-/// All pairs of a node of three or more fields at once: impulses J_ab on a, −J_ab on b, such that each obeys
-/// its law with the velocities that all of them leave.
+/// All pairs of a node of three or more fields at once, as find_acting has found them: impulses J_ab on a,
+/// −J_ab on b, such that each obeys its law with the velocities that all of them leave.
 /// @return whether they settled
 template <int Dim>
 template <class Laws>
-bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, Correction correction,
-                                    double dt, const ContactNode<Dim>& node) {
-  Together& together = together_[static_cast<std::size_t>(own_number())];
-  find_moving(state, node, together.solver.fields);
-  find_acting(state, laws, correction, dt, node, together);
+bool Contact<Dim>::resolve_together(const Laws& laws, Correction correction, const ContactNode<Dim>& node,
+                                    Together& together) const {
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const Acting& acting = together.acting[k];
     const FieldContact<Dim>& contact = together.solver.contacts[k];
@@ -228,37 +271,80 @@ bool Contact<Dim>::resolve_together(const State<Dim>& state, const Laws& laws, C
   return settled;
 }
 
-/// The fields of a node as they move before the correction.
+/// A node that find_acting has been at, to be solved alone.
 template <int Dim>
-void Contact<Dim>::find_moving(const State<Dim>& state, const ContactNode<Dim>& node,
-                               std::vector<MovingField<Dim>>& fields) const {
-  fields.clear();
-  for (int k = node.field_begin; k < node.field_end; ++k) {
-    const auto [field, slot] = list_.fields[static_cast<std::size_t>(k)];
-    const double inverse_mass = 1 / state.nodes.column(Nodal::mass)[slot];
-    const bool rigid = state.field_rigid[static_cast<std::size_t>(field)];
-    Vec<Dim> velocity = inverse_mass * state.nodes.vector(Nodal::momentum, slot);
-    if (node.constrained) velocity = free_part(node, velocity);
-    fields.push_back({velocity, rigid ? 0.0 : inverse_mass});
+void Contact<Dim>::pose(const State<Dim>& state, Correction correction, const ContactNode<Dim>& node,
+                        Together& together) const {
+  auto& solver = together.solver;
+  solver.fields.clear();
+  solver.contacts.clear();
+  for (int k = 0; k < node.field_end - node.field_begin; ++k)
+    solver.fields.push_back({together.velocities[static_cast<std::size_t>(k)],
+                             is_rigid(state, node, k) ? 0.0 : together.motion[k].inverse_mass});
+  for (const Acting& acting : together.acting) {
+    const auto& entry = *acting.entry;
+    auto& contact = solver.contacts.emplace_back();
+    contact.a = entry.a, contact.b = entry.b;
+    contact.normal = entry.normal;
+    contact.reduced = acting.reduced;
+    if (!one_set_) continue;
+    contact.closing = entry.closing;
+    contact.both_ways = both_ways(entry, correction);
   }
 }
 
-/// The pairs of a node that may have an impulse, with their separations at the end of the step, before
-/// contact: a law of touching surfaces asks nothing of surfaces that are apart, however they move.
+/// The same, in the next lane.
+template <int Dim>
+template <int kFields>
+void Contact<Dim>::put_in_lane(const State<Dim>& state, const Together& together,
+                               const ContactNode<Dim>& node, Waiting<kFields>& waiting) const {
+  const int lane = waiting.solver.begin_node();
+  waiting.nodes[static_cast<std::size_t>(lane)] = &node;
+  for (int k = 0; k < kFields; ++k)
+    waiting.solver.set_field(lane, k, together.velocities[static_cast<std::size_t>(k)],
+                             is_rigid(state, node, k) ? 0.0 : together.motion[k].inverse_mass);
+  for (const Acting& acting : together.acting) {
+    const auto& entry = *acting.entry;
+    waiting.solver.add_contact(lane, entry.a, entry.b, entry.normal, acting.reduced, entry.closing,
+                               acting.rule, acting.friction);
+  }
+}
+
+/// The impulses of a node that was solved in a lane.
+template <int Dim>
+template <int kFields>
+void Contact<Dim>::finish_lane(Correction correction, const ContactNode<Dim>& node,
+                               const NodesTogether<Dim, kFields>& solver, int lane) {
+  for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    auto& entry = list_.entries[static_cast<std::size_t>(e)];
+    if (!solver.has(lane, entry.a, entry.b)) continue;
+    entry.impulse = solver.impulse(lane, entry.a, entry.b);
+    if (correction == Correction::final) entry.stuck = solver.sticks(lane, entry.a, entry.b);
+    pass_on(entry, correction, LawScope::contact);
+  }
+}
+
+/// The fields of a node, and its pairs that may have an impulse, with their separations at the end of the
+/// step, before contact: a law of touching surfaces asks nothing of surfaces that are apart, however they
+/// move.
 template <int Dim>
 template <class Laws>
 void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
                                const ContactNode<Dim>& node, Together& together) {
-  auto& solver = together.solver;
+  const NodeMotion<Dim>& motion = together.motion;
+  auto& velocities = together.velocities;
+  velocities.clear();
+  for (int k = 0; k < node.field_end - node.field_begin; ++k)
+    velocities.push_back(node.constrained ? free_part(node, motion.velocity(k)) : motion.velocity(k));
   together.acting.clear();
-  solver.contacts.clear();
   rest(node.entry_begin, node.entry_end);
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const auto &a = solver.fields[static_cast<std::size_t>(entry.a)],
-               &b = solver.fields[static_cast<std::size_t>(entry.b)];
-    const double reduced = 1 / (a.inverse_mass + b.inverse_mass);
-    const Meeting meeting{reduced * (b.velocity - a.velocity), reduced};
+    const double reduced = 1 / ((is_rigid(state, node, entry.a) ? 0 : motion[entry.a].inverse_mass) +
+                                (is_rigid(state, node, entry.b) ? 0 : motion[entry.b].inverse_mass));
+    const Meeting meeting{reduced * (velocities[static_cast<std::size_t>(entry.b)] -
+                                     velocities[static_cast<std::size_t>(entry.a)]),
+                          reduced};
     entry.advanced = separation_of(entry, meeting, dt);
     with_law(laws, node, entry, [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
@@ -266,18 +352,13 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       const bool apart = !(entry.advanced < 0) && !in_set;
       if (Law::scope == LawScope::nowhere || Law::scope == LawScope::bridged) return;
       if (Law::scope == LawScope::contact && apart) return;
-      double area_time = 0;
-      if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
       Acting& acting = together.acting.emplace_back();
       acting.entry = &entry;
-      acting.area_time = area_time;
+      acting.reduced = reduced;
+      if constexpr (Law::uses_area) acting.area_time = area(state, node, entry) * dt;
       acting.in_set = one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded);
       if (acting.in_set) acting.rule = rule_of(entry, entry.advanced, correction, law);
-      solver.contacts.push_back({entry.a, entry.b, entry.normal, reduced});
-      if (!one_set_) return;
-      auto& contact = solver.contacts.back();
-      contact.closing = entry.closing;
-      contact.both_ways = both_ways(entry, correction);
+      if constexpr (std::is_same_v<Law, Coulomb>) acting.friction = law;
     });
   }
 }
@@ -334,40 +415,6 @@ void Contact<Dim>::rest(int begin, int end) {
   for (int e = begin; e < end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     entry.impulse.setZero();
-  }
-}
-
-template <int Dim>
-void Contact<Dim>::apply(State<Dim>& state, Correction correction, double dt,
-                         const ContactNode<Dim>& node) const {
-  auto& nodes = state.nodes;
-  const double* mass = nodes.column(Nodal::mass);
-  const auto slot_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-  };
-  const auto add_force = [&](int k, const Vec<Dim>& impulse) {
-    nodes.set(Nodal::force, slot_of(k), nodes.vector(Nodal::force, slot_of(k)) + impulse / dt);
-  };
-  const auto change = [&](int k, const Vec<Dim>& impulse) {
-    const int slot = slot_of(k);
-    nodes.set(Nodal::momentum, slot, nodes.vector(Nodal::momentum, slot) + impulse);
-    if (correction == Correction::final)
-      add_force(k, impulse);
-    else if (keep_velocity_change_ && correction == Correction::initial)
-      for (int d = 0; d < Dim; ++d) nodes.column(Nodal::star, Dim + d)[slot] += impulse[d] / mass[slot];
-  };
-  const bool passes = correction == Correction::final && (first_share_ > 0 || one_set_);
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    const auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const bool moves_other = entry.b >= 0 && entry.b != node.rigid;
-    if (!entry.impulse.isZero(0)) {
-      change(entry.a, entry.impulse);
-      if (moves_other) change(entry.b, -entry.impulse);
-    }
-    if (passes && !entry.passed.isZero(0)) {
-      add_force(entry.a, entry.passed);
-      if (moves_other) add_force(entry.b, -entry.passed);
-    }
   }
 }
 

@@ -1,0 +1,51 @@
+#pragma once
+
+/// @file The fields of one node while a correction acts on them.
+
+#include <vector>
+
+#include "kernels/dimension.hpp"
+
+namespace mpmfast {
+
+/// Read once for all that a correction asks of them.
+template <int Dim>
+class NodeMotion {
+ public:
+  struct Field {
+    int slot;
+    double mass, inverse_mass;  ///< kg, 1/kg
+    Vec<Dim> momentum;          ///< N s
+    Vec<Dim> impulse, passed;   ///< of the correction, and what counts as a force beside it, N s
+  };
+
+  void clear() { fields_.clear(); }
+  void push(int slot, double mass, const Vec<Dim>& momentum) {
+    fields_.push_back({slot, mass, 1 / mass, momentum, Vec<Dim>::Zero(), Vec<Dim>::Zero()});
+  }
+  Field& operator[](int k) { return fields_[static_cast<std::size_t>(k)]; }
+  const Field& operator[](int k) const { return fields_[static_cast<std::size_t>(k)]; }
+  auto begin() { return fields_.begin(); }
+  auto end() { return fields_.end(); }
+  Vec<Dim> velocity(int k) const { return (*this)[k].inverse_mass * (*this)[k].momentum; }
+
+  /// v_a − v_b, m/s. @param b  −1: all others, as one
+  Vec<Dim> slip_of(int a, int b) const {
+    if (b >= 0) return velocity(a) - velocity(b);
+    Vec<Dim> momentum = Vec<Dim>::Zero();
+    for (const Field& field : fields_) momentum += field.momentum;
+    return velocity(a) - inverse_mass_of(a, b) * (momentum - (*this)[a].momentum);
+  }
+  /// Of b, or of all but a, 1/kg.
+  double inverse_mass_of(int a, int b) const {
+    if (b >= 0) return (*this)[b].inverse_mass;
+    double mass = 0;
+    for (const Field& field : fields_) mass += field.mass;
+    return 1 / (mass - (*this)[a].mass);
+  }
+
+ private:
+  std::vector<Field> fields_;
+};
+
+}  // namespace mpmfast
