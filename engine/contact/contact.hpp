@@ -119,7 +119,7 @@ class Contact {
   void resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt);
   template <class Laws>
   void resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
-                    const ContactNode<Dim>& node);
+                    const ContactNode<Dim>& node, const NodeMotion<Dim>& motion);
   /// What is kept of an entry until the next step.
   struct Memory {
     std::uint64_t key;
@@ -131,9 +131,10 @@ class Contact {
   void recall(const Memory& memory, std::size_t entry);
 
   PairOutcome resolve_pairs(const State<Dim>& state, Correction correction, double dt,
-                            const ContactNode<Dim>& node);
+                            const ContactNode<Dim>& node, const NodeMotion<Dim>& motion);
   struct Touching;
-  bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node, Touching& out);
+  bool find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node,
+                     const NodeMotion<Dim>& motion, Touching& out);
   void rest(int begin, int end);
   Vec<Dim> kept_of(const ContactEntry<Dim>& entry) const;
   const Bridge<Dim>& bridge_of(const ContactEntry<Dim>& entry) const {
@@ -185,10 +186,6 @@ class Contact {
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node,
              NodeMotion<Dim>& motion) const;
-  struct Total {
-    double mass = 0;
-    Vec<Dim> momentum = Vec<Dim>::Zero();
-  };
   /// What field a needs to stick to the others: Δp_a(0), N s, and m_red, kg.
   struct Meeting {
     Vec<Dim> stick;
@@ -262,7 +259,6 @@ class Contact {
   Vec<Dim> slip_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                    const NodeMotion<Dim>& motion) const;
   void see_slips(const ContactNode<Dim>& node, const NodeMotion<Dim>& motion);
-  void see_gaps(const State<Dim>& state, const ContactNode<Dim>& node);
   bool touches_on(const ContactEntry<Dim>& entry, double mass, const Vec<Dim>& slip) const;
   double spring_of(const ContactNode<Dim>& node, const ContactEntry<Dim>& entry,
                    const NodeMotion<Dim>& motion) const;
@@ -273,8 +269,8 @@ class Contact {
   std::size_t place_of_pair(const State<Dim>& state, const ContactNode<Dim>& node,
                             const ContactEntry<Dim>& entry) const;
   int pair_of(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;
-  Total together(const State<Dim>& state, const ContactNode<Dim>& node, int a = -1, int b = -1) const;
-  Meeting meet(const State<Dim>& state, const ContactNode<Dim>& node, int a, const Total& all) const;
+  Meeting meet(const ContactNode<Dim>& node, const NodeMotion<Dim>& motion, int a,
+               const typename NodeMotion<Dim>::Total& all) const;
   void pass_on(ContactEntry<Dim>& entry, Correction correction, LawScope scope) const;
   double separation_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double dt) const;
   double area(const State<Dim>& state, const ContactNode<Dim>& node, const ContactEntry<Dim>& entry) const;

@@ -151,6 +151,19 @@ constexpr double kOnSurface = 1e-3;
          fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1], x[2]));
 }
 
+/// Moves a boundary point that round-off has outside the grid to its edge (check_bodies lets bodies stand out
+/// by as much). @return whether it is inside then
+template <int Dim>
+bool move_inside(const GridSpec& grid, Vec3& x) {
+  const double slack = 1e-6 * grid.cell;
+  for (std::size_t d = 0; d < Dim; ++d) {
+    const double inside = std::clamp(x[d], grid.origin[d], grid.origin[d] + grid.size[d]);
+    if (!(std::abs(x[d] - inside) <= slack)) return false;
+    x[d] = inside;
+  }
+  return true;
+}
+
 /// Whether the outline cuts domains. (Grains of a picture, four cells wide and pressed, hold longer with
 /// whole ones.)
 bool ends_in_steps(const BodySpec& body) {
@@ -208,7 +221,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   for (const auto& m : scene.materials)
     state.materials.push_back(make_material(m, scene.grid.cell, plan.heat));
 
-  const std::vector<Outline> surfaces = outlines(scene, plan);
+  std::vector<Outline> surfaces = outlines(scene, plan);
   if (!surfaces.empty()) state.tiling.part_surfaces();
   std::vector<Seeds> seeds;
   std::size_t count = 0;
@@ -224,12 +237,10 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
         if (!(x[d] > scene.grid.origin[d] && x[d] < scene.grid.origin[d] + scene.grid.size[d]))
           refuse_outside(scene, b, x);
     if (!surfaces.empty()) {
+      for (Vec3& x : surfaces[b].points)
+        if (!move_inside<Dim>(scene.grid, x)) refuse_outside(scene, b, x);
       add_surface(surfaces[b], static_cast<std::uint32_t>(count), scene.thickness, state.surfaces);
       count += surfaces[b].points.size();
-      for (const Vec3& x : surfaces[b].points)
-        for (std::size_t d = 0; d < Dim; ++d)
-          if (!(x[d] >= scene.grid.origin[d] && x[d] <= scene.grid.origin[d] + scene.grid.size[d]))
-            refuse_outside(scene, b, x);
     }
     BodyView<Dim> view;
     for (std::size_t d = 0; d < Dim; ++d) view.half_size[d] = seeds.back().half_size[d];

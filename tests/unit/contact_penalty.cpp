@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -112,6 +113,20 @@ bodies:
   - {name: a, )" +
          a + ", material: m}\n  - {name: b, " + b + ", material: m}\nmethod: {basis: bspline2}\n" +
          "contact: {family: penalty, points_per_cell: 4, " + contact + "}\n";
+}
+
+TEST_CASE(
+    "a body that stands out of the grid by round-off has its boundary points at the edge, not by more") {
+  const auto left_of = [](const std::string& from) {
+    const Scene scene =
+        scene_from(two_bodies("box: {from: [" + from + ", 5 mm], to: [10 mm, 15 mm]}",
+                              "box: {from: [20 mm, 5 mm], to: [30 mm, 15 mm]}", "friction: 0"));
+    const Step<2> step(scene);
+    const double* x = step.state().particles.column(Quantity::position, 0);
+    return *std::min_element(x, x + step.state().particles.size());
+  };
+  CHECK(left_of("-0.9e-9 m") == 0);  // cells of 1 mm
+  CHECK_THROWS_AS(left_of("-2e-9 m"), SceneError);
 }
 
 /// Surfaces of a scene as it stands, with forces between them.

@@ -30,6 +30,21 @@ Vec<Dim> Contact<Dim>::slip_of(const ContactNode<Dim>& node, const ContactEntry<
   return node.constrained ? free_part(node, slip) : slip;
 }
 
+/// Field a against the others of `all`; a rigid body has m_b → ∞ and keeps its velocity.
+template <int Dim>
+typename Contact<Dim>::Meeting Contact<Dim>::meet(const ContactNode<Dim>& node, const NodeMotion<Dim>& motion,
+                                                  int a, const typename NodeMotion<Dim>::Total& all) const {
+  const auto& own = motion[a];
+  Meeting meeting{(own.mass / all.mass) * all.momentum - own.momentum,
+                  own.mass * (all.mass - own.mass) / all.mass};
+  if (node.rigid >= 0) {
+    const auto& rigid = motion[node.rigid];
+    meeting = {(own.mass / rigid.mass) * rigid.momentum - own.momentum, own.mass};
+  }
+  if (node.constrained) meeting.stick = free_part(node, meeting.stick);
+  return meeting;
+}
+
 /// The separation that decides on contact. Both corrections judge by where the free velocities take the
 /// surfaces: positions that follow the end velocity close a gap up to a touch and no further, so that the
 /// first correction, asked for an overlap now, would hardly ever act.
@@ -69,6 +84,22 @@ bool Contact<Dim>::touches_on(const ContactEntry<Dim>& entry, double mass, const
   if (entry.impulse.dot(entry.normal) < -least * mass) return true;
   if (!(std::abs(entry.first.dot(entry.normal)) > least * mass)) return false;
   return entry.closing - slip.dot(entry.normal) <= least;
+}
+
+/// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within
+/// the step nothing of the time before. The approach v' that particles then keep is such that contact makes
+/// no energy, v'² = v² + a (v^c + v'^c): a is what forces change, v^c what the first correction left, v'^c =
+/// −δ/Δt what the last will leave. Where more fields meet, the others' impulses depend on it: there all of it
+/// is.
+/// @param normal  the impulse
+template <int Dim>
+double Contact<Dim>::force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const {
+  const double closing = entry.closing;
+  if (!one_set_ || first_correction_stays_ || !entry.alone || !(normal < 0) || !(closing > 0)) return normal;
+  const double before = -entry.slip_start.dot(entry.normal), held = -entry.slip_held.dot(entry.normal);
+  const double forces = meeting.stick.dot(entry.normal) / meeting.reduced - held;
+  const double after = -std::sqrt(std::max(0.0, before * before + forces * (held - closing)));
+  return meeting.reduced * (before + forces - after);
 }
 
 /// How far the surfaces of a pair would come together if the force F between them were gone: F T²/(2 m_red),

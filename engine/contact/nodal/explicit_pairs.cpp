@@ -32,7 +32,7 @@ void Contact<Dim>::add_pairs(const ContactNode<Dim>& node, std::vector<ListedEnt
 /// @return false when there are more than two, or one of them may be bonded
 template <int Dim>
 bool Contact<Dim>::find_touching(const State<Dim>& state, double dt, const ContactNode<Dim>& node,
-                                 Touching& out) {
+                                 const NodeMotion<Dim>& motion, Touching& out) {
   const auto field_of = [&](int k) {
     return list_.fields[static_cast<std::size_t>(node.field_begin + k)].field;
   };
@@ -42,7 +42,7 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, double dt, const Conta
     const AnyLaw& law = laws_[static_cast<std::size_t>(own)];
     const LawScope scope = std::visit([](const auto& l) { return l.scope; }, law);
     if (scope == LawScope::bonded) return false;
-    const Meeting meeting = meet(state, node, entry.a, together(state, node, entry.a, entry.b));
+    const Meeting meeting = meet(node, motion, entry.a, motion.total(entry.a, entry.b));
     const bool overlap = separation_of(entry, meeting, dt) < 0;
     if (!(scope == LawScope::everywhere || (scope == LawScope::contact && overlap))) continue;
     if (out.count == 2) return false;
@@ -63,10 +63,10 @@ bool Contact<Dim>::find_touching(const State<Dim>& state, double dt, const Conta
 /// are left to the lump.
 template <int Dim>
 PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction correction, double dt,
-                                        const ContactNode<Dim>& node) {
+                                        const ContactNode<Dim>& node, const NodeMotion<Dim>& motion) {
   Touching touching;
   rest(node.entry_begin, node.entry_end);
-  if (!find_touching(state, dt, node, touching)) return PairOutcome::lump;
+  if (!find_touching(state, dt, node, motion, touching)) return PairOutcome::lump;
   if (touching.count == 0) return PairOutcome::none;
   auto& pair = touching.pair;
   if (touching.count == 1) {
@@ -80,9 +80,7 @@ PairOutcome Contact<Dim>::resolve_pairs(const State<Dim>& state, Correction corr
     const auto &one = *touching.entry[0], &two = *touching.entry[1];
     const bool same = one.a == two.a || one.b == two.b, crossed = one.a == two.b || one.b == two.a;
     const int shared = one.a == two.a || one.a == two.b ? one.a : one.b;
-    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + shared)].slot;
-    const double coupling =
-        same || crossed ? (same ? 1.0 : -1.0) / state.nodes.column(Nodal::mass)[slot] : 0.0;
+    const double coupling = same || crossed ? (same ? 1.0 : -1.0) * motion[shared].inverse_mass : 0.0;
     if (!solve_two_pairs(pair, coupling, *touching.law[0], *touching.law[1])) return PairOutcome::lump;
   }
   for (int k = 0; k < touching.count; ++k) {

@@ -61,40 +61,6 @@ int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
   return largest;
 }
 
-/// All fields of a node, or the two of a pair.
-template <int Dim>
-typename Contact<Dim>::Total Contact<Dim>::together(const State<Dim>& state, const ContactNode<Dim>& node,
-                                                    int a, int b) const {
-  Total sum;
-  for (int k = 0; k < node.field_end - node.field_begin; ++k) {
-    if (b >= 0 && k != a && k != b) continue;
-    const int slot = list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-    sum.mass += state.nodes.column(Nodal::mass)[slot];
-    sum.momentum += state.nodes.vector(Nodal::momentum, slot);
-  }
-  return sum;
-}
-
-/// Field a against the others of `all`; a rigid body has m_b → ∞ and keeps its velocity.
-template <int Dim>
-typename Contact<Dim>::Meeting Contact<Dim>::meet(const State<Dim>& state, const ContactNode<Dim>& node,
-                                                  int a, const Total& all) const {
-  const auto& nodes = state.nodes;
-  const double* mass = nodes.column(Nodal::mass);
-  const auto slot_of = [&](int k) {
-    return list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
-  };
-  const double m_a = mass[slot_of(a)];
-  const Vec<Dim> p_a = nodes.vector(Nodal::momentum, slot_of(a));
-  Meeting meeting{(m_a / all.mass) * all.momentum - p_a, m_a * (all.mass - m_a) / all.mass};
-  if (node.rigid >= 0) {
-    const int r = slot_of(node.rigid);
-    meeting = {(m_a / mass[r]) * nodes.vector(Nodal::momentum, r) - p_a, m_a};
-  }
-  if (node.constrained) meeting.stick = free_part(node, meeting.stick);
-  return meeting;
-}
-
 /// Contact area of an entry, m² (of the scene's thickness in 2-D).
 ///
 /// volume_gradient: g = Σ G_pi V_p = ∫ N_i n dS over the surface of a field, so that g_a·n and −g_b·n are
@@ -132,34 +98,6 @@ void Contact<Dim>::judge(const ContactNode<Dim>& node) {
     entry.lasts = one_set_ && entry.touched &&
                   entry.separation < std::clamp(entry.spring_before, kLeast * cell_, kMost * cell_);
     entry.closing = entry.lasts ? 0 : std::max(0.0, entry.separation) / dt_;
-  }
-}
-
-/// What of the second correction's impulse along n is a force, N s: all of it, but where a gap closes within
-/// the step nothing of the time before. The approach v' that particles then keep is such that contact makes
-/// no energy, v'² = v² + a (v^c + v'^c): a is what forces change, v^c what the first correction left, v'^c =
-/// −δ/Δt what the last will leave. Where more fields meet, the others' impulses depend on it: there all of it
-/// is.
-/// @param normal  the impulse
-template <int Dim>
-double Contact<Dim>::force_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double normal) const {
-  const double closing = entry.closing;
-  if (!one_set_ || first_correction_stays_ || !entry.alone || !(normal < 0) || !(closing > 0)) return normal;
-  const double before = -entry.slip_start.dot(entry.normal), held = -entry.slip_held.dot(entry.normal);
-  const double forces = meeting.stick.dot(entry.normal) / meeting.reduced - held;
-  const double after = -std::sqrt(std::max(0.0, before * before + forces * (held - closing)));
-  return meeting.reduced * (before + forces - after);
-}
-
-/// Takes off the forces what of the second correction is none: see force_of.
-template <int Dim>
-void Contact<Dim>::see_gaps(const State<Dim>& state, const ContactNode<Dim>& node) {
-  for (int e = node.entry_begin; e < node.entry_end; ++e) {
-    auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    if (!entry.parts || !entry.alone) continue;
-    const double normal = entry.impulse.dot(entry.normal);
-    const Meeting meeting = meet(state, node, entry.a, together(state, node));
-    entry.passed -= (normal - force_of(entry, meeting, normal)) * entry.normal;
   }
 }
 

@@ -29,19 +29,29 @@ class NodeMotion {
   auto end() { return fields_.end(); }
   Vec<Dim> velocity(int k) const { return (*this)[k].inverse_mass * (*this)[k].momentum; }
 
+  struct Total {
+    double mass = 0;
+    Vec<Dim> momentum = Vec<Dim>::Zero();
+  };
+  /// All fields, or the two of a pair.
+  Total total(int a = -1, int b = -1) const {
+    Total sum;
+    for (int k = 0; k < static_cast<int>(fields_.size()); ++k) {
+      if (b >= 0 && k != a && k != b) continue;
+      sum.mass += (*this)[k].mass;
+      sum.momentum += (*this)[k].momentum;
+    }
+    return sum;
+  }
   /// v_a − v_b, m/s. @param b  −1: all others, as one
   Vec<Dim> slip_of(int a, int b) const {
     if (b >= 0) return velocity(a) - velocity(b);
-    Vec<Dim> momentum = Vec<Dim>::Zero();
-    for (const Field& field : fields_) momentum += field.momentum;
-    return velocity(a) - inverse_mass_of(a, b) * (momentum - (*this)[a].momentum);
+    return velocity(a) - inverse_mass_of(a, b) * (total().momentum - (*this)[a].momentum);
   }
   /// Of b, or of all but a, 1/kg.
   double inverse_mass_of(int a, int b) const {
     if (b >= 0) return (*this)[b].inverse_mass;
-    double mass = 0;
-    for (const Field& field : fields_) mass += field.mass;
-    return 1 / (mass - (*this)[a].mass);
+    return 1 / (total().mass - (*this)[a].mass);
   }
 
  private:

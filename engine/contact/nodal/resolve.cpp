@@ -90,8 +90,6 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     std::uint64_t solved = 0, lumped = 0;
     Together& together = together_[static_cast<std::size_t>(own_number())];
     const auto finish_node = [&](const ContactNode<Dim>& node) {
-      if (correction == Correction::final && one_set_ && node.field_end - node.field_begin == 2)
-        see_gaps(state, node);
       apply(state, correction, dt, node, together.motion);
       settle(correction, node, together.motion);
     };
@@ -133,7 +131,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
       }
       auto outcome = PairOutcome::lump;
       if (node.pair_begin < node.entry_end) {
-        outcome = resolve_pairs(state, correction, dt, node);
+        outcome = resolve_pairs(state, correction, dt, node, together.motion);
         solved += outcome == PairOutcome::solved;
         lumped += outcome == PairOutcome::lump;
       }
@@ -148,7 +146,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
           solve_alone(node);
         continue;
       }
-      if (outcome == PairOutcome::lump) resolve_each(state, laws, correction, dt, node);
+      if (outcome == PairOutcome::lump) resolve_each(state, laws, correction, dt, node, together.motion);
       finish_node(node);
     }
     solve_waiting(together.of_three);
@@ -166,15 +164,16 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
   if (correction == (one_set_ ? Correction::strain : Correction::final)) book_friction(state);
 }
 
-/// Impulses of all entries but the explicit pairs, from the momenta before any of them changes.
+/// Impulses of all entries but the explicit pairs, from the momenta before any of them changes; what of the
+/// second correction is no force is taken off what passes for one.
 template <int Dim>
 template <class Laws>
 void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Correction correction, double dt,
-                                const ContactNode<Dim>& node) {
-  const Total all = together(state, node);
+                                const ContactNode<Dim>& node, const NodeMotion<Dim>& motion) {
+  const auto all = motion.total();
   for (int e = node.entry_begin; e < node.pair_begin; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
-    const Meeting meeting = meet(state, node, entry.a, all);
+    const Meeting meeting = meet(node, motion, entry.a, all);
     const double separation = separation_of(entry, meeting, dt);
     const auto act_by = [&](const auto& law) {
       using Law = std::decay_t<decltype(law)>;
@@ -184,6 +183,9 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       entry.impulse = demand.impulse;
       if (correction == Correction::final) entry.stuck = demand.hinders == Hinders::slip;
       pass_on(entry, correction, Law::scope);
+      if (correction != Correction::final || !one_set_ || !entry.parts || !entry.alone) return;
+      const double normal = entry.impulse.dot(entry.normal);
+      entry.passed -= (normal - force_of(entry, meeting, normal)) * entry.normal;
     };
     const auto act = [&](const auto& law) { as_it_is(entry, law, act_by); };
     laws.with(Laws::by_pair ? law_between(entry, node, partner(state, node, entry)) : -1, act);
