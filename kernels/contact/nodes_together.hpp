@@ -71,8 +71,10 @@ class NodesTogether {
   bool sticks(int lane, int a, int b) const { return contacts_[place_of(a, b)].hinders[lane] == kSlip; }
 
   /// Finds the impulses of all nodes, from none, and forgets them with the next node.
+  /// @param may_stick  not of these nodes but of all that are solved so: sums of fewer terms round
+  /// differently
   /// @return a bit for each that settled to 1e-9 of its largest impulse
-  unsigned solve() {
+  unsigned solve(bool may_stick) {
     if (is_empty()) return 0;
     fill_up();
     load();
@@ -83,7 +85,7 @@ class NodesTogether {
       settled |= active & ends;
       active &= ~ends & is_bounded();
       if (bits_of(active) == 0) break;
-      if (done + 1 < kSweeps) leap(active);
+      if (done + 1 < kSweeps) leap(active, may_stick);
     }
     store();
     count_ = 0;
@@ -261,11 +263,9 @@ class NodesTogether {
 
   /// Goes where no hindered motion is left, in the lanes `going`; contacts that part on the way are left
   /// behind.
-  void leap(IntLanes going) {
+  void leap(IntLanes going, bool may_stick) {
     for (int parted = 0; parted <= kContacts; ++parted) {
-      IntLanes slips{};
-      for (const Solving& c : solving_) slips |= c.hinders == kSlip;
-      going &= bits_of(slips & going) == 0 ? find_changes<1>(going) : find_changes<Dim>(going);
+      going &= may_stick ? find_changes<Dim>(going) : find_changes<1>(going);
       if (bits_of(going) == 0) return;
       Lanes parts;
       const Lanes share = share_of_leap(going, parts);

@@ -88,6 +88,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
   std::atomic<std::uint64_t> all_solved{0}, all_lumped{0};
   for_each_stretch(n, state.threads, 64, [&](std::int64_t begin, std::int64_t end) {
     std::uint64_t solved = 0, lumped = 0;
+    const bool may_stick = holds_sticking_ || first_correction_stays_ || correction == Correction::final;
     Together& together = together_[static_cast<std::size_t>(own_number())];
     const auto finish_node = [&](const ContactNode<Dim>& node) {
       apply(state, correction, dt, node, together.motion);
@@ -102,7 +103,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
     };
     const auto solve_waiting = [&](auto& waiting) {
       const int count = waiting.solver.count();
-      const unsigned settled = waiting.solver.solve();
+      const unsigned settled = waiting.solver.solve(may_stick);
       for (int lane = 0; lane < count; ++lane) {
         const ContactNode<Dim>& node = *waiting.nodes[static_cast<std::size_t>(lane)];
         read_motion(state, node, together.motion);
