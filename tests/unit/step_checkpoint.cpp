@@ -295,6 +295,27 @@ bodies:
                    7, 12);
 }
 
+/// Bricks and a rigid one pressed together, so that three meet on many nodes, and four on some: these are
+/// solved side by side, in the order in which each thread comes to them.
+TEST_CASE("a wall of bricks goes on to the bit on any number of threads") {
+  std::string wall =
+      "space: plane_strain\ngrid: {size: [14 mm, 14 mm], cell: 0.5 mm}\ntime: {end: 1 ms}\n"
+      "materials: {m: {model: neo_hookean, density: 1 g/cm^3, bulk: 80 MPa, shear: 30 MPa}, tool: {model: "
+      "rigid}}\n"
+      "bodies:\n";
+  for (int row = 0; row < 4; ++row)
+    for (int k = 0; k < 4; ++k) {
+      const double x = 1 + 3 * k + (row == 2 ? 0.9 : 0), y = 1 + 3 * row;
+      wall += fmt::format(
+          "  - {{name: b{}{}, box: {{from: [{} mm, {} mm], to: [{} mm, {} mm]}}, material: {}, "
+          "velocity: [{} m/s, {} m/s]}}\n",
+          row, k, x, y, x + 2.9, y + 2.95, row == 1 && k == 2 ? "tool" : "m",
+          row == 1 && k == 2 ? 0 : 6 * (6 - x), row == 1 && k == 2 ? 0 : 6 * (6 - y));
+    }
+  check_goes_on<2>(wall + kContact, 40, 70);
+  check_goes_on<2>(wall + kContact + "method: {basis: lcpdi, update: xpic(2)}\n", 40, 70);
+}
+
 /// Two that cross in one body, while another strikes it where they end.
 TEST_CASE("cracks go on to the bit on any number of threads, where two cross and another body touches") {
   const char* cracks =
