@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels/contact/sliding.hpp"
+#include "kernels/contact/laws.hpp"
 #include "kernels/contact/together.hpp"
 
 namespace mpmfast {
@@ -32,12 +32,15 @@ struct SetRule {
     constexpr double kLeast = std::numeric_limits<double>::min();  // what carries nothing does not stick
     const double along = stick.dot(normal);
     const Vec<Dim> tangential = stick - along * normal;
-    const double needed = tangential.norm();
-    if constexpr (Law::scope == LawScope::bonded)
+    if constexpr (Law::scope == LawScope::bonded) {
+      const double needed = tangential.norm();
       if (may_bond && law.holds({-along, needed, reduced, area_time})) return {stick, Hinders::slip};
+    }
     const double end = along + reduced * closing;
     if (!acts || (end > 0 && !both_ways)) return {Vec<Dim>::Zero(), Hinders::nothing};
     if (holds_slip) return {end * normal + tangential, Hinders::slip};
+    if (kRubsDry<Law> && !rubs) return {end * normal, Hinders::approach};  // no roots and quotients
+    const double needed = tangential.norm();
     const double presses = Law::scope == LawScope::contact ? force_of(end) : end;
     const double limit =
         law({rubs ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), reduced, rubs ? area_time : 0});
