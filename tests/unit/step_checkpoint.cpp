@@ -1,5 +1,6 @@
 // A step that is filled from an archive goes on to the bit as the one that was written.
 
+#include <fmt/format.h>
 #include <omp.h>
 
 #include <cstring>
