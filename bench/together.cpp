@@ -6,51 +6,25 @@
 #include <benchmark/benchmark.h>
 
 #include <bit>
-#include <cmath>
 #include <random>
 #include <vector>
 
 #include "kernels/contact/resolve_pair.hpp"
+#include "tests/pressed_node.hpp"
 
 namespace {
 
 using namespace mpmfast;
 
-/// Fields around a node that are pressed together, with masses as the corners of grains have them: over four
-/// orders of magnitude.
-template <int Dim>
-struct PressedNode {
-  std::vector<MovingField<Dim>> fields;
-  std::vector<FieldContact<Dim>> contacts;
-
-  PressedNode(int count, std::mt19937_64& draw) {
-    std::normal_distribution<double> gauss;
-    std::uniform_real_distribution<double> exponent(-4, 0);
-    std::vector<Vec<Dim>> place;
-    const auto vector = [&] {
-      Vec<Dim> v;
-      for (int d = 0; d < Dim; ++d) v[d] = gauss(draw);
-      return v;
-    };
-    for (int k = 0; k < count; ++k) {
-      place.push_back(vector());
-      fields.push_back({vector() - place.back(), std::pow(10.0, -exponent(draw))});
-    }
-    for (int a = 0; a < count; ++a)
-      for (int b = a + 1; b < count; ++b) {
-        const auto one = static_cast<std::size_t>(a), two = static_cast<std::size_t>(b);
-        contacts.push_back({a, b, (place[two] - place[one]).normalized(),
-                            1 / (fields[one].inverse_mass + fields[two].inverse_mass)});
-      }
-  }
-};
+/// Orders of magnitude that masses span: those of the corners of grains.
+constexpr double kOrders = 4;
 
 template <int Dim>
 void solve(benchmark::State& state) {
   constexpr std::size_t draws = 256;  // enough that the branches are not learnt by heart
   std::mt19937_64 draw(20);
   std::vector<PressedNode<Dim>> nodes;
-  for (std::size_t i = 0; i < draws; ++i) nodes.emplace_back(static_cast<int>(state.range(0)), draw);
+  for (std::size_t i = 0; i < draws; ++i) nodes.emplace_back(static_cast<int>(state.range(0)), kOrders, draw);
   const Coulomb friction{0.2, 0};
   ContactsTogether<Dim> solver;
   std::size_t next = 0;
@@ -79,7 +53,7 @@ void solve_in_lanes(benchmark::State& state) {
   constexpr int draws = 256;
   std::mt19937_64 draw(20);
   std::vector<PressedNode<Dim>> nodes;
-  for (int i = 0; i < draws; ++i) nodes.emplace_back(kFields, draw);
+  for (int i = 0; i < draws; ++i) nodes.emplace_back(kFields, kOrders, draw);
   const Coulomb friction{0.2, 0};
   SetRule<Dim> rule;
   rule.acts = rule.rubs = true;

@@ -2,6 +2,7 @@
 
 /// @file Contact between velocity fields: which nodes, and the two corrections of a step (theory §4).
 
+#include <array>
 #include <vector>
 
 #include "engine/contact/books.hpp"

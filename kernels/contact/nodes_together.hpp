@@ -4,6 +4,8 @@
 /// a lane for each.
 
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "kernels/contact/laws.hpp"
 #include "kernels/contact/set_rule.hpp"
@@ -18,9 +20,9 @@ namespace mpmfast {
 
 /// Nodes of kFields fields whose contacts are of the step's one set and rub by Coulomb's law or not at all.
 ///
-/// The steps are those of ContactsTogether: sweeps, and leaps between them, each lane until its own node has
-/// settled. A lane does the same whatever stands in the others. Nodes that do not settle within a few sweeps,
-/// one in a hundred, are left to ContactsTogether, from the start.
+/// The steps are those of ContactsTogether, contacts in the order of their fields: sweeps, and leaps between
+/// them, each lane until its own node has settled. A lane does the same whatever stands in the others. Nodes
+/// that do not settle within a few sweeps, one in a hundred, are left to ContactsTogether, from the start.
 template <int Dim, int kFields>
 class NodesTogether {
  public:
@@ -89,11 +91,12 @@ class NodesTogether {
     }
     store();
     count_ = 0;
-    return bits_of(settled);
+    return bits_of(settled & is_finite());
   }
 
  private:
   static constexpr int kSweeps = 8;
+  static constexpr double kLeast = 1e-290;                         ///< N s: less than this has no inverse
   static constexpr double kNothing = 0, kApproach = 1, kSlip = 2;  ///< as Hinders
   using Column = double[kLanes];
   using VecLanes = Lanes[Dim];
@@ -200,12 +203,17 @@ class NodesTogether {
   }
   static Lanes one() { return broadcast<Lanes>(1.0); }
   IntLanes is_bounded() const { return largest_ <= most_; }
+  /// The larger of a number and what is none may be the number.
+  IntLanes is_finite() const {
+    Lanes sum{};
+    for (const Solving& c : solving_) sum += dot(c.impulse, c.impulse);
+    return sum < std::numeric_limits<double>::infinity();
+  }
 
   /// The demand of a contact for which sticking would need `stick`: SetRule::demand with Coulomb's law.
   /// @param impulse  found: what it demands, or null
   /// @return what it hinders then
   static Lanes demand(const Solving& c, const VecLanes& stick, VecLanes* impulse) {
-    constexpr double kLeast = 1e-290;
     const Lanes along = dot(stick, c.normal), end = along + c.reduced * c.closing;
     VecLanes tangential;
     for (int d = 0; d < Dim; ++d) tangential[d] = stick[d] - along * c.normal[d];
@@ -295,7 +303,7 @@ class NodesTogether {
       const IntLanes slips = going & (c.hinders == kSlip), slides = going & (c.hinders == kApproach);
       some |= slips | slides;
       const Lanes along = dot(c.impulse, c.normal);
-      const IntLanes rubs = along != 0.0;
+      const IntLanes rubs = magnitude(along) > kLeast;
       const Lanes inverse = quotient(one(), chosen(rubs, along, one()));
       VecLanes left;
       slip<place>(left);
@@ -334,7 +342,7 @@ class NodesTogether {
     for (int p = 0; p < kCount; ++p) {
       const Lanes pivot = matrix[p][p];
       const IntLanes needed = magnitude(pivot) > kRedundant;
-      if (bits_of(needed) == 0) {  // of no lane
+      if (bits_of(needed) == 0) {  // of no lane: nothing finite changes
         inverse[p] = Lanes{};
         continue;
       }
@@ -348,16 +356,14 @@ class NodesTogether {
       take(amount);
     }
     IntLanes finite = going & some;
-    for (int i = 0; i < kCount; ++i) {
-      amount[i] *= inverse[i];
-      finite &= magnitude(amount[i]) < std::numeric_limits<double>::infinity();
-    }
+    for (int i = 0; i < kCount; ++i) amount[i] *= inverse[i];
     for_each_place([&](auto place) {
       for (int d = 0; d < Dim; ++d) {
         Lanes sum = amount[place * kWays] * impulse[place * kWays][d];
         for (int way = 1; way < kWays; ++way)
           sum += amount[place * kWays + way] * impulse[place * kWays + way][d];
         solving_[place].change[d] = sum;
+        finite &= magnitude(sum) < std::numeric_limits<double>::infinity();
       }
     });
     return finite;

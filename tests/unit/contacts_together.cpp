@@ -6,6 +6,7 @@
 #include <random>
 
 #include "kernels/contact/resolve_pair.hpp"
+#include "tests/pressed_node.hpp"
 
 namespace {
 
@@ -76,26 +77,13 @@ TEST_CASE("a block slides between two plates with the friction of both") {
 template <int Dim>
 void check_random_nodes() {
   std::mt19937_64 draw(11);
-  std::normal_distribution<double> gauss;
-  std::uniform_real_distribution<double> exponent(-6, 0);
   const double friction = 0.3;
   int unsettled = 0;
   for (int trial = 0; trial < 300; ++trial) {
+    const PressedNode<Dim> posed(3 + trial % 3, 6, draw);
     ContactsTogether<Dim> node;
-    std::vector<Vec<Dim>> place;
-    const auto vector = [&] {
-      Vec<Dim> v;
-      for (int d = 0; d < Dim; ++d) v[d] = gauss(draw);
-      return v;
-    };
-    const int fields = 3 + trial % 3;
-    for (int k = 0; k < fields; ++k) {
-      place.push_back(vector());
-      node.fields.push_back({vector() - place.back(), std::pow(10.0, -exponent(draw))});
-    }
-    for (int a = 0; a < fields; ++a)
-      for (int b = a + 1; b < fields; ++b)
-        add_contact<Dim>(node, a, b, place[static_cast<std::size_t>(b)] - place[static_cast<std::size_t>(a)]);
+    node.fields = posed.fields;
+    node.contacts = posed.contacts;
     const Vec<Dim> before = momentum_of(node);
     if (!solve(node, Coulomb{friction, 0})) {
       ++unsettled;

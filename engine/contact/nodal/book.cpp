@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 
-#include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
 #include "engine/state/team.hpp"
 

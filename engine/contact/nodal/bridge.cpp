@@ -264,6 +264,7 @@ template <int Dim>
 void Contact<Dim>::end_bridges(const State<Dim>& state, double dt) {
   auto& motion = together_.front().motion;
   for (const auto& node : list_.nodes) {
+    if (!is_bridged(node)) continue;
     read_motion(state, node, motion);
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];

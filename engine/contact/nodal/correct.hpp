@@ -1,7 +1,7 @@
 #pragma once
 
 /// @file What a correction asks of a pair and what it leaves: the members of Contact that resolve.cpp calls
-/// for each entry, where the compiler sees them.
+/// for each entry, where the compiler sees them. Other files call those that resolve.cpp instantiates.
 
 #include <algorithm>
 #include <cmath>

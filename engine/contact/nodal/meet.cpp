@@ -1,5 +1,5 @@
-/// What the pairs of a node bring to their laws: momenta that sticking needs, separations, areas, the ways
-/// that walls leave, and which pairs last.
+/// What the pairs of a node bring to their laws: areas, the ways that walls leave, and which pairs last.
+/// (Momenta that sticking needs and separations: correct.hpp.)
 
 #include <algorithm>
 #include <cmath>

@@ -43,15 +43,25 @@ class NodeMotion {
     }
     return sum;
   }
+  /// The others of a lump. (Not what is left of all: beside a heavy field light ones would be round-off.)
+  Total others_than(int a) const {
+    Total sum;
+    for (int k = 0; k < static_cast<int>(fields_.size()); ++k) {
+      if (k == a) continue;
+      sum.mass += (*this)[k].mass;
+      sum.momentum += (*this)[k].momentum;
+    }
+    return sum;
+  }
   /// v_a − v_b, m/s. @param b  −1: all others, as one
   Vec<Dim> slip_of(int a, int b) const {
     if (b >= 0) return velocity(a) - velocity(b);
-    return velocity(a) - inverse_mass_of(a, b) * (total().momentum - (*this)[a].momentum);
+    const Total others = others_than(a);
+    return velocity(a) - others.momentum / others.mass;
   }
   /// Of b, or of all but a, 1/kg.
   double inverse_mass_of(int a, int b) const {
-    if (b >= 0) return (*this)[b].inverse_mass;
-    return 1 / (total().mass - (*this)[a].mass);
+    return b >= 0 ? (*this)[b].inverse_mass : 1 / others_than(a).mass;
   }
 
  private:

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <limits>
 
-#include "engine/conditions/conditions.hpp"
 #include "engine/contact/contact.hpp"
 #include "engine/contact/nodal/correct.hpp"
 #include "engine/plan/contact_law.hpp"
