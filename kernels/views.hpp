@@ -93,6 +93,7 @@ struct TileContext {
   const ParticleRun<Dim>* runs;
   const BodyView<Dim>* bodies;
   const GridView<Dim>* grid;
+  const ParticleTile<Dim>* next = nullptr;  ///< that the thread comes to then, if any
   /// Sums go on from the tile before in its window, and to the next one (transfer/window.hpp).
   bool goes_on_from = false, goes_on_to = false;
 };
@@ -155,16 +156,59 @@ inline bool for_each_chunk_of_run(const TileContext<Dim>& c, const ParticleRun<D
 }
 
 /// Asks for the particles that follow a chunk, mostly those of the next tile: a pass goes along more columns
-/// than the processor follows by itself. (Always inline: what only asks is a call without effect, and left
-/// out.)
-/// @param columns  n of them
-[[gnu::always_inline]] inline void fetch_ahead(double* const* columns, int n, std::uint32_t end, int count) {
-  constexpr int kLine = 64 / sizeof(double);
-  for (int c = 0; c < n; ++c)
-    for (int k = 0; k < count; k += kLine) __builtin_prefetch(columns[c] + end + k);
+/// than the processor follows by itself. It asks for a line or two beside the work on each particle: all at
+/// once they would wait for each other, and whatever is read meanwhile for them.
+/// @tparam N  columns, at most
+template <int N>
+class FetchAhead {
+ public:
+  template <int M>
+  void add(double* const (&columns)[M]) {
+    for (const double* column : columns) add(column);
+  }
+  void add(const double* column) {
+    if (count_ == 0)
+      for (const double*& any : columns_) any = column;
+    columns_[count_++] = column;
+  }
+  /// @param end  of the chunk
+  void start_at(std::uint32_t end) {
+    for (unsigned c = 0; c < kSlots; ++c) from_[c] = columns_[c] + end;
+  }
+  /// Beside the k-th of the chunk. (Always inline: what only asks is a call without effect, and left out.)
+  [[gnu::always_inline]] void operator()(int k) const {
+    const unsigned at = static_cast<unsigned>(k), of_line = at % kLine;
+    for (unsigned c = of_line; c < kSlots; c += kLine) __builtin_prefetch(from_[c] + (at - of_line));
+  }
+
+ private:
+  static constexpr unsigned kLine = 64 / sizeof(double), kSlots = (N + kLine - 1) / kLine * kLine;
+  const double* columns_[kSlots];  ///< those that nothing was added to are the first
+  const double* from_[kSlots];     ///< after the chunk
+  int count_ = 0;
+};
+
+/// The same, with the columns that weights are made of.
+/// @tparam N  others, at most
+template <class Basis, int N, int Dim>
+inline auto fetch_ahead(const ParticleView<Dim>& p) {
+  FetchAhead<Dim + (Basis::kConvected ? Dim * Dim : 0) + N> ahead;
+  ahead.add(p.position);
+  if constexpr (Basis::kConvected) ahead.add(p.edges);
+  return ahead;
 }
 
-/// The same of all runs of the tile.
+/// Asks for the tile after the next one, and the runs of the next.
+template <int Dim>
+[[gnu::always_inline]] inline void fetch_next_tile(const TileContext<Dim>& c) {
+  if (!c.next) return;
+  __builtin_prefetch(c.next + 1);
+  const ParticleRun<Dim>& run = c.runs[c.next->run_begin];
+  __builtin_prefetch(&run.begin);
+  __builtin_prefetch(&run.body);
+}
+
+/// As for_each_chunk_of_run, of all runs of the tile.
 template <int Dim, class Basis, class F>
 inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)

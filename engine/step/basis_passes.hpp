@@ -330,8 +330,9 @@ class BasisPasses final : public Passes<Dim> {
           const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
           TileContext<Dim> c = context(state, view, strip.begin);
           for (; c.tile != state.tiling.tiles.data() + strip.end; ++c.tile) {
-            const bool last = c.tile + 1 == state.tiling.tiles.data() + strip.end;
-            c.goes_on_from = std::exchange(c.goes_on_to, !last && goes_on<Dim>(c.tile[0], c.tile[1]));
+            c.next = c.tile + 1 == state.tiling.tiles.data() + strip.end ? nullptr : c.tile + 1;
+            c.goes_on_from = std::exchange(c.goes_on_to, c.next && goes_on<Dim>(*c.tile, *c.next));
+            fetch_next_tile(c);
             f(c, room, rigid);
           }
         });
@@ -407,9 +408,10 @@ class BasisPasses final : public Passes<Dim> {
         if (state
                 .field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
           return;
-        merge(update_tile<Dim, Basis, NV>(context(state, view, static_cast<int>(t)), room, in, strain, rule,
-                                          low, high, visitor(state)),
-              report);
+        TileContext<Dim> c = context(state, view, static_cast<int>(t));
+        if (t + 1 < n) c.next = c.tile + 1;
+        fetch_next_tile(c);
+        merge(update_tile<Dim, Basis, NV>(c, room, in, strain, rule, low, high, visitor(state)), report);
       });
     });
     TileReport all;

@@ -75,7 +75,7 @@ inline void gather_moments(const ProductWeights<Dim, K>& w, int k, const R* wind
 template <int Dim, class Basis, class Room>
 bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumns<1 + Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  begin_sums(c, room.mass_momentum);
+  begin_sums(c, room.mass_momentum, out);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
         const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);

@@ -46,12 +46,13 @@ inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int c
 
 }  // namespace detail
 
-/// What mass and momentum are made of.
-template <int Dim>
-[[gnu::always_inline]] inline void fetch_inertia(const ParticleView<Dim>& p, std::uint32_t end, int count) {
-  fetch_ahead(p.position, Dim, end, count);
-  fetch_ahead(p.velocity, Dim, end, count);
-  fetch_ahead(&p.mass, 1, end, count);
+/// What mass and momentum are made of, and N columns.
+template <class Basis, int N, int Dim>
+inline auto fetch_inertia(const ParticleView<Dim>& p) {
+  auto ahead = fetch_ahead<Basis, Dim + 1 + N>(p);
+  ahead.add(p.velocity);
+  ahead.add(p.mass);
+  return ahead;
 }
 
 /// Nodal mass and momentum of one tile (N20 Eq. 5): m_i = Σ S_pi M_p, p_i = Σ S_pi M_p V_p.
@@ -59,12 +60,13 @@ template <int Dim>
 /// @return     false if the tile must be sorted anew (out is then untouched)
 template <int Dim, class Basis>
 bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
-  begin_sums(c, room.mass_momentum);
+  auto ahead = fetch_inertia<Basis, 0>(*c.particles);
+  begin_sums(c, room.mass_momentum, out);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-        fetch_inertia(*c.particles, begin + static_cast<std::uint32_t>(count), count);
+        ahead.start_at(begin + static_cast<std::uint32_t>(count));
         detail::stack_inertia(*c.particles, begin, count, room.record);
-        scatter_chunk_values(w, count, room.record, room.mass_momentum.at[0]);
+        scatter_chunk_values(w, count, room.record, room.mass_momentum.at[0], ahead);
       });
   if (inside) end_sums(c, room.mass_momentum, out);
   return inside;
@@ -80,24 +82,25 @@ bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room
   auto& at = room.load.at;
   constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;
   constexpr bool single = wide && Dim == 2;  // one record has all of a particle
-  begin_sums(c, room.load);
+  auto ahead = fetch_inertia<Basis, kSymmetric<Dim> + 1>(p);
+  ahead.add(p.stress);
+  ahead.add(p.volume);
+  begin_sums(c, room.load, out);
   const bool inside = for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-        const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
-        fetch_inertia(p, end, count);
-        fetch_ahead(p.stress, kSymmetric<Dim>, end, count);
-        fetch_ahead(&p.volume, 1, end, count);
+        ahead.start_at(begin + static_cast<std::uint32_t>(count));
         detail::stack_inertia(p, begin, count, room.inertia);
         stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
                      single ? &room.inertia : room.stress);
         if constexpr (single) {
-          scatter_chunk_pairs(w, count, room.inertia, at[0]);
+          scatter_chunk_pairs(w, count, room.inertia, at[0], ahead);
         } else if constexpr (wide) {
           for_each_apart(count, [&](int k) {
+            ahead(k);
             scatter(w, k, room.inertia[k], {room.stress[0][k], room.stress[1][k], room.stress[2][k]}, at[0]);
           });
         } else {
-          scatter_chunk_values(w, count, room.inertia, at[0]);
+          scatter_chunk_values(w, count, room.inertia, at[0], ahead);
           scatter_stress<Dim>(w, count, room.stress, at[1]);
         }
       });

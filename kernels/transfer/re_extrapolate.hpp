@@ -51,23 +51,22 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
                          const NodeColumns<Dim + 1>& out) {
   const ParticleView<Dim>& p = *c.particles;
   const bool weighs_pressed = out.column[Dim] != nullptr;
+  auto ahead = fetch_ahead<Basis, Dim + Dim * Dim + 1>(p);
+  if (velocity == ParticleUpdate::flip) ahead.add(p.velocity);
+  if (weighs_pressed) ahead.add(p.deformation);
+  ahead.add(p.mass);
   load_window(in, *c.tile, room.in);
-  begin_sums(c, room.out);
+  begin_sums(c, room.out, out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        if constexpr (Dim == 3) {
-          const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
-          fetch_ahead(p.position, Dim, end, count);
-          if (velocity == ParticleUpdate::flip) fetch_ahead(p.velocity, Dim, end, count);
-          if (weighs_pressed) fetch_ahead(p.deformation, Dim * Dim, end, count);
-          fetch_ahead(&p.mass, 1, end, count);
-        }
+        ahead.start_at(begin + static_cast<std::uint32_t>(count));
         if (velocity == ParticleUpdate::flip)
           stack<Dim>(count, room.record, 0,
                      [&](int d, int k) { return detail::load_row(p.velocity[d] + begin + k); });
         if (weighs_pressed) find_pressed(p, begin, count, room.pressed);
         for (int k = 0; k < count; ++k) {
+          ahead(k);
           const auto m = static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]);
           Record v = gather_values(w, k, room.in.at[0]);
           if (velocity == ParticleUpdate::flip) v += room.record[k];

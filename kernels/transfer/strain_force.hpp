@@ -56,11 +56,12 @@ inline void gather_velocity_gradient(const Weights& w, int count, const Record* 
 }
 
 /// Scatters the internal force of a chunk, f_i −= Σ_p V_p0 τ_p·G_pi (V_p σ_p = V_p0 τ_p).
-template <int Dim, class Weights, class Room>
+/// @param beside  called with each particle
+template <int Dim, class Weights, class Room, class F>
 inline void scatter_force(const ParticleView<Dim>& p, const ChunkStress<Dim>& stress, const Weights& w,
-                          std::uint32_t begin, int count, Room& room) {
+                          std::uint32_t begin, int count, Room& room, const F& beside) {
   stack_stress(p, stress, begin, count, 0, room.row);
-  scatter_stress<Dim>(w, count, room.row, room.force.at[0]);
+  scatter_stress<Dim>(w, count, room.row, room.force.at[0], beside);
 }
 
 /// Hoop rates of a chunk about the axis x = 0, (v_r/r)_p = Σ_i v_ir S_pi/r_p, staged in room.hoop_rate. The
@@ -98,15 +99,13 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
   const ParticleView<Dim>& p = *c.particles;
   bool sound = true;
   if (dt_strain > 0) load_window(for_gradients(velocity), *c.tile, room.velocity);
-  begin_sums(c, room.force);
+  auto ahead = fetch_ahead<Basis, Dim * Dim + 1>(p);
+  ahead.add(p.deformation);
+  ahead.add(p.volume);
+  begin_sums(c, room.force, for_gradients(force));
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-                               if constexpr (Dim == 3) {
-                                 const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
-                                 fetch_ahead(p.position, Dim, end, count);
-                                 fetch_ahead(p.deformation, Dim * Dim, end, count);
-                                 fetch_ahead(&p.volume, 1, end, count);
-                               }
+                               ahead.start_at(begin + static_cast<std::uint32_t>(count));
                                ChunkStress<Dim> stress = stress_columns(p, begin);
                                if (dt_strain > 0) {
                                  gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
@@ -118,7 +117,7 @@ bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& r
                                                               stress);
                                  });
                                }
-                               scatter_force(p, stress, w, begin, count, room);
+                               scatter_force(p, stress, w, begin, count, room, ahead);
                                if constexpr (hoop) scatter_hoop_force(p, w, begin, count, room);
                              });
   end_sums(c, room.force, for_gradients(force));

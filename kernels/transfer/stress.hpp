@@ -24,12 +24,15 @@ inline void stack_stress(const ParticleView<Dim>& p, const ChunkStress<Dim>& of,
 }
 
 /// window_i += Σ_p Σ_d G_pi,d (row d of the staged stress of particle p of a chunk).
-template <int Dim, class Weights>
-inline void scatter_stress(const Weights& w, int count, const Record (*stress)[kChunk<Dim>], Record* window) {
+/// @param beside  called with each particle
+template <int Dim, class Weights, class F = NothingBeside>
+inline void scatter_stress(const Weights& w, int count, const Record (*stress)[kChunk<Dim>], Record* window,
+                           const F& beside = {}) {
   if constexpr (Dim == 2)
-    scatter_chunk_pairs(w, count, stress[0], window);
+    scatter_chunk_pairs(w, count, stress[0], window, beside);
   else
     for_each_apart(count, [&](int k) {
+      beside(k);
       scatter_gradients(w, k, {stress[0][k], stress[1][k], stress[2][k]}, window);
     });
 }

@@ -331,31 +331,52 @@ inline void for_each_in_support(const Weights& w, int count, R* window, const F&
 
 }  // namespace detail
 
-template <class Weights, class R>
-inline void scatter_chunk_values(const Weights& w, int count, const R* a, R* window) {
+/// Nothing is done beside the sums of a particle.
+struct NothingBeside {
+  void operator()(int) const {}
+};
+
+/// @param beside  called with each particle of the chunk, as those below
+template <class Weights, class R, class F = NothingBeside>
+inline void scatter_chunk_values(const Weights& w, int count, const R* a, R* window, const F& beside = {}) {
   if constexpr (detail::kStay<Weights>)
-    detail::for_each_in_support<true>(
-        w, count, window, [&](int k, R* nodes) { add_values<Weights::kSide>(w, k, a[k], nodes); });
+    detail::for_each_in_support<true>(w, count, window, [&](int k, R* nodes) {
+      beside(k);
+      add_values<Weights::kSide>(w, k, a[k], nodes);
+    });
   else
-    for_each_apart(count, [&](int k) { scatter_values(w, k, a[k], window); });
+    for_each_apart(count, [&](int k) {
+      beside(k);
+      scatter_values(w, k, a[k], window);
+    });
 }
 
-template <class Weights, class R>
-inline void scatter_chunk_pairs(const Weights& w, int count, const R* a, R* window) {
+template <class Weights, class R, class F = NothingBeside>
+inline void scatter_chunk_pairs(const Weights& w, int count, const R* a, R* window, const F& beside = {}) {
   if constexpr (detail::kStay<Weights>)
-    detail::for_each_in_support<true>(w, count, window,
-                                      [&](int k, R* nodes) { add_pairs<Weights::kSide>(w, k, a[k], nodes); });
+    detail::for_each_in_support<true>(w, count, window, [&](int k, R* nodes) {
+      beside(k);
+      add_pairs<Weights::kSide>(w, k, a[k], nodes);
+    });
   else
-    for_each_apart(count, [&](int k) { scatter_pairs(w, k, a[k], window); });
+    for_each_apart(count, [&](int k) {
+      beside(k);
+      scatter_pairs(w, k, a[k], window);
+    });
 }
 
-template <class Weights, class R>
-inline void gather_chunk_pairs(const Weights& w, int count, const R* window, R* out) {
+template <class Weights, class R, class F = NothingBeside>
+inline void gather_chunk_pairs(const Weights& w, int count, const R* window, R* out, const F& beside = {}) {
   if constexpr (detail::kStay<Weights>)
-    detail::for_each_in_support<false>(
-        w, count, window, [&](int k, const R* nodes) { out[k] = sum_of_pairs<Weights::kSide>(w, k, nodes); });
+    detail::for_each_in_support<false>(w, count, window, [&](int k, const R* nodes) {
+      beside(k);
+      out[k] = sum_of_pairs<Weights::kSide>(w, k, nodes);
+    });
   else
-    for (int k = 0; k < count; ++k) out[k] = gather_pairs(w, k, window);
+    for (int k = 0; k < count; ++k) {
+      beside(k);
+      out[k] = gather_pairs(w, k, window);
+    }
 }
 
 }  // namespace mpmfast

@@ -65,12 +65,14 @@ struct LaneReport {
 
 /// The nodal vectors of a chunk by component in room.value, and the gradient of v⁺ in room.gradient if it is
 /// wanted: in 2-D from the pairs beside the values.
-template <int NC, class Weights, class Room>
-inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room) {
+/// @param beside  called with each particle (in the plane where the gradient is wanted)
+template <int NC, class Weights, class Room, class F>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room,
+                         const F& beside) {
   constexpr int last = Window<2, NC>::kRecords - 1, pairs = 4 / Window<2, NC>::kPerNode;
   for (int r = 0; r <= last; ++r)
     if (gradient && r == pairs)
-      gather_chunk_pairs(w, count, from.window.at[r], from.value[r]);
+      gather_chunk_pairs(w, count, from.window.at[r], from.value[r], beside);
     else
       for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   unstack<2, 4>(from.value[0], count, room.value);
@@ -78,10 +80,12 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
   if (gradient) unstack_pairs(from.value[pairs], count, 1 - pairs, room);
 }
 
-template <int NC, class Weights, class Room>
-inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room) {
+template <int NC, class Weights, class Room, class F>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room,
+                         const F& beside) {
   if (gradient) {
     for (int k = 0; k < count; ++k) {
+      beside(k);
       typename GatherRoom<3, NC>::Node slope[3];
       from.value[0][k] = gather(w, k, from.window.at[0], slope);
       for (int d = 0; d < 3; ++d) from.slope[d][k] = slope[d];
@@ -89,7 +93,10 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
     for (int d = 0; d < 3; ++d) unstack<3, 3>(from.slope[d], count, &room.gradient[4 * d]);
   }
   for (int r = gradient ? 1 : 0; r < from.window.kRecords; ++r)
-    for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
+    for (int k = 0; k < count; ++k) {
+      if (r == 0) beside(k);
+      from.value[r][k] = gather_values(w, k, from.window.at[r]);
+    }
   for (int r = 0; r < from.window.kRecords; ++r)
     unstack<3, Window<3, NC>::kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
 }
@@ -161,19 +168,17 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
       return room.three;
   }
   ();
+  auto ahead = fetch_ahead<Basis, Dim + Dim * Dim>(p);
+  ahead.add(p.velocity);
+  ahead.add(p.deformation);
+  if (c.next) fetch_rows<Dim>(nodes, *c.next, 1);
   load_window(entry_columns<Dim, NV>(nodes, strain), *c.tile, from.window);
   if (apart) load_window(for_gradients(strain), *c.tile, room.velocity);
   for_each_chunk<Dim, Basis>(
       c, room.weights, strains ? Wanted::both : Wanted::values,
       [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        if constexpr (Dim == 3) {  // in 2-D it takes longer than it saves
-          const std::uint32_t end = begin + static_cast<std::uint32_t>(count);
-          fetch_ahead(p.position, Dim, end, count);
-          fetch_ahead(p.velocity, Dim, end, count);
-          fetch_ahead(p.deformation, Dim * Dim, end, count);
-          fetch_ahead(&p.wave_speed, 1, end, count);
-        }
-        gather_chunk(w, count, strains && !(Dim == 3 && apart), from, room);
+        ahead.start_at(begin + static_cast<std::uint32_t>(count));
+        gather_chunk(w, count, strains && !(Dim == 3 && apart), from, room, ahead);
         if (strains) {
           if (Dim == 3 && apart) gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
           if (hoop && apart)

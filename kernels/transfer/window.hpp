@@ -143,6 +143,18 @@ inline void flush_window(Window<Dim, NC>& window, const Tile& tile, const NodeCo
   flush_rows(window, tile.slot, columns);
 }
 
+/// Asks for the rows under the half of a tile's window that is lower (0) or upper (1) along x, long before
+/// they are read. (Always inline, as FetchAhead.)
+template <int Dim, int NC, class Tile>
+[[gnu::always_inline]] inline void fetch_rows(const NodeColumns<NC>& columns, const Tile& tile, int half) {
+  constexpr int kLine = 64 / sizeof(double);
+  if (tile.node_slot) return;
+  for (int corner = half; corner < kCorners<Dim>; corner += 2)
+    for (const double* column : columns.column)
+      for (int k = 0; k < kTileNodes<Dim>; k += kLine)
+        if (column) __builtin_prefetch(column + tile.slot[corner] + k);
+}
+
 // Sums along a strip of tiles: what a tile and the next one both add to stays in the window from one to the
 // other. (In 2-D: in 3-D to move half a window costs as much as it saves.)
 
@@ -157,8 +169,9 @@ inline bool goes_on(const Tile& tile, const Tile& next) {
 
 /// Readies a window for the sums of a tile. @param c a TileContext
 template <int Dim, int NC, class Context>
-inline void begin_sums(const Context& c, Window<Dim, NC>& window) {
+inline void begin_sums(const Context& c, Window<Dim, NC>& window, const NodeColumns<NC>& columns) {
   if (!c.goes_on_from) clear(window);
+  if constexpr (Dim == 2) fetch_rows<Dim>(columns, *c.tile, 0);
 }
 
 /// Adds to the columns what is complete.

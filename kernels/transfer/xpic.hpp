@@ -20,16 +20,21 @@ template <int Dim, class Basis, int NC>
 void xpic_tile(const TileContext<Dim>& c, XpicRoom<Dim, Basis, NC>& room, const NodeColumns<NC>& in,
                const NodeColumns<NC>& out) {
   const ParticleView<Dim>& p = *c.particles;
+  auto ahead = fetch_ahead<Basis, 1>(p);
+  ahead.add(p.mass);
   load_window(in, *c.tile, room.in);
-  begin_sums(c, room.out);
+  begin_sums(c, room.out, out);
   for_each_chunk<Dim, Basis>(
       c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
-        for (int k = 0; k < count; ++k)
+        ahead.start_at(begin + static_cast<std::uint32_t>(count));
+        for (int k = 0; k < count; ++k) {
+          ahead(k);
           for (int r = 0; r < room.in.kRecords; ++r) {
             const auto a = gather_values(w, k, room.in.at[r]);
             scatter_values(w, k, static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]) * a,
                            room.out.at[r]);
           }
+        }
       });
   end_sums(c, room.out, out);
 }

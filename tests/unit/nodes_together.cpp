@@ -160,7 +160,7 @@ TEST_CASE("nodes in lanes obey their laws and get what each gets alone") {
   }
   check_as_alone<2, 3>(true, false, 0.95);
   check_as_alone<2, 4>(true, false, 0.9);
-  check_as_alone<3, 3>(true, false, 0.8);  // in 3-D slips turn from sweep to sweep
+  check_as_alone<3, 3>(true, false, 0.8);   // in 3-D slips turn from sweep to sweep
   check_as_alone<3, 4>(true, false, 0.55);  // measured 0.60
 }
 
