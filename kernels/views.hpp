@@ -158,7 +158,7 @@ inline bool for_each_chunk_of_run(const TileContext<Dim>& c, const ParticleRun<D
 /// Asks for the particles that follow a chunk, mostly those of the next tile: a pass goes along more columns
 /// than the processor follows by itself. It asks for a line or two beside the work on each particle: all at
 /// once they would wait for each other, and whatever is read meanwhile for them.
-/// @tparam N  columns, at most
+/// @tparam N  columns, at most; two beyond a multiple of eight are left to the processor, which follows a few
 template <int N>
 class FetchAhead {
  public:
@@ -169,7 +169,7 @@ class FetchAhead {
   void add(const double* column) {
     if (count_ == 0)
       for (const double*& any : columns_) any = column;
-    columns_[count_++] = column;
+    if (count_ < kSlots) columns_[count_++] = column;
   }
   /// @param end  of the chunk
   void start_at(std::uint32_t end) {
@@ -182,10 +182,11 @@ class FetchAhead {
   }
 
  private:
-  static constexpr unsigned kLine = 64 / sizeof(double), kSlots = (N + kLine - 1) / kLine * kLine;
+  static constexpr unsigned kLine = 64 / sizeof(double), kLeft = 2,
+                            kSlots = N > kLine ? (N - kLeft + kLine - 1) / kLine *kLine : kLine;
   const double* columns_[kSlots];  ///< those that nothing was added to are the first
   const double* from_[kSlots];     ///< after the chunk
-  int count_ = 0;
+  unsigned count_ = 0;
 };
 
 /// The same, with the columns that weights are made of.
@@ -196,6 +197,13 @@ inline auto fetch_ahead(const ParticleView<Dim>& p) {
   ahead.add(p.position);
   if constexpr (Basis::kConvected) ahead.add(p.edges);
   return ahead;
+}
+
+/// The same in a loop over vectors of particles, where it takes an instruction a line and nothing else.
+template <int N>
+[[gnu::always_inline]] inline void fetch_further(double* const (&columns)[N], std::uint32_t at) {
+  constexpr std::uint32_t kFurther = 128;  // particles: in the plane two tiles
+  for (const double* column : columns) __builtin_prefetch(column + at + kFurther);
 }
 
 /// Asks for the tile after the next one, and the runs of the next.

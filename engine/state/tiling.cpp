@@ -144,13 +144,32 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
   colour_strips();
 }
 
+/// Tiles of the longest row along x.
+template <int Dim>
+int Tiling<Dim>::widest_row() const {
+  int widest = 0, row = 0;
+  const ParticleTile<Dim>* last = nullptr;
+  for (const auto& tile : tiles) {
+    bool goes_on = last && tile.field == last->field;
+    for (int d = 1; d < Dim; ++d) goes_on = goes_on && tile.window[d] == last->window[d];
+    row = goes_on ? row + 1 : 1;
+    widest = std::max(widest, row);
+    last = &tile;
+  }
+  return widest;
+}
+
 /// Long strips read memory as it lies, short ones leave more threads something to do: some 32 of a colour.
-/// They begin at multiples of their length.
+/// They begin at multiples of their length. Where tiles are many, so that their nodes leave the second cache
+/// from colour to colour, strips take whole rows and half the colours: what a row shares with the one before
+/// it is still near.
 template <int Dim>
 void Tiling<Dim>::colour_strips() {
-  constexpr int kOfAColour = 32, kShortest = 4, kLongest = 64;
-  const int length =
-      std::clamp(static_cast<int>(tiles.size()) / (kCorners<Dim> * kOfAColour), kShortest, kLongest);
+  constexpr int kOfAColour = 32, kShortest = 4, kLongest = 64, kMany = 2048;
+  const int share = static_cast<int>(tiles.size()) / (kCorners<Dim> * kOfAColour), widest = widest_row(),
+            length = std::clamp(share, kShortest, kLongest);
+  const bool whole = static_cast<int>(tiles.size()) >= kMany && 2 * share >= widest;
+  const int rows = whole ? (2 * share + widest - 1) / widest : 1;
   for (auto& colour : colours) colour.clear();
   NodeIndex<Dim> last;
   int last_field = -1;
@@ -158,7 +177,8 @@ void Tiling<Dim>::colour_strips() {
   for (std::size_t t = 0; t < tiles.size(); ++t) {
     NodeIndex<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = tiles[t].window[d] / kTileSide;
-    at[0] = floor_div(at[0], length);
+    at[0] = whole ? 0 : floor_div(at[0], length);
+    at[1] = floor_div(at[1], rows);
     if (!strip || tiles[t].field != last_field || at != last) {
       unsigned colour = 0;
       for (int d = 0; d < Dim; ++d) colour |= static_cast<unsigned>(at[d] & 1) << d;

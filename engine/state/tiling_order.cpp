@@ -57,20 +57,20 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
 template <class T>
 void permute(T* values, SortBuffers& buffers) {
   static_assert(sizeof(T) <= sizeof(std::uint64_t));
-  const auto take = [&](std::uint32_t i) {
-    std::memcpy(&buffers.spare[i], values + buffers.order[i], sizeof(T));
-  };
-  const auto put = [&](std::uint32_t i) { std::memcpy(values + i, &buffers.spare[i], sizeof(T)); };
+  // The compiler is to know that neither of these moves while it writes.
+  const std::uint32_t* const order = buffers.order.data();
+  auto* const spare = reinterpret_cast<unsigned char*>(buffers.spare.data());
   for (const auto& range : buffers.ranges) {
     const std::uint32_t begin = range[0], end = range[1];
-    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [=](const Member& me) {
       const auto threads = static_cast<std::uint64_t>(me.threads),
                  thread = static_cast<std::uint64_t>(me.thread), n = static_cast<std::uint64_t>(end - begin);
       const auto first = begin + static_cast<std::uint32_t>(n * thread / threads),
                  last = begin + static_cast<std::uint32_t>(n * (thread + 1) / threads);
-      for (std::uint32_t i = first; i < last; ++i) take(i);
+      for (std::uint32_t i = first; i < last; ++i)
+        std::memcpy(spare + i * sizeof(T), values + order[i], sizeof(T));
       me.wait_for_all();
-      for (std::uint32_t i = first; i < last; ++i) put(i);
+      std::memcpy(values + first, spare + first * sizeof(T), (last - first) * sizeof(T));
     });
   }
 }

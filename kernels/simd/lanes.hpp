@@ -29,6 +29,7 @@ inline constexpr int kLanes = 2;
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
 using IntLanes = std::int64_t __attribute__((vector_size(8 * kLanes)));
 using Row = double __attribute__((vector_size(32)));
+using WideRow = double __attribute__((vector_size(64)));
 
 /// What transfers weigh and sum in, between the columns, which are doubles.
 #if defined(MPMFAST_SINGLE_TRANSFERS)
@@ -240,15 +241,32 @@ inline double largest_of(Lanes x) {
 }
 
 /// Transposes four records in place: row i of the result holds component i of each.
-inline void transpose(Record& a, Record& b, Record& c, Record& d) {
-  const Record ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
-               ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Record cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6),
-               cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
-  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
-  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
-  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+inline void transpose(Record (&row)[4]) {
+  const Record ab_even = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6),
+               ab_odd = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+  const Record cd_even = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6),
+               cd_odd = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+  row[0] = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
+  row[1] = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
+  row[2] = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
+  row[3] = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
+}
+
+/// The same of eight wide records.
+inline void transpose(WideRecord (&row)[8]) {
+  WideRecord pairs[8], fours[8];
+  for (int i = 0; i < 8; i += 2) {  // components of two records side by side
+    pairs[i] = __builtin_shufflevector(row[i], row[i + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+    pairs[i + 1] = __builtin_shufflevector(row[i], row[i + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+  }
+  const auto every_other = [](WideRecord a, WideRecord b, WideRecord& even, WideRecord& odd) {
+    even = __builtin_shufflevector(a, b, 0, 1, 4, 5, 8, 9, 12, 13);
+    odd = __builtin_shufflevector(a, b, 2, 3, 6, 7, 10, 11, 14, 15);
+  };
+  for (int i = 0; i < 8; i += 4)
+    for (int odd = 0; odd < 2; ++odd)
+      every_other(pairs[i + odd], pairs[i + odd + 2], fours[i + odd], fours[i + odd + 2]);
+  for (int c = 0; c < 4; ++c) every_other(fours[c], fours[c + 4], row[c], row[c + 4]);
 }
 
 }  // namespace mpmfast

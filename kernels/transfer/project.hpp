@@ -73,11 +73,11 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
 }
 
 /// As project_tile, with the internal force f_i −= Σ_p V_p0 τ_p·G_pi beside: for stresses that the step does
-/// not change before its forces.
+/// not change before its forces. (Flattened, as update_tile.)
 /// @param out  see kLoadEntries; accumulated
 template <int Dim, class Basis>
-bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
-                        const NodeColumns<kLoadEntries<Dim>>& out) {
+[[gnu::flatten]] bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+                                         const NodeColumns<kLoadEntries<Dim>>& out) {
   const ParticleView<Dim>& p = *c.particles;
   auto& at = room.load.at;
   constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;

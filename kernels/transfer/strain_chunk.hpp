@@ -94,6 +94,7 @@ template <int Dim>
 template <int Dim>
 inline void load_strain(const ParticleView<Dim>& p, const StrainRoom<Dim>& room, std::uint32_t begin, int k,
                         Lanes (&l)[Dim * Dim], Lanes (&f)[Dim * Dim]) {
+  fetch_further(p.deformation, begin + static_cast<std::uint32_t>(k));
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) {
       l[Dim * i + j] = load_lanes(&room.gradient[4 * j + i][k]);

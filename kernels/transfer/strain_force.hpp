@@ -33,7 +33,7 @@ inline void unstack_pairs(const R* in, int count, int quad, Room& room) {
     Record row[4];
     for (int i = 0; i < 4; ++i)
       row[i] = detail::load_record(reinterpret_cast<const Real*>(in + k + i) + 4 * quad);
-    transpose(row[0], row[1], row[2], row[3]);
+    transpose(row);
     for (int i = 0; i < 4; ++i)
       detail::store_row(&room.gradient[4 * (i / 2) + i % 2][k], detail::to_row(row[i]));
   }
@@ -87,20 +87,19 @@ inline void scatter_hoop_force(const ParticleView<Dim>& p, const Weights& w, std
 }
 
 /// One tile: strain first from the nodal velocities (if `dt_strain` > 0), then the internal force. Stresses
-/// that follow from F are then for this force alone: no column gets them.
+/// that follow from F are then for this force alone: no column gets them. (Flattened, as update_tile.)
 /// @tparam D  Depth::hoop for the hoop terms of axisymmetry (2-D); the others differ in nothing here
 /// @param visit_material called as visit_material(index, f): f(law) with the material's law
 /// @return whether each J of the tile is a positive number
 template <int Dim, class Basis, Depth D = Depth::held, class VisitMaterial>
-bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& room,
-                       const NodeColumns<Dim>& velocity, double dt_strain, int terms,
-                       const VisitMaterial& visit_material, const NodeColumns<Dim>& force) {
+[[gnu::flatten]] bool strain_force_tile(const TileContext<Dim>& c, StrainForceRoom<Dim, Basis>& room,
+                                        const NodeColumns<Dim>& velocity, double dt_strain, int terms,
+                                        const VisitMaterial& visit_material, const NodeColumns<Dim>& force) {
   constexpr bool hoop = D == Depth::hoop;
   const ParticleView<Dim>& p = *c.particles;
   bool sound = true;
   if (dt_strain > 0) load_window(for_gradients(velocity), *c.tile, room.velocity);
-  auto ahead = fetch_ahead<Basis, Dim * Dim + 1>(p);
-  ahead.add(p.deformation);
+  auto ahead = fetch_ahead<Basis, 1>(p);
   ahead.add(p.volume);
   begin_sums(c, room.force, for_gradients(force));
   for_each_chunk<Dim, Basis>(c, room.weights, hoop ? Wanted::both : Wanted::gradients,

@@ -365,18 +365,13 @@ inline void scatter_chunk_pairs(const Weights& w, int count, const R* a, R* wind
     });
 }
 
-template <class Weights, class R, class F = NothingBeside>
-inline void gather_chunk_pairs(const Weights& w, int count, const R* window, R* out, const F& beside = {}) {
+template <class Weights, class R>
+inline void gather_chunk_pairs(const Weights& w, int count, const R* window, R* out) {
   if constexpr (detail::kStay<Weights>)
-    detail::for_each_in_support<false>(w, count, window, [&](int k, const R* nodes) {
-      beside(k);
-      out[k] = sum_of_pairs<Weights::kSide>(w, k, nodes);
-    });
+    detail::for_each_in_support<false>(
+        w, count, window, [&](int k, const R* nodes) { out[k] = sum_of_pairs<Weights::kSide>(w, k, nodes); });
   else
-    for (int k = 0; k < count; ++k) {
-      beside(k);
-      out[k] = gather_pairs(w, k, window);
-    }
+    for (int k = 0; k < count; ++k) out[k] = gather_pairs(w, k, window);
 }
 
 }  // namespace mpmfast

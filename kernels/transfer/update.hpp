@@ -65,14 +65,12 @@ struct LaneReport {
 
 /// The nodal vectors of a chunk by component in room.value, and the gradient of v⁺ in room.gradient if it is
 /// wanted: in 2-D from the pairs beside the values.
-/// @param beside  called with each particle (in the plane where the gradient is wanted)
-template <int NC, class Weights, class Room, class F>
-inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room,
-                         const F& beside) {
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<2, NC>& from, Room& room) {
   constexpr int last = Window<2, NC>::kRecords - 1, pairs = 4 / Window<2, NC>::kPerNode;
   for (int r = 0; r <= last; ++r)
     if (gradient && r == pairs)
-      gather_chunk_pairs(w, count, from.window.at[r], from.value[r], beside);
+      gather_chunk_pairs(w, count, from.window.at[r], from.value[r]);
     else
       for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   unstack<2, 4>(from.value[0], count, room.value);
@@ -80,12 +78,10 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
   if (gradient) unstack_pairs(from.value[pairs], count, 1 - pairs, room);
 }
 
-template <int NC, class Weights, class Room, class F>
-inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room,
-                         const F& beside) {
+template <int NC, class Weights, class Room>
+inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<3, NC>& from, Room& room) {
   if (gradient) {
     for (int k = 0; k < count; ++k) {
-      beside(k);
       typename GatherRoom<3, NC>::Node slope[3];
       from.value[0][k] = gather(w, k, from.window.at[0], slope);
       for (int d = 0; d < 3; ++d) from.slope[d][k] = slope[d];
@@ -93,10 +89,7 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
     for (int d = 0; d < 3; ++d) unstack<3, 3>(from.slope[d], count, &room.gradient[4 * d]);
   }
   for (int r = gradient ? 1 : 0; r < from.window.kRecords; ++r)
-    for (int k = 0; k < count; ++k) {
-      if (r == 0) beside(k);
-      from.value[r][k] = gather_values(w, k, from.window.at[r]);
-    }
+    for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
   for (int r = 0; r < from.window.kRecords; ++r)
     unstack<3, Window<3, NC>::kPerNode>(from.value[r], count, &room.value[from.window.kPerNode * r]);
 }
@@ -108,6 +101,8 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
                        const double (&upper)[Dim], LaneReport& report) {
   const ParticleView<Dim>& p = *c.particles;
   for (int k = 0; k < count; k += kLanes) {
+    fetch_further(p.position, begin + static_cast<std::uint32_t>(k));
+    fetch_further(p.velocity, begin + static_cast<std::uint32_t>(k));
     const IntLanes counts = lanes_before(count - k);
     const LaneSet all = leading_lanes(count - k);
     LaneSet sound = all;  // finite, and in the box
@@ -135,6 +130,7 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
     report.fastest = larger(counts ? fastest : 0.0, report.fastest);
     report.speed_squared = larger(counts ? larger(speed2, drift2) : 0.0, report.speed_squared);
     if constexpr (Basis::kConvected) {
+      fetch_further(p.edges, begin + static_cast<std::uint32_t>(k));
       Lanes f[Dim * Dim], edge[Dim * Dim];
       for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
       Basis::convect(f, c.bodies[body].half_size, c.grid->inverse_cell, edge);
@@ -145,16 +141,17 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
 
 /// One tile. FLIP: V ← V + S aΔt; PIC: V ← S v⁺ (N20 Eq. 38); XPIC: V ← m S(v − v*) + S aΔt (Eq. 41; FMPM
 /// alike); APIC: as PIC, and the slopes about the particle. Positions: grid_end X ← X + Δt S v⁺; grid X ← X +
-/// Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new.
+/// Δt(S v⁺ − ½ S aΔt); trapezoid ½(V_old + V_new); particle V_new. (Flattened: so much in one function, the
+/// compiler would call what costs less than the call.)
 /// @param nodes  v⁺ (or what moves particles in its place: re_extrapolate.hpp), aΔt (and m(v − v*) when NV is
 /// 3)
 /// @param strain  what the strain is taken from: v⁺, or v′ (re_extrapolate.hpp)
 /// @param lower, upper  box that particles must stay in, m
 template <int Dim, class Basis, int NV, class VisitMaterial>
-TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
-                       const NodeColumns<NV * Dim>& nodes, const NodeColumns<Dim>& strain,
-                       const UpdateRule& rule, const double (&lower)[Dim], const double (&upper)[Dim],
-                       const VisitMaterial& visit_material) {
+[[gnu::flatten]] TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
+                                        const NodeColumns<NV * Dim>& nodes, const NodeColumns<Dim>& strain,
+                                        const UpdateRule& rule, const double (&lower)[Dim],
+                                        const double (&upper)[Dim], const VisitMaterial& visit_material) {
   const ParticleView<Dim>& p = *c.particles;
   const bool strains = rule.dt_strain > 0, hoop = Dim == 2 && p.depth == Depth::hoop;
   // In 2-D the gradient comes with the values, from pairs beside them; what else asks for v′ has it here.
@@ -168,17 +165,13 @@ TileReport update_tile(const TileContext<Dim>& c, UpdateRoom<Dim, Basis>& room,
       return room.three;
   }
   ();
-  auto ahead = fetch_ahead<Basis, Dim + Dim * Dim>(p);
-  ahead.add(p.velocity);
-  ahead.add(p.deformation);
   if (c.next) fetch_rows<Dim>(nodes, *c.next, 1);
   load_window(entry_columns<Dim, NV>(nodes, strain), *c.tile, from.window);
   if (apart) load_window(for_gradients(strain), *c.tile, room.velocity);
   for_each_chunk<Dim, Basis>(
       c, room.weights, strains ? Wanted::both : Wanted::values,
       [&](auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
-        ahead.start_at(begin + static_cast<std::uint32_t>(count));
-        gather_chunk(w, count, strains && !(Dim == 3 && apart), from, room, ahead);
+        gather_chunk(w, count, strains && !(Dim == 3 && apart), from, room);
         if (strains) {
           if (Dim == 3 && apart) gather_velocity_gradient<Dim>(w, count, room.velocity.at[0], room);
           if (hoop && apart)

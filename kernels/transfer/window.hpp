@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file The window: the nodes that one tile of particles can touch, as interleaved records in cache. Between
-/// the window and the nodal columns (structure of arrays over slots) rows of four nodes are transposed.
+/// the window and the nodal columns (structure of arrays over slots) rows of four nodes, or two rows, are
+/// transposed.
 
 #include <cstring>
 
@@ -15,13 +16,7 @@ struct Window {
   using Node = RecordFor<NC>;
   static constexpr int kPerNode = sizeof(Node) / sizeof(Real);
   static constexpr int kRecords = (NC + kPerNode - 1) / kPerNode;
-  static constexpr int kQuads = kRecords * kPerNode / 4;
   alignas(64) Node at[kRecords][kWindowNodes<Dim>];
-
-  /// Quantities 4 q … 4 q + 3 of a node.
-  Real* quad(int q, int node) {
-    return reinterpret_cast<Real*>(&at[4 * q / kPerNode][node]) + 4 * q % kPerNode;
-  }
 };
 
 /// NC nodal columns, each indexed by slot; null where a place in the window has none.
@@ -32,22 +27,26 @@ struct NodeColumns {
 
 namespace detail {
 
-/// Calls f(slot, window index) for each row of four nodes of each tile under the window, or of every other
-/// one.
-template <int Dim, class F>
-inline void for_each_row(const int (&tile_slot)[kCorners<Dim>], F f, int step = 1) {
+/// Calls f(slot, window index) for each N nodes side by side in a tile, rows of kTileSide, of each tile under
+/// the window, or of every other one. In the window their rows are kWindowSide apart: node_at.
+template <int Dim, int N, class F>
+inline void for_each_block(const int (&tile_slot)[kCorners<Dim>], F f, int step = 1) {
+  constexpr int kRows = N / kTileSide;
+  static_assert(N % kTileSide == 0 && kTileSide % kRows == 0);
   for (int corner = 0; corner < kCorners<Dim>; corner += step) {
     int base = 0, stride = 1;
     for (int d = 0; d < Dim; ++d) {
       base += (corner >> d & 1) * kTileSide * stride;
       stride *= kWindowSide;
     }
-    for (int row = 0; row < kTileNodes<Dim> / kTileSide; ++row) {
+    for (int row = 0; row < kTileNodes<Dim> / kTileSide; row += kRows) {
       const int y = row % kTileSide, z = row / kTileSide;
       f(tile_slot[corner] + row * kTileSide, base + y * kWindowSide + z * kWindowSide * kWindowSide);
     }
   }
 }
+/// Of the i-th of such nodes, from the index of the first.
+constexpr int node_at(int first, int i) { return first + i % kTileSide + i / kTileSide * kWindowSide; }
 
 inline Row load_row(const double* p) {
   Row r;
@@ -66,6 +65,21 @@ inline void store_record(Real* p, Record r) { std::memcpy(p, &r, sizeof r); }
 inline Record to_record(Row r) { return __builtin_convertvector(r, Record); }
 inline Row to_row(Record r) { return __builtin_convertvector(r, Row); }
 
+// As many as a record of a window has.
+template <class Node>
+inline Node load_column(const double* p) {
+  std::conditional_t<std::is_same_v<Node, Record>, Row, WideRow> numbers;
+  std::memcpy(&numbers, p, sizeof numbers);
+  return __builtin_convertvector(numbers, Node);
+}
+template <class Node>
+inline void add_to_column(double* p, Node of) {
+  std::conditional_t<std::is_same_v<Node, Record>, Row, WideRow> numbers;
+  std::memcpy(&numbers, p, sizeof numbers);
+  numbers += __builtin_convertvector(of, decltype(numbers));
+  std::memcpy(p, &numbers, sizeof numbers);
+}
+
 }  // namespace detail
 
 template <int Dim, int NC>
@@ -77,15 +91,16 @@ inline void clear(Window<Dim, NC>& window) {
 template <int Dim, int NC>
 inline void load_rows(const NodeColumns<NC>& columns, const int (&tile_slot)[kCorners<Dim>],
                       Window<Dim, NC>& window) {
-  detail::for_each_row<Dim>(tile_slot, [&](int slot, int at) {
+  using Node = typename Window<Dim, NC>::Node;
+  constexpr int N = Window<Dim, NC>::kPerNode;
+  detail::for_each_block<Dim, N>(tile_slot, [&](int slot, int at) {
 #pragma GCC unroll 4
-    for (int q = 0; q < window.kQuads; ++q) {
-      Record row[4];
-      for (int c = 0; c < 4; ++c)
-        row[c] =
-            4 * q + c < NC ? detail::to_record(detail::load_row(columns.column[4 * q + c] + slot)) : Record{};
-      transpose(row[0], row[1], row[2], row[3]);
-      for (int c = 0; c < 4; ++c) detail::store_record(window.quad(q, at + c), row[c]);
+    for (int r = 0; r < window.kRecords; ++r) {
+      Node row[N];
+      for (int c = 0; c < N; ++c)
+        row[c] = N * r + c < NC ? detail::load_column<Node>(columns.column[N * r + c] + slot) : Node{};
+      transpose(row);
+      for (int i = 0; i < N; ++i) window.at[r][detail::node_at(at, i)] = row[i];
     }
   });
 }
@@ -93,20 +108,21 @@ inline void load_rows(const NodeColumns<NC>& columns, const int (&tile_slot)[kCo
 /// Adds the window, or with a step of 2 the half that is lower along x, to the columns. Tiles whose windows
 /// overlap must not run at the same time.
 template <int Dim, int NC>
-inline void flush_rows(Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
+inline void flush_rows(const Window<Dim, NC>& window, const int (&tile_slot)[kCorners<Dim>],
                        const NodeColumns<NC>& columns, int step = 1) {
-  detail::for_each_row<Dim>(
+  using Node = typename Window<Dim, NC>::Node;
+  constexpr int N = Window<Dim, NC>::kPerNode;
+  detail::for_each_block<Dim, N>(
       tile_slot,
       [&](int slot, int at) {
 #pragma GCC unroll 4
-        for (int q = 0; 4 * q < NC; ++q) {
-          Record row[4];
-          for (int c = 0; c < 4; ++c) row[c] = detail::load_record(window.quad(q, at + c));
-          transpose(row[0], row[1], row[2], row[3]);
-          for (int c = 0; c < 4 && 4 * q + c < NC; ++c) {
-            double* column = columns.column[4 * q + c];
-            if (column)
-              detail::store_row(column + slot, detail::load_row(column + slot) + detail::to_row(row[c]));
+        for (int r = 0; r < window.kRecords; ++r) {
+          Node row[N];
+          for (int i = 0; i < N; ++i) row[i] = window.at[r][detail::node_at(at, i)];
+          transpose(row);
+          for (int c = 0; c < N && N * r + c < NC; ++c) {
+            double* column = columns.column[N * r + c];
+            if (column) detail::add_to_column(column + slot, row[c]);
           }
         }
       },
@@ -118,15 +134,17 @@ template <int Dim, int NC>
 [[gnu::noinline, gnu::cold]] void load_nodes(const NodeColumns<NC>& columns, const int* node_slot,
                                              Window<Dim, NC>& window) {
   for (int at = 0; at < kWindowNodes<Dim>; ++at)
-    for (int c = 0; c < 4 * window.kQuads; ++c)
-      window.quad(c / 4, at)[c % 4] = c < NC ? static_cast<Real>(columns.column[c][node_slot[at]]) : Real{0};
+    for (int c = 0; c < window.kRecords * window.kPerNode; ++c)
+      window.at[c / window.kPerNode][at][c % window.kPerNode] =
+          c < NC ? static_cast<Real>(columns.column[c][node_slot[at]]) : Real{0};
 }
 template <int Dim, int NC>
-[[gnu::noinline, gnu::cold]] void flush_nodes(Window<Dim, NC>& window, const int* node_slot,
+[[gnu::noinline, gnu::cold]] void flush_nodes(const Window<Dim, NC>& window, const int* node_slot,
                                               const NodeColumns<NC>& columns) {
   for (int c = 0; c < NC; ++c)
     for (int at = 0; columns.column[c] && at < kWindowNodes<Dim>; ++at)
-      columns.column[c][node_slot[at]] += static_cast<double>(window.quad(c / 4, at)[c % 4]);
+      columns.column[c][node_slot[at]] +=
+          static_cast<double>(window.at[c / window.kPerNode][at][c % window.kPerNode]);
 }
 
 /// Fills the window of a tile (ParticleTile), and adds it to the columns.
@@ -137,7 +155,7 @@ inline void load_window(const NodeColumns<NC>& columns, const Tile& tile, Window
   load_rows(columns, tile.slot, window);
 }
 template <int Dim, int NC, class Tile>
-inline void flush_window(Window<Dim, NC>& window, const Tile& tile, const NodeColumns<NC>& columns) {
+inline void flush_window(const Window<Dim, NC>& window, const Tile& tile, const NodeColumns<NC>& columns) {
   if (tile.node_slot) [[unlikely]]
     return flush_nodes<Dim>(window, tile.node_slot, columns);
   flush_rows(window, tile.slot, columns);
@@ -197,7 +215,7 @@ inline void stack(int count, R* out, int quad, const F& value) {
   for (int k = 0; k < count; k += 4) {
     Record row[4];
     for (int c = 0; c < 4; ++c) row[c] = c < N ? detail::to_record(value(c, k)) : Record{};
-    transpose(row[0], row[1], row[2], row[3]);
+    transpose(row);
     for (int c = 0; c < 4; ++c) detail::store_record(reinterpret_cast<Real*>(out + k + c) + 4 * quad, row[c]);
   }
 }
@@ -209,7 +227,7 @@ inline void unstack(const R* in, int count, double (*out)[kChunk<Dim>]) {
     for (int k = 0; k < count; k += 4) {
       Record row[4];
       for (int i = 0; i < 4; ++i) row[i] = detail::load_record(reinterpret_cast<const Real*>(in + k + i) + c);
-      transpose(row[0], row[1], row[2], row[3]);
+      transpose(row);
       for (int i = 0; i < 4; ++i) detail::store_row(&out[c + i][k], detail::to_row(row[i]));
     }
 }

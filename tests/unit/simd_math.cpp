@@ -111,13 +111,19 @@ TEST_CASE("floor, magnitude, larger, smaller and sum of Lanes are those of their
   CHECK(floor_of(-1e-300) == -1.0);
 }
 
-TEST_CASE("transpose exchanges rows and columns of four records") {
-  Record r[4];
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) r[i][j] = 10 * i + j;
-  transpose(r[0], r[1], r[2], r[3]);
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) CHECK(double{r[i][j]} == 10 * j + i);
+template <int N, class R>
+void check_transpose() {
+  R r[N];
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) r[i][j] = 10 * i + j;
+  transpose(r);
+  for (int i = 0; i < N; ++i)
+    for (int j = 0; j < N; ++j) CHECK(double{r[i][j]} == 10 * j + i);
+}
+
+TEST_CASE("transpose exchanges rows and columns of four records and of eight wide ones") {
+  check_transpose<4, Record>();
+  check_transpose<8, WideRecord>();
 }
 
 TEST_CASE("lanes are loaded and stored at any address") {

@@ -104,5 +104,42 @@ bodies:
   check_tables(three);
 }
 
+/// Of one particle a cell, with two bodies that hang over the origin.
+template <int Dim>
+void check_many(const char* space, const char* grid, const char* from, const char* to, const char* next) {
+  const Scene scene = scene_from(fmt::format(R"(
+space: {}
+grid: {{{}, cell: 1 mm}}
+time: {{end: 1 s}}
+materials: {{m: {{model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}}}
+bodies:
+  - {{name: a, box: {{from: {}, to: {}}}, material: m, particles_per_cell: 1}}
+  - {{name: b, box: {{from: {}, to: {}}}, material: m, particles_per_cell: 1}}
+)",
+                                             space, grid, from, to, to, next),
+                                 {{"contact", "{law: coulomb}"}});
+  Step<Dim> step(scene);
+  advance(step, 1);
+  check_tables(step);
+  // Strips of whole rows, some of them of several.
+  const auto& tiling = step.state().tiling;
+  int rows = 0;
+  for (std::size_t colour = 0; colour < tiling.colours.size(); ++colour)
+    for (const Strip& strip : tiling.colours[colour]) {
+      CHECK(colour % 2 == 0);
+      const auto &first = tiling.tiles[static_cast<std::size_t>(strip.begin)],
+                 &last = tiling.tiles[static_cast<std::size_t>(strip.end - 1)];
+      rows = std::max(rows, (last.window[1] - first.window[1]) / kTileSide + 1);
+    }
+  CHECK(rows > 1);
+}
+
+TEST_CASE("many tiles lie in strips of whole rows, of which those of a colour share no slot") {
+  check_many<2>("plane_strain", "origin: [-10 mm, -10 mm], size: [200 mm, 360 mm]", "[-5 mm, -5 mm]",
+                "[120 mm, 320 mm]", "[180 mm, 340 mm]");
+  check_many<3>("3d", "origin: [-10 mm, -10 mm, -10 mm], size: [80 mm, 80 mm, 80 mm]",
+                "[-5 mm, -5 mm, -5 mm]", "[43 mm, 47 mm, 45 mm]", "[60 mm, 60 mm, 60 mm]");
+}
+
 }  // namespace
 }  // namespace mpmfast
