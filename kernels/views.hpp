@@ -122,7 +122,7 @@ struct WeightRoom {
   alignas(64) typename Basis::template Weights<Basis::kMaxSupport> wide;
 };
 
-/// Stages the wanted weights of a chunk. @return false if a support leaves the window
+/// Stages the wanted weights of a chunk. @return false if a support needs more nodes, or leaves the window
 template <class Basis, int Dim, class Weights>
 inline bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
   switch (wanted) {
@@ -144,13 +144,12 @@ inline bool for_each_chunk_of_run(const TileContext<Dim>& c, const ParticleRun<D
   for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
     const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
     const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
-    if (Basis::kMinSupport == Basis::kMaxSupport || Basis::chunk_support(g) == Basis::kMinSupport) {
-      if (!stage<Basis>(wanted, g, room.narrow)) return false;
+    if (stage<Basis>(wanted, g, room.narrow))
       f(room.narrow, run, begin, count);
-    } else {
-      if (!stage<Basis>(wanted, g, room.wide)) return false;
+    else if (Basis::kMaxSupport > Basis::kMinSupport && stage<Basis>(wanted, g, room.wide))
       f(room.wide, run, begin, count);
-    }
+    else
+      return false;
   }
   return true;
 }

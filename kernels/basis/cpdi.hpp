@@ -25,6 +25,19 @@ struct HatCorner {
   static V at(V t) {
     return larger(1.0 - magnitude(t), broadcast<V>(0.0));
   }
+  /// On the nodes 0 to K − 1, of a point between the first and the last. On three, those at the ends leave
+  /// the rest to the one between.
+  template <int K, class V>
+  static void on_nodes(V x, V (&weight)[K]) {
+    const V none = broadcast<V>(0.0);
+    if constexpr (K == 3) {
+      weight[0] = larger(1.0 - x, none);
+      weight[2] = larger(x - 1.0, none);
+      weight[1] = larger(1.0 - weight[0] - weight[2], none);
+    } else {
+      for (int i = 0; i < K; ++i) weight[i] = at(x - double(i));
+    }
+  }
 };
 
 /// Quadratic B-splines: ½(3/2 − |t|)², less 3/2 (½ − |t|)² in the middle piece, where that makes ¾ − t².
@@ -39,6 +52,10 @@ struct QuadraticCorner {
     const V a = magnitude(t), outer = larger(1.5 - a, broadcast<V>(0.0)),
             inner = larger(0.5 - a, broadcast<V>(0.0));
     return 0.5 * outer * outer - 1.5 * inner * inner;
+  }
+  template <int K, class V>
+  static void on_nodes(V x, V (&weight)[K]) {
+    for (int i = 0; i < K; ++i) weight[i] = at(x - double(i));
   }
 };
 
@@ -75,9 +92,15 @@ struct CpdiBasis {
   template <int K>
   using Weights = ChunkWeights<Dim, K>;
 
+  /// On kMinSupport nodes a side while the corners of every domain of the chunk begin their supports at two
+  /// neighbouring nodes at most, else on kMaxSupport. The lanes beyond the chunk must not count: another
+  /// thread may be moving those particles, and sums over more and over fewer nodes round differently.
+  /// @return false if K nodes are not enough, or a support leaves the window (which it then does on more,
+  /// too)
   template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
     alignas(64) double first[Dim][kChunk<Dim>];
+    IntLanes wide{};
     constexpr double mean = 1.0 / kCorners<Dim>;
     for (int k = 0; k < g.count; k += kLanes) {
       Lanes r[Dim], edge[Dim][Dim];
@@ -87,6 +110,8 @@ struct CpdiBasis {
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
         const Lanes lowest = r[d] - extent - Corner::kLead;
         Lanes node = floor_of(lowest);
+        if constexpr (K < kMaxSupport)
+          wide |= lanes_before(g.count - k) & (floor_of(r[d] + extent - Corner::kLead) - node > 1.0);
         if constexpr (kSortedOffset<CpdiBasis> == 0) {
           // There is no room for what round-off lets stick out: a weight below 1e-17 is left out instead.
           const double window = g.window[d];
@@ -102,7 +127,7 @@ struct CpdiBasis {
         for (int d = 0; d < Dim; ++d) {
           Lanes x = r[d];
           for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-          for (int i = 0; i < K; ++i) weight[d][i] = Corner::at(x - double(i));
+          Corner::on_nodes(x, weight[d]);
         }
         for (int n = 0; n < K * K; ++n) plane[n][c] = weight[0][n % K] * weight[1][n / K];
         if constexpr (Dim == 3)
@@ -135,26 +160,7 @@ struct CpdiBasis {
         }
       }
     }
-    return place_in_window<Dim, K>(first, g, out.first);
-  }
-
-  /// kMinSupport nodes a side while the corners of every domain of the chunk begin their supports at two
-  /// neighbouring nodes at most, else kMaxSupport. The lanes beyond the chunk must not count: another thread
-  /// may be moving those particles, and sums over more and over fewer nodes round differently.
-  static int chunk_support(const ChunkGeometry<Dim>& g) {
-    IntLanes wide{};
-    for (int k = 0; k < g.count; k += kLanes) {
-      Lanes r[Dim], edge[Dim][Dim];
-      centre_and_edges(g, k, r, edge);
-      const IntLanes counts = lanes_before(g.count - k);
-      for (int d = 0; d < Dim; ++d) {
-        Lanes extent = broadcast<Lanes>(0.0);
-        for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
-        wide |= counts &
-                (floor_of(r[d] + extent - Corner::kLead) - floor_of(r[d] - extent - Corner::kLead) > 1.0);
-      }
-    }
-    return any_of(wide) ? kMaxSupport : kMinSupport;
+    return !any_of(wide) && place_in_window<Dim, K>(first, g, out.first);
   }
 
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {

@@ -143,9 +143,6 @@ struct SeparableBasis {
     return place_in_window<Dim, K>(first, g, out.first);
   }
 
-  /// The support that a chunk needs: always the same here.
-  static int chunk_support(const ChunkGeometry<Dim>&) { return kMinSupport; }
-
   /// Lowest node (coordinates) of the support of particle k.
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
     NodeIndex<Dim> node;

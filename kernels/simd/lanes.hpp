@@ -89,12 +89,6 @@ inline void store_indices(int* p, Lanes v) {
   const Indices whole = __builtin_convertvector(v, Indices);
   std::memcpy(p, &whole, sizeof whole);
 }
-/// Is a bit set in any lane?
-inline bool any_of(IntLanes v) {
-  std::int64_t all = 0;
-  for (int i = 0; i < kLanes; ++i) all |= v[i];
-  return all != 0;
-}
 /// Of a comparison, a bit for each lane, the first lowest: does it hold?
 inline unsigned bits_of(IntLanes v) {
 #if defined(__AVX512F__)
@@ -107,6 +101,8 @@ inline unsigned bits_of(IntLanes v) {
   return bits;
 #endif
 }
+/// In any lane?
+inline bool any_of(IntLanes v) { return bits_of(v) != 0; }
 /// The first n lanes, or all of them.
 inline void store_first(double* p, Lanes v, int n) {
   if (n >= kLanes) return store_lanes(p, v);
