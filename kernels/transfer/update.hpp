@@ -165,7 +165,7 @@ template <int Dim, class Basis, int NV, class VisitMaterial>
       return room.three;
   }
   ();
-  if (c.next) fetch_rows<Dim>(nodes, *c.next, 1);
+  if (Dim == 2 && c.next) fetch_rows<Dim>(nodes, *c.next, 1);  // in 3-D it gains nothing
   load_window(entry_columns<Dim, NV>(nodes, strain), *c.tile, from.window);
   if (apart) load_window(for_gradients(strain), *c.tile, room.velocity);
   for_each_chunk<Dim, Basis>(
