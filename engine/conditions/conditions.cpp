@@ -5,10 +5,13 @@
 
 #include "engine/conditions/wall_row.hpp"
 #include "engine/quantities/time_table.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
 namespace {
+
+constexpr std::int64_t kFew = 128;  ///< nodes below which threads would wait more than work
 
 template <int Dim>
 Vec<Dim> axis_vector(int axis) {
@@ -242,13 +245,14 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
 
 template <int Dim>
 void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
-  for (const auto& [slot, combination] : nodes_) {
+  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
+    const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
-    if (!(state.nodes.column(Nodal::mass)[slot] > 0)) continue;
+    if (!(state.nodes.column(Nodal::mass)[slot] > 0)) return;
     Vec<Dim> v = state.nodes.vector(velocities, slot);
     for (int k = 0; k < c.count; ++k) v += (c.speed[k] - v.dot(c.direction[k])) * c.direction[k];
     state.nodes.set(velocities, slot, v);
-  }
+  });
   apply_cuts(
       state, [&](int slot) { return state.nodes.vector(velocities, slot); },
       [&](int, int slot, const Vec<Dim>& e, double impulse) {
@@ -312,21 +316,28 @@ void Conditions<Dim>::book(int component, double impulse, double dt) {
 template <int Dim>
 template <class Change>
 void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
-  for (const auto& [slot, combination] : nodes_) {
+  const auto at = [](int k) { return static_cast<std::size_t>(k); };
+  reactions_.resize(nodes_.size());
+  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
+    const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     const double mass = state.nodes.column(Nodal::mass)[slot];
-    if (!(mass > 0)) continue;
-    double reaction[Dim];
-    for (int k = 0; k < c.count; ++k) {
-      reaction[k] = change(mass, slot, c.direction[k], c.speed[k]);
-      books_.work += reaction[k] * c.speed[k] * dt;
-    }
+    std::array<double, Dim> reaction{};
+    for (int k = 0; mass > 0 && k < c.count; ++k)
+      reaction[at(k)] = change(mass, slot, c.direction[k], c.speed[k]);
+    reactions_[static_cast<std::size_t>(n)] = reaction;
+  });
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    auto& reaction = reactions_[n];
+    if (reaction == std::array<double, Dim>{}) continue;
+    const Combination& c = combinations_[static_cast<std::size_t>(nodes_[n].combination)];
+    for (int k = 0; k < c.count; ++k) books_.work += reaction[at(k)] * c.speed[k] * dt;
     // Each boundary pushes along its own direction only: R = Σ λ_k n_k with n_k = Σ_j share_kj e_j, from the
     // last on.
     for (int k = c.count - 1; k >= 0; --k) {
-      const double push = reaction[k] / c.share(k, k);
+      const double push = reaction[at(k)] / c.share(k, k);
       books_.force[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
-      for (int j = 0; j < k; ++j) reaction[j] -= push * c.share(k, j);
+      for (int j = 0; j < k; ++j) reaction[at(j)] -= push * c.share(k, j);
     }
   }
 }

@@ -138,7 +138,8 @@ class Conditions {
   std::vector<Component> components_;
   std::vector<Combination> combinations_;
   std::vector<Constrained> nodes_;
-  std::vector<int> combination_at_;  ///< by slot; −1: free
+  std::vector<std::array<double, Dim>> reactions_;  ///< theirs, along the directions of each, N
+  std::vector<int> combination_at_;                 ///< by slot; −1: free
   std::vector<Cut> cuts_;
   std::vector<double> speed_;  ///< by boundary, this step
   std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it

@@ -305,6 +305,8 @@ class Contact {
   std::vector<Bond<Dim>> last_bonds_;       ///< likewise
   std::vector<KeptFit<Dim>> last_fits_;     ///< likewise
   ContactBooks<Dim> books_;
+  std::vector<double> friction_sums_;  ///< of nodes that follow each other, J
+
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };
 

@@ -37,7 +37,7 @@ void await(Signal& signal, const Done& done) {
   using Clock = std::chrono::steady_clock;
   constexpr int kSpins = 200, kTurns = 10000;  // some 10 µs, some 5 ms
   constexpr int kWhile = 100;                  // waits
-  constexpr auto kLong = std::chrono::microseconds(50);
+  constexpr auto kLong = std::chrono::microseconds(300);
   constexpr int kAgain = 1000;  // waits
   for (int k = 0; k < kSpins; ++k) {
     if (done(signal.value.load(std::memory_order_acquire))) return;

@@ -23,20 +23,22 @@ void Tiling<Dim>::set_domain(const std::array<int, 3>& nodes) {
 }
 
 template <int Dim>
-std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile) const {
+std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile, int field, int fields) const {
   std::int64_t index = 0;
   for (int d = Dim - 1; d >= 0; --d) {
     const int at = tile[d] + kMargin, span = span_[static_cast<std::size_t>(d)];
     assert(at >= 0 && at < span);
     index = index * span + std::clamp(at, 0, span - 1);
+    if (d == Dim - 1) index = index * fields + field;
   }
   return index;
 }
 
 template <int Dim>
-NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
+NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place, int fields) const {
   NodeIndex<Dim> tile;
   for (int d = 0; d < Dim; ++d) {
+    if (d == Dim - 1) place /= fields;
     const int span = span_[static_cast<std::size_t>(d)];
     tile[d] = static_cast<int>(place % span) - kMargin;
     place /= span;
@@ -45,8 +47,15 @@ NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place) const {
 }
 
 template <int Dim>
-void Tiling<Dim>::start_keys(std::size_t n, std::size_t bodies) {
-  bodies_ = kinds_ * static_cast<int>(bodies);
+void Tiling<Dim>::count_fields(const std::vector<int>& body_field) {
+  fields_ = 1;
+  for (const int field : body_field) fields_ = std::max(fields_, field + 1);
+}
+
+template <int Dim>
+void Tiling<Dim>::start_keys(std::size_t n, const std::vector<int>& body_field) {
+  bodies_ = kinds_ * static_cast<int>(body_field.size());
+  count_fields(body_field);
   groups_ = first_side_.empty() ? 1 : kMostGroups;
   buffers_.key.resize(n);
   mapped_.clear();
@@ -75,6 +84,7 @@ template <int Dim>
 void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field) {
   archive.list("tiling/keys", buffers_.key);
   archive.number("tiling/bodies", bodies_);
+  count_fields(body_field);
   if (!first_side_.empty()) {
     groups_ = kMostGroups;
     archive.list("tiling/mapped", mapped_);
@@ -125,7 +135,7 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
       ParticleTile<Dim> tile{};
       tile.field = body_field[static_cast<std::size_t>(run.body)];
       const auto groups = static_cast<std::uint64_t>(groups_);
-      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key / groups % all_places()));
+      const NodeIndex<Dim> at = coordinates(static_cast<std::int64_t>(tile_key / groups), fields_);
       for (int d = 0; d < Dim; ++d) tile.window[d] = at[d] * kTileSide;
       tile.run_begin = tile.run_end = static_cast<int>(runs.size());
       tiles.push_back(tile);
@@ -169,7 +179,9 @@ void Tiling<Dim>::colour_strips() {
   const int share = static_cast<int>(tiles.size()) / (kCorners<Dim> * kOfAColour), widest = widest_row(),
             length = std::clamp(share, kShortest, kLongest);
   const bool whole = static_cast<int>(tiles.size()) >= kMany && 2 * share >= widest;
-  const int rows = whole ? (2 * share + widest - 1) / widest : 1;
+  // In the plane the rows of other fields lie between those of one.
+  const bool apart = Dim == 2 && fields_ > 1;
+  const int rows = whole && !apart ? (2 * share + widest - 1) / widest : 1;
   for (auto& colour : colours) colour.clear();
   NodeIndex<Dim> last;
   int last_field = -1;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file Who sits where: particles sorted by velocity field, tile, body and cell; the slots of the nodes they
-/// touch.
+/// @file Who sits where: particles sorted by row of tiles, velocity field, tile, body and cell; the slots of
+/// the nodes they touch.
 ///
 /// A particle whose support begins at node b belongs to the particle tile t = floor((b − 1)/4) of its field,
 /// so that it starts at offset b − 4t = 1 … 4 of the tile's window of 8 nodes a side, and may drift by a cell
@@ -78,11 +78,13 @@ class Tiling {
   /// Fields that are the sides of another behind cracks: the first of each, −1 where it has none.
   void set_sides(const std::vector<int>& first_side) { first_side_ = first_side; }
 
-  /// Makes room for the keys of n particles of some bodies, all in group 0.
-  void start_keys(std::size_t n, std::size_t bodies);
-  /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: field,
-  /// place of the particle tile, group, body, whether it is a boundary point, cell within the tile. Different
-  /// particles may have theirs set at once.
+  /// Makes room for the keys of n particles of bodies in these velocity fields, all in group 0.
+  void start_keys(std::size_t n, const std::vector<int>& body_field);
+  /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: row
+  /// along the last axis, field, place in the row of the particle tile, group, body, whether it is a boundary
+  /// point, cell within the tile. (The row first: what meets lies near, and threads that share out particles
+  /// and slots each in their order have the same region of both.) Different particles may have theirs set at
+  /// once.
   void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface) {
     NodeIndex<Dim> tile;
     int cell = 0;
@@ -91,7 +93,7 @@ class Tiling {
       tile[d] = floor_div(b, kTileSide);
       cell = cell * kTileSide + (b - tile[d] * kTileSide);
     }
-    auto key = static_cast<std::uint64_t>(field) * all_places() + static_cast<std::uint64_t>(place(tile));
+    auto key = static_cast<std::uint64_t>(place(tile, field, fields_));
     key = key * static_cast<std::uint64_t>(groups_) * static_cast<std::uint64_t>(bodies_) +
           static_cast<std::uint64_t>(kinds_ * body + on_surface);
     buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
@@ -165,14 +167,11 @@ class Tiling {
 
  private:
   bool within(const NodeIndex<Dim>& tile) const;
-  std::int64_t place(const NodeIndex<Dim>& tile) const;
-  NodeIndex<Dim> coordinates(std::int64_t place) const;
+  /// Row by row along x, the last axis slowest; with fields, those of one row of that before the next.
+  std::int64_t place(const NodeIndex<Dim>& tile, int field = 0, int fields = 1) const;
+  NodeIndex<Dim> coordinates(std::int64_t place, int fields = 1) const;
   int find(std::int64_t place, int field) const;
-  std::uint64_t all_places() const {
-    std::uint64_t places = 1;
-    for (int d = 0; d < Dim; ++d) places *= static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
-    return places;
-  }
+  void count_fields(const std::vector<int>& body_field);
   /// Keys of one group at one place.
   std::uint64_t group_span() const {
     return static_cast<std::uint64_t>(bodies_) * static_cast<std::uint64_t>(kTileNodes<Dim>);
@@ -196,6 +195,7 @@ class Tiling {
   SortBuffers buffers_;
   int kinds_ = 1;   ///< of runs that a body may have in a tile
   int bodies_ = 1;  ///< times kinds_
+  int fields_ = 1;  ///< that particles have
   int groups_ = 1;
   bool follows_ = false, stayed_ = true;  ///< stayed: the last sort found all in order
   std::vector<int> first_side_;           ///< by field; empty: no cracks

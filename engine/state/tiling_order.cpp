@@ -94,8 +94,7 @@ void Tiling<Dim>::set_groups(const ParticleTile<Dim>& tile, const std::vector<Si
   NodeIndex<Dim> at;
   for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide;
   const auto key =
-      (static_cast<std::uint64_t>(tile.field) * all_places() + static_cast<std::uint64_t>(place(at))) *
-      static_cast<std::uint64_t>(groups_);
+      static_cast<std::uint64_t>(place(at, tile.field, fields_)) * static_cast<std::uint64_t>(groups_);
   for (std::size_t group = 0; group < maps.size(); ++group) {
     mapped_.push_back(key + group + 1);
     maps_.push_back(maps[group]);

@@ -50,7 +50,7 @@ class BasisPasses final : public Passes<Dim> {
   void sort(State<Dim>& state) override {
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
-    state.tiling.start_keys(static_cast<std::size_t>(n), state.bodies.size());
+    state.tiling.start_keys(static_cast<std::size_t>(n), state.body_field);
     const ChunkGeometry<Dim> all = geometry_of(view, state);
     const auto sorted_node = [&](std::size_t p) {
       NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));

@@ -199,29 +199,50 @@ TEST_CASE("slabs hold each node once, and all around a slab's nodes lies in slab
   State<2>& state = met.step.state();
   state.threads = 1;
   ContactSlabs<2> slabs;
-  slabs.cut(state, list, true);
-  REQUIRE(slabs.size() > 1);
-  std::vector<std::size_t> slab_of(list.nodes.size(), slabs.size());
-  for (std::size_t s = 0; s < slabs.size(); ++s)
-    slabs.for_each_node(s, state, list, [&](std::size_t k, const auto&) {
-      CHECK(slab_of[k] == slabs.size());
-      slab_of[k] = s;
-    });
-  std::size_t waited = 0;
-  for (std::size_t k = 0; k < list.nodes.size(); ++k) {
-    const std::size_t s = slab_of[k];
-    REQUIRE(s < slabs.size());
-    CHECK(slabs.surrounded_by(s) - s < slabs.at_once());
-    for (int m = 0; m < 9; ++m) {
-      const int beside = contact_neighbour(state.tiling, list, list.nodes[k], m);
-      if (beside < 0) continue;
-      const std::size_t there = slab_of[static_cast<std::size_t>(beside)];
-      CHECK(there <= slabs.surrounded_by(s));
-      CHECK(s <= slabs.surrounded_by(there));
-      waited += there > s;
+  slabs.group(list);
+  const auto check = [&](const std::vector<std::uint8_t>& due, bool many) {
+    slabs.cut(state, list, due, many);
+    REQUIRE((slabs.size() > 1) == many);
+    std::vector<std::size_t> slab_of(list.nodes.size(), slabs.size());
+    for (std::size_t s = 0; s < slabs.size(); ++s)
+      slabs.for_each_node(s, state, list, [&](std::size_t k, const auto&) {
+        CHECK(slab_of[k] == slabs.size());
+        slab_of[k] = s;
+      });
+    std::size_t waited = 0;
+    for (std::size_t k = 0; k < list.nodes.size(); ++k) {
+      const std::size_t s = slab_of[k];
+      if (s == slabs.size()) {
+        CHECK(!due[k]);
+        continue;
+      }
+      CHECK(slabs.surrounded_by(s) - s < slabs.at_once());
+      for (int m = 0; m < 9; ++m) {
+        const int beside = contact_neighbour(state.tiling, list, list.nodes[k], m);
+        if (beside < 0) continue;
+        const std::size_t there = slab_of[static_cast<std::size_t>(beside)];
+        if (there == slabs.size()) continue;
+        CHECK(there <= slabs.surrounded_by(s));
+        CHECK(s <= slabs.surrounded_by(there));
+        waited += there > s;
+      }
     }
+    CHECK((waited > 0) == many);
+    return std::count(slab_of.begin(), slab_of.end(), slabs.size());
+  };
+  std::vector<std::uint8_t> due(list.nodes.size(), 1);
+  CHECK(check(due, true) == 0);
+  CHECK(check(due, false) == 0);
+  // Of every 24th stack nothing is to be fitted, of the others one node.
+  std::fill(due.begin(), due.end(), 0);
+  std::ptrdiff_t left_out = 0;
+  for (std::size_t k = 0; k < due.size(); ++k) {
+    const int stack = list.nodes[k].stack;
+    left_out += stack % 24 == 0;
+    due[k] = stack % 24 != 0 && (k + 1 == due.size() || list.nodes[k + 1].stack != stack);
   }
-  CHECK(waited > 0);
+  CHECK(left_out > 0);
+  CHECK(check(due, true) == left_out);
 }
 
 }  // namespace

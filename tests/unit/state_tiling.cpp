@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -105,8 +107,10 @@ bodies:
 }
 
 /// Of one particle a cell, with two bodies that hang over the origin.
+/// @param several  some strips are of several rows
 template <int Dim>
-void check_many(const char* space, const char* grid, const char* from, const char* to, const char* next) {
+void check_many(const char* space, const char* grid, const char* from, const char* to, const char* next,
+                const char* contact, bool several) {
   const Scene scene = scene_from(fmt::format(R"(
 space: {}
 grid: {{{}, cell: 1 mm}}
@@ -117,11 +121,11 @@ bodies:
   - {{name: b, box: {{from: {}, to: {}}}, material: m, particles_per_cell: 1}}
 )",
                                              space, grid, from, to, to, next),
-                                 {{"contact", "{law: coulomb}"}});
+                                 {{"contact", contact}});
   Step<Dim> step(scene);
   advance(step, 1);
   check_tables(step);
-  // Strips of whole rows, some of them of several.
+  // Strips of whole rows.
   const auto& tiling = step.state().tiling;
   int rows = 0;
   for (std::size_t colour = 0; colour < tiling.colours.size(); ++colour)
@@ -131,14 +135,30 @@ bodies:
                  &last = tiling.tiles[static_cast<std::size_t>(strip.end - 1)];
       rows = std::max(rows, (last.window[1] - first.window[1]) / kTileSide + 1);
     }
-  CHECK(rows > 1);
+  CHECK((rows > 1) == several);
 }
 
 TEST_CASE("many tiles lie in strips of whole rows, of which those of a colour share no slot") {
-  check_many<2>("plane_strain", "origin: [-10 mm, -10 mm], size: [200 mm, 360 mm]", "[-5 mm, -5 mm]",
-                "[120 mm, 320 mm]", "[180 mm, 340 mm]");
+  const char* const apart = "{law: coulomb}";
+  const auto flat = [](const char* contact, bool several) {
+    check_many<2>("plane_strain", "origin: [-10 mm, -10 mm], size: [200 mm, 360 mm]", "[-5 mm, -5 mm]",
+                  "[120 mm, 320 mm]", "[130 mm, 340 mm]", contact, several);
+  };
+  flat("none", true);
+  flat(apart, false);  // between the rows of one field are those of the other
   check_many<3>("3d", "origin: [-10 mm, -10 mm, -10 mm], size: [80 mm, 80 mm, 80 mm]",
-                "[-5 mm, -5 mm, -5 mm]", "[43 mm, 47 mm, 45 mm]", "[60 mm, 60 mm, 60 mm]");
+                "[-5 mm, -5 mm, -5 mm]", "[43 mm, 47 mm, 45 mm]", "[60 mm, 60 mm, 60 mm]", apart, true);
+}
+
+TEST_CASE("bodies of different fields that lie in one row of tiles are neighbours among the particles") {
+  const Scene scene = columns("{law: coulomb}");
+  Step<2> step(scene);
+  advance(step, 1);
+  const auto& tiles = step.state().tiling.tiles;
+  for (std::size_t t = 1; t < tiles.size(); ++t) {
+    const auto &a = tiles[t - 1], &b = tiles[t];
+    REQUIRE(std::tuple(a.window[1], a.field, a.window[0]) < std::tuple(b.window[1], b.field, b.window[0]));
+  }
 }
 
 }  // namespace

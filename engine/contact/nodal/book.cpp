@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "engine/contact/contact.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/slots.hpp"
 
 namespace mpmfast {
 
@@ -51,30 +51,40 @@ double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tange
   return -gain;
 }
 
-/// The friction work of each entry, and its sum in a fixed order.
+/// The friction work of each entry, and its sum in an order that does not depend on the threads.
 template <int Dim>
 void Contact<Dim>::book_friction(const State<Dim>& state) {
-  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, 256, [&](std::int64_t k) {
-    const auto& node = list_.nodes[static_cast<std::size_t>(k)];
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      auto& entry = list_.entries[static_cast<std::size_t>(e)];
-      const bool springs = bridges_ && !bridge_of(entry).friction.isZero(0);
-      entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
-      if (!springs && entry.first.isZero(0) && entry.second.isZero(0)) continue;
-      const int law = pair_of(state, node, entry);
-      const LawScope scope = scope_of(laws_[static_cast<std::size_t>(law + 1)], entry);
-      if (scope == LawScope::contact || scope == LawScope::bonded) {
-        // In a lump, each touching pair is seen from both sides.
-        const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
-        entry.friction_work += share * friction_work_of(entry, scope == LawScope::bonded);
+  constexpr std::int64_t kNodes = 64;  // whose work makes one sum
+  const auto n = static_cast<std::int64_t>(list_.nodes.size());
+  friction_sums_.resize(static_cast<std::size_t>((n + kNodes - 1) / kNodes));
+  for_each_block(n, kNodes, state.threads, [&](std::int64_t begin, std::int64_t end) {
+    double sum = 0;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const auto& node = list_.nodes[k];
+      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+        auto& entry = list_.entries[static_cast<std::size_t>(e)];
+        const bool springs = bridges_ && !bridge_of(entry).friction.isZero(0);
+        entry.friction_work = springs ? bridge_of(entry).friction_work : 0;
+        if (springs || !(entry.first.isZero(0) && entry.second.isZero(0))) {
+          const int law = pair_of(state, node, entry);
+          const LawScope scope = scope_of(laws_[static_cast<std::size_t>(law + 1)], entry);
+          if (scope == LawScope::contact || scope == LawScope::bonded) {
+            // In a lump, each touching pair is seen from both sides.
+            const double share = entry.b >= 0 || node.rigid >= 0 ? 1.0 : 0.5;
+            entry.friction_work += share * friction_work_of(entry, scope == LawScope::bonded);
+          }
+        }
+        sum += entry.friction_work;
       }
     }
+    friction_sums_[static_cast<std::size_t>(begin / kNodes)] = sum;
   });
+  for (const double sum : friction_sums_) books_.friction_work += sum;
+  if (pairs_.empty() && !cracks_.active()) return;
   for (const auto& node : list_.nodes)
     for (int e = node.entry_begin; e < node.entry_end; ++e) {
       const auto& entry = list_.entries[static_cast<std::size_t>(e)];
       if (entry.friction_work == 0) continue;
-      books_.friction_work += entry.friction_work;
       if (const int law = pair_of(state, node, entry); law >= 0)
         books_.pair_friction_work[static_cast<std::size_t>(law)] += entry.friction_work;
     }

@@ -76,10 +76,12 @@ class ContactFit {
     }
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
-    slabs_.cut(state, contact, choice.smooth);
-    find_due(slabs_, contact, spec.refit * state.grid.cell, state.threads, due_);
-    for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
     const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
+    slabs_.group(contact);
+    find_due(slabs_, contact, spec.refit * state.grid.cell, state.threads, due_,
+             [&](const ContactNode<Dim>& node) { reuse(state, choice, mean, node, contact); });
+    slabs_.cut(state, contact, due_, choice.smooth);
+    for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
     std::size_t surrounded = 0;
     for (std::size_t s = 0; s < slabs_.size(); ++s) {
       fit_slab(state, view, spec, choice, mean, s, contact);
@@ -124,7 +126,7 @@ class ContactFit {
       room.clouds[at].begin = 0;
     }
     slabs_.for_each_node(slab, state, contact, [&](std::size_t k, const ContactNode<Dim>& node) {
-      if (!due_[k]) return reuse(state, choice, mean, node, contact);
+      if (!due_[k]) return;
       Room& room = own_room();
       CloudRoom<Dim>& clouds = room.clouds[at];
       if (room.stack != node.stack) find_candidates(state, view, contact, k, room);

@@ -16,11 +16,11 @@ namespace mpmfast {
 
 /// Marks the contact nodes that are to be fitted anew: where fields have drifted so far since, where an entry
 /// is new, and beside one of these what will be due soon, since the particles near a stack are gathered
-/// together.
+/// together. Calls reuse(node) for the others, in parallel.
 /// @param refit  m
-template <int Dim>
+template <int Dim, class F>
 void find_due(const ContactSlabs<Dim>& slabs, const ContactList<Dim>& contact, double refit, int threads,
-              std::vector<std::uint8_t>& due) {
+              std::vector<std::uint8_t>& due, const F& reuse) {
   due.assign(contact.nodes.size(), true);
   if (contact.fits.empty()) return;
   const auto drift_of = [&](const ContactNode<Dim>& node) {
@@ -39,9 +39,10 @@ void find_due(const ContactSlabs<Dim>& slabs, const ContactList<Dim>& contact, d
       any |= drift >= refit;
       due[k] = drift >= 0.5 * refit;
     }
-    if (!any)
-      std::fill(due.begin() + static_cast<std::ptrdiff_t>(begin),
-                due.begin() + static_cast<std::ptrdiff_t>(end), 0);
+    for (std::size_t k = begin; k < end; ++k) {
+      due[k] &= any;
+      if (!due[k]) reuse(contact.nodes[k]);
+    }
   });
 }
 

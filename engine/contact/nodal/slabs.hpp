@@ -15,30 +15,51 @@
 namespace mpmfast {
 
 /// Contact nodes are listed stack after stack, and stacks lie in order of their places. A slab is a number of
-/// stacks; all that is around its nodes lies in slabs up to one that follows soon, a layer of tiles later.
+/// stacks that have nodes to fit; all that is around its nodes lies in slabs up to one that follows soon, a
+/// layer of tiles later.
 template <int Dim>
 class ContactSlabs {
  public:
   /// Nodes of a slab for each thread: so many that threads hardly wait for each other at its end.
   static constexpr std::size_t kNodesAThread = 256;
 
-  /// @param many  else one slab has all nodes
-  void cut(const State<Dim>& state, const ContactList<Dim>& contact, bool many) {
-    const std::size_t enough =
-        many ? kNodesAThread * static_cast<std::size_t>(state.threads) : ~std::size_t{0};
+  /// Which nodes belong to which stack.
+  void group(const ContactList<Dim>& contact) {
     groups_.clear();
-    slabs_.clear();
-    for (std::size_t k = 0; k < contact.nodes.size(); ++k) {
-      if (k > 0 && contact.nodes[k - 1].stack == contact.nodes[k].stack) continue;
-      if (slabs_.empty() || k - groups_[slabs_.back().begin] >= enough)
-        slabs_.push_back({groups_.size(), 0, contact.nodes[k].stack, -1, 0});
-      groups_.push_back(k);
-      Slab& slab = slabs_.back();
-      slab.end = groups_.size();
-      const auto& around = state.tiling.stacks[static_cast<std::size_t>(contact.nodes[k].stack)].neighbour;
-      slab.reach = std::max(slab.reach, *std::max_element(std::begin(around), std::end(around)));
+    const auto begin = contact.nodes.begin(), end = contact.nodes.end();
+    for (auto next = begin; next != end;) {
+      groups_.push_back(static_cast<std::size_t>(next - begin));
+      const auto most = next + std::min<std::ptrdiff_t>(end - next, kTileNodes<Dim>);
+      next = std::partition_point(next, most, [&](const auto& node) { return node.stack == next->stack; });
     }
     groups_.push_back(contact.nodes.size());
+  }
+
+  /// @param due   by node: it is to be fitted; marks one of a stack at least, or none
+  /// @param many  else one slab has all nodes
+  void cut(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<std::uint8_t>& due,
+           bool many) {
+    const std::size_t enough =
+        many ? kNodesAThread * static_cast<std::size_t>(state.threads) : ~std::size_t{0};
+    fitted_.clear();
+    slabs_.clear();
+    std::size_t nodes = 0;
+    for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
+      const auto end = due.begin() + static_cast<std::ptrdiff_t>(groups_[g + 1]);
+      if (std::find(due.begin() + static_cast<std::ptrdiff_t>(groups_[g]), end, std::uint8_t{1}) == end)
+        continue;
+      const int stack = contact.nodes[groups_[g]].stack;
+      if (slabs_.empty() || nodes >= enough) {
+        slabs_.push_back({fitted_.size(), 0, stack, -1, 0});
+        nodes = 0;
+      }
+      nodes += groups_[g + 1] - groups_[g];
+      fitted_.push_back(g);
+      Slab& slab = slabs_.back();
+      slab.end = fitted_.size();
+      const auto& around = state.tiling.stacks[static_cast<std::size_t>(stack)].neighbour;
+      slab.reach = std::max(slab.reach, *std::max_element(std::begin(around), std::end(around)));
+    }
     at_once_ = 1;
     for (std::size_t s = 0, last = 0; s < slabs_.size(); ++s) {
       while (last + 1 < slabs_.size() && slabs_[last + 1].first_stack <= slabs_[s].reach) ++last;
@@ -59,12 +80,12 @@ class ContactSlabs {
     const auto begin = static_cast<std::int64_t>(slabs_[slab].begin),
                end = static_cast<std::int64_t>(slabs_[slab].end);
     share_out(end - begin, end - begin > 4 ? state.threads : 1, 1, [&](std::int64_t g) {
-      const auto group = static_cast<std::size_t>(begin + g);
+      const std::size_t group = fitted_[static_cast<std::size_t>(begin + g)];
       for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k]);
     });
   }
 
-  /// f(begin, end) of the nodes of each stack, in parallel.
+  /// f(begin, end) of the nodes of each stack, fitted or not, in parallel.
   template <class F>
   void for_each_stack(int threads, F f) const {
     for_each_of(static_cast<std::int64_t>(groups_.size()) - 1, threads, 64, [&](std::int64_t g) {
@@ -74,11 +95,12 @@ class ContactSlabs {
 
  private:
   struct Slab {
-    std::size_t begin, end;  ///< into groups_
+    std::size_t begin, end;  ///< into fitted_
     int first_stack, reach;  ///< reach: the highest stack around it
     std::size_t surrounded_by;
   };
   std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
+  std::vector<std::size_t> fitted_;  ///< those of groups_ with nodes to fit
   std::vector<Slab> slabs_;
   std::size_t at_once_ = 1;
 };
