@@ -2,6 +2,8 @@
 
 /// @file Contact between velocity fields: which nodes, and the two corrections of a step (theory §4).
 
+#include <omp.h>
+
 #include <array>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
+#include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/contact/nodes_together.hpp"
 #include "kernels/contact/resolve_pair.hpp"
@@ -305,7 +308,8 @@ class Contact {
   std::vector<Bond<Dim>> last_bonds_;       ///< likewise
   std::vector<KeptFit<Dim>> last_fits_;     ///< likewise
   ContactBooks<Dim> books_;
-  std::vector<double> friction_sums_;  ///< of nodes that follow each other, J
+  Shares shares_{omp_get_max_threads()};  ///< of the nodes
+  std::vector<double> friction_sums_;     ///< of nodes that follow each other, J
 
   std::vector<Vec<Dim>> pivots_;  ///< m, by field
 };

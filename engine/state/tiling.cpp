@@ -154,34 +154,36 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
   colour_strips();
 }
 
-/// Tiles of the longest row along x.
+/// How many rows along x the tiles lie in, and how many of them in the longest.
 template <int Dim>
-int Tiling<Dim>::widest_row() const {
-  int widest = 0, row = 0;
+auto Tiling<Dim>::rows_of_tiles() const -> Rows {
+  Rows rows{0, 0};
+  int length = 0;
   const ParticleTile<Dim>* last = nullptr;
   for (const auto& tile : tiles) {
     bool goes_on = last && tile.field == last->field;
     for (int d = 1; d < Dim; ++d) goes_on = goes_on && tile.window[d] == last->window[d];
-    row = goes_on ? row + 1 : 1;
-    widest = std::max(widest, row);
+    length = goes_on ? length + 1 : 1;
+    rows.count += !goes_on;
+    rows.longest = std::max(rows.longest, length);
     last = &tile;
   }
-  return widest;
+  return rows;
 }
 
-/// Long strips read memory as it lies, short ones leave more threads something to do: some 32 of a colour.
-/// They begin at multiples of their length. Where tiles are many, so that their nodes leave the second cache
-/// from colour to colour, strips take whole rows and half the colours: what a row shares with the one before
-/// it is still near.
+/// Long strips read memory as it lies, short ones leave more threads something to do. Where there are enough
+/// rows, a strip is one of them, or of many tiles several, some 32 of a colour, and half the colours do: what
+/// a row shares with the one before it is still near. Else they begin at multiples of their length.
 template <int Dim>
 void Tiling<Dim>::colour_strips() {
-  constexpr int kOfAColour = 32, kShortest = 4, kLongest = 64, kMany = 2048;
-  const int share = static_cast<int>(tiles.size()) / (kCorners<Dim> * kOfAColour), widest = widest_row(),
-            length = std::clamp(share, kShortest, kLongest);
-  const bool whole = static_cast<int>(tiles.size()) >= kMany && 2 * share >= widest;
+  constexpr int kOfAColour = 32, kFewest = 16, kShortest = 4, kLongest = 64, kMany = 2048;
+  const Rows all = rows_of_tiles();
+  const int count = static_cast<int>(tiles.size()),
+            length = std::clamp(count / (kCorners<Dim> * kOfAColour), kShortest, kLongest);
+  const bool whole = all.count >= kFewest * kCorners<Dim> / 2;
   // In the plane the rows of other fields lie between those of one.
-  const bool apart = Dim == 2 && fields_ > 1;
-  const int rows = whole && !apart ? (2 * share + widest - 1) / widest : 1;
+  const bool several = whole && count >= kMany && (Dim == 3 || fields_ == 1);
+  const int rows = several ? (2 * length + all.longest - 1) / all.longest : 1;
   for (auto& colour : colours) colour.clear();
   NodeIndex<Dim> last;
   int last_field = -1;

@@ -182,7 +182,10 @@ class Tiling {
   void note_moves(std::size_t particles);
   void keep_ordered(Particles<Dim>& particles);
   void cut_runs(const Particles<Dim>& particles, const std::vector<int>& body_field);
-  int widest_row() const;
+  struct Rows {
+    int count, longest;  ///< longest: in tiles
+  };
+  Rows rows_of_tiles() const;
   void colour_strips();
   void number_slots();
   void number_sides();

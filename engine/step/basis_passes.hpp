@@ -14,7 +14,7 @@
 #include "engine/contact/nodal/fit.hpp"
 #include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
-#include "engine/step/shares.hpp"
+#include "engine/state/shares.hpp"
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"

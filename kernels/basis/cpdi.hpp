@@ -25,17 +25,15 @@ struct HatCorner {
   static V at(V t) {
     return larger(1.0 - magnitude(t), broadcast<V>(0.0));
   }
-  /// On the nodes 0 to K − 1, of a point between the first and the last. On three, those at the ends leave
-  /// the rest to the one between.
+  /// On K nodes, of a point between the first and the last that is x beyond the second.
   template <int K, class V>
   static void on_nodes(V x, V (&weight)[K]) {
-    const V none = broadcast<V>(0.0);
     if constexpr (K == 3) {
-      weight[0] = larger(1.0 - x, none);
-      weight[2] = larger(x - 1.0, none);
-      weight[1] = larger(1.0 - weight[0] - weight[2], none);
+      weight[2] = larger(x, broadcast<V>(0.0));
+      weight[0] = weight[2] - x;
+      weight[1] = at(x);
     } else {
-      for (int i = 0; i < K; ++i) weight[i] = at(x - double(i));
+      for (int i = 0; i < K; ++i) weight[i] = at(x - double(i - 1));
     }
   }
 };
@@ -55,7 +53,7 @@ struct QuadraticCorner {
   }
   template <int K, class V>
   static void on_nodes(V x, V (&weight)[K]) {
-    for (int i = 0; i < K; ++i) weight[i] = at(x - double(i));
+    for (int i = 0; i < K; ++i) weight[i] = at(x - double(i - 1));
   }
 };
 
@@ -99,68 +97,48 @@ struct CpdiBasis {
   /// too)
   template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
-    alignas(64) double first[Dim][kChunk<Dim>];
-    IntLanes wide{};
+    bool suits = true;
     constexpr double mean = 1.0 / kCorners<Dim>;
     for (int k = 0; k < g.count; k += kLanes) {
-      Lanes r[Dim], edge[Dim][Dim];
+      Lanes r[Dim], edge[Dim][Dim], first[Dim];
       centre_and_edges(g, k, r, edge);
+      const LaneSet all = leading_lanes(g.count - k);
+      LaneSet fits = all;
       for (int d = 0; d < Dim; ++d) {
         Lanes extent = broadcast<Lanes>(0.0);
         for (int j = 0; j < Dim; ++j) extent += magnitude(edge[d][j]);
         const Lanes lowest = r[d] - extent - Corner::kLead;
-        Lanes node = floor_of(lowest);
-        if constexpr (K < kMaxSupport)
-          wide |= lanes_before(g.count - k) & (floor_of(r[d] + extent - Corner::kLead) - node > 1.0);
+        first[d] = floor_of(lowest);
         if constexpr (kSortedOffset<CpdiBasis> == 0) {
           // There is no room for what round-off lets stick out: a weight below 1e-17 is left out instead.
           const double window = g.window[d];
-          node = node < window ? floor_of(lowest + 2 * kEdge) : node;
+          first[d] = first[d] < window ? floor_of(lowest + 2 * kEdge) : first[d];
         }
-        store_lanes(&first[d][k], node);
-        r[d] -= node;
+        r[d] -= first[d];
+        if constexpr (K < kMaxSupport)
+          fits = where_less(fits, r[d] + extent, broadcast<Lanes>(Corner::kLead + 2));
       }
-      Lanes plane[power(K, 2)][kCorners<Dim>],
-          last[K][kCorners<Dim>];  // N_x N_y and (3-D) N_z at the corners
-      for (int c = 0; c < kCorners<Dim>; ++c) {
-        Lanes weight[Dim][K];
+      fits = place_in_window<Dim, K>(fits, first, g, out.first + k);
+      suits &= same_lanes(fits, all);
+      Lanes weight[kCorners<Dim>][Dim][K];
+      for (int c = 0; c < kCorners<Dim>; ++c)
         for (int d = 0; d < Dim; ++d) {
-          Lanes x = r[d];
+          Lanes x = r[d] - 1.0;
           for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-          Corner::on_nodes(x, weight[d]);
+          Corner::on_nodes(x, weight[c][d]);
         }
-        for (int n = 0; n < K * K; ++n) plane[n][c] = weight[0][n % K] * weight[1][n / K];
-        if constexpr (Dim == 3)
-          for (int i = 0; i < K; ++i) last[i][c] = weight[2][i];
-      }
       Lanes inverse[Dim][Dim];
       if constexpr (W != Wanted::values) {
         invert(edge, inverse);
         for (auto& row : inverse)
           for (auto& v : row) v *= mean * g.inverse_cell;
       }
-      for (int n = 0; n < out.kNodes; ++n) {
-        Lanes value[kCorners<Dim>], sum[1 + Dim];
-        for (int c = 0; c < kCorners<Dim>; ++c) {
-          value[c] = plane[n % (K * K)][c];
-          if constexpr (Dim == 3) value[c] *= last[n / (K * K)][c];
-        }
-        add_corners(value, sum);
-        if constexpr (W != Wanted::gradients) store_lanes(&out.value[n][k], sum[0] * mean);
-        if constexpr (W != Wanted::values) {
-          Lanes slope[Dim];
-          for (int d = 0; d < Dim; ++d) {
-            slope[d] = inverse[0][d] * sum[1];
-            for (int j = 1; j < Dim; ++j) slope[d] += inverse[j][d] * sum[1 + j];
-          }
-          if constexpr (Dim == 2)
-            store_pairs(out.slope[0][n][k], slope[0], slope[1]);
-          else
-            for (int d = 0; d < Dim; ++d) store_lanes(out.slope[d][n][k], slope[d]);
-        }
-      }
+      if constexpr (Dim == 2)
+        sum_in_plane<W>(weight, inverse, k, out);
+      else
+        sum_in_space<W>(weight, inverse, k, out);
     }
-    return !any_of(wide) && place_in_window<Dim, K>(first, g, out.first);
+    return suits;
   }
 
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
@@ -201,12 +179,60 @@ struct CpdiBasis {
   }
 
  private:
+  /// S and G of each node from the functions at the corners. With v_c = N_x N_y the sums Σ s_c v_c along both
+  /// edges are the sum and the difference of v_3 − v_0 and v_1 − v_2, so that G takes four products.
+  template <Wanted W, int K>
+  static void sum_in_plane(const Lanes (&weight)[4][2][K], const Lanes (&inverse)[2][2], int k,
+                           ChunkWeights<2, K>& out) {
+    Lanes along[2], across[2];
+    for (int d = 0; W != Wanted::values && d < 2; ++d) {
+      along[d] = inverse[0][d] + inverse[1][d];
+      across[d] = inverse[0][d] - inverse[1][d];
+    }
+#pragma GCC unroll 16
+    for (int n = 0; n < K * K; ++n) {
+      const auto x = [&](int c) { return weight[c][0][n % K]; };
+      const auto y = [&](int c) { return weight[c][1][n / K]; };
+      const Lanes v0 = x(0) * y(0), v2 = x(2) * y(2);
+      if constexpr (W == Wanted::values)
+        store_lanes(&out.value[n][k], 0.25 * (v0 + x(1) * y(1) + x(2) * y(2) + x(3) * y(3)));
+      if constexpr (W == Wanted::both)
+        store_lanes(&out.value[n][k], 0.25 * ((v0 + x(3) * y(3)) + (v2 + x(1) * y(1))));
+      if constexpr (W != Wanted::values) {
+        const Lanes one = x(3) * y(3) - v0, other = x(1) * y(1) - v2;
+        store_pairs(out.slope[0][n][k], along[0] * one + across[0] * other,
+                    along[1] * one + across[1] * other);
+      }
+    }
+  }
+
+  template <Wanted W, int K>
+  static void sum_in_space(const Lanes (&weight)[8][3][K], const Lanes (&inverse)[3][3], int k,
+                           ChunkWeights<3, K>& out) {
+    constexpr double mean = 1.0 / kCorners<3>;
+    Lanes plane[power(K, 2)][8];  // N_x N_y
+    for (int c = 0; c < 8; ++c)
+      for (int n = 0; n < K * K; ++n) plane[n][c] = weight[c][0][n % K] * weight[c][1][n / K];
+    for (int n = 0; n < out.kNodes; ++n) {
+      Lanes value[8], sum[4];
+      for (int c = 0; c < 8; ++c) value[c] = plane[n % (K * K)][c] * weight[c][2][n / (K * K)];
+      add_corners(value, sum);
+      if constexpr (W != Wanted::gradients) store_lanes(&out.value[n][k], sum[0] * mean);
+      if constexpr (W != Wanted::values)
+        for (int d = 0; d < 3; ++d) {
+          Lanes slope = inverse[0][d] * sum[1];
+          for (int j = 1; j < 3; ++j) slope += inverse[j][d] * sum[1 + j];
+          store_lanes(out.slope[d][n][k], slope);
+        }
+    }
+  }
+
   /// Σ v_c and Σ s_cj v_c over the corners: direction after direction, neighbours are replaced by their sum
   /// and their difference; a difference needs only be summed from there on.
-  static void add_corners(Lanes (&v)[kCorners<Dim>], Lanes (&sum)[1 + Dim]) {
+  static void add_corners(Lanes (&v)[8], Lanes (&sum)[4]) {
 #pragma GCC unroll 4
-    for (int j = 0; j < Dim; ++j) {
-      const int half = kCorners<Dim> >> (j + 1);
+    for (int j = 0; j < 3; ++j) {
+      const int half = 8 >> (j + 1);
 #pragma GCC unroll 8
       for (int c = 0; c < half; ++c) {
         const Lanes difference = v[2 * c + 1] - v[2 * c];

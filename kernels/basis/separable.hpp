@@ -128,19 +128,22 @@ struct SeparableBasis {
   template <Wanted W = Wanted::both, int K>
   static bool stage(const ChunkGeometry<Dim>& g, ProductWeights<Dim, K>& out) {
     static_assert(K == Function::kSupport);
-    alignas(64) double first[Dim][kChunk<Dim>];
-    for (int k = 0; k < g.count; k += kLanes)
+    bool inside = true;
+    for (int k = 0; k < g.count; k += kLanes) {
+      Lanes node[Dim];
       for (int d = 0; d < Dim; ++d) {
         Lanes value[K], slope[K];
         const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
-        const Lanes node = Function::first_node(r);
-        store_lanes(&first[d][k], node);
-        Function::weights(r - node, g.half_size[d] * g.inverse_cell, value, slope);
+        node[d] = Function::first_node(r);
+        Function::weights(r - node[d], g.half_size[d] * g.inverse_cell, value, slope);
         for (int i = 0; i < K; ++i)
           store_pairs(out.factor[d][i][k], value[i],
                       W == Wanted::values ? Lanes{} : slope[i] * g.inverse_cell);
       }
-    return place_in_window<Dim, K>(first, g, out.first);
+      const LaneSet all = leading_lanes(g.count - k);
+      inside &= same_lanes(place_in_window<Dim, K>(all, node, g, out.first + k), all);
+    }
+    return inside;
   }
 
   /// Lowest node (coordinates) of the support of particle k.

@@ -93,26 +93,23 @@ constexpr int window_offset(int n) {
   return offset;
 }
 
-/// Turns first-node coordinates (whole numbers, [Dim][kChunk]) into window indices.
-/// @return false if a particle's support leaves the window: the particles must be sorted anew.
+/// Turns the first nodes (whole numbers) of some particles' supports on K nodes a side into window indices.
+/// @return those of `among` whose supports lie in the window: the others must be sorted anew
 template <int Dim, int K>
-inline bool place_in_window(const double (&first)[Dim][kChunk<Dim>], const ChunkGeometry<Dim>& g,
-                            int* index) {
-  IntLanes outside{};
-  for (int k = 0; k < g.count; k += kLanes) {
-    Lanes at = broadcast<Lanes>(0.0);
-    double stride = 1;
-    for (int d = 0; d < Dim; ++d) {
-      const Lanes offset = load_lanes(&first[d][k]) - static_cast<double>(g.window[d]);
-      const IntLanes fits =
-          (offset >= 0.0) & (offset <= static_cast<double>(kWindowSide - K));  // not for NaN
-      outside |= ~fits & lanes_before(g.count - k);
-      at += (fits ? offset : 0.0) * stride;
-      stride *= kWindowSide;
-    }
-    store_indices(index + k, at);
+inline LaneSet place_in_window(LaneSet among, const Lanes (&first)[Dim], const ChunkGeometry<Dim>& g,
+                               int* index) {
+  constexpr double kMost = kWindowSide - K + 0.5;
+  Lanes at = broadcast<Lanes>(0.0);
+  double stride = 1;
+  for (int d = 0; d < Dim; ++d) {
+    const Lanes offset = first[d] - static_cast<double>(g.window[d]);
+    among = where_less(among, broadcast<Lanes>(-0.5), offset);  // not for NaN
+    among = where_less(among, offset, broadcast<Lanes>(kMost));
+    at += offset * stride;
+    stride *= kWindowSide;
   }
-  return !any_of(outside);
+  store_indices(index, at);
+  return among;
 }
 
 }  // namespace mpmfast

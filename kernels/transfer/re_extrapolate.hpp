@@ -61,24 +61,23 @@ void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis
       c, room.weights, Wanted::values,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         ahead.start_at(begin + static_cast<std::uint32_t>(count));
-        if (velocity == ParticleUpdate::flip)
-          stack<Dim>(count, room.record, 0,
-                     [&](int d, int k) { return detail::load_row(p.velocity[d] + begin + k); });
         if (weighs_pressed) find_pressed(p, begin, count, room.pressed);
-        for (int k = 0; k < count; ++k) {
+        const bool keeps = velocity == ParticleUpdate::flip;  // V, to which the grid adds
+        stack<Dim + 1>(count, room.record, 0, [&](int d, int k) {
+          if (d == Dim) return weighs_pressed ? detail::load_row(room.pressed + k) : Row{};
+          return keeps ? detail::load_row(p.velocity[d < Dim ? d : 0] + begin + k) : Row{};
+        });
+        gather_chunk_values(w, count, room.in.at[0], [&](int k, Record v) {
           ahead(k);
           const auto m = static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]);
-          Record v = gather_values(w, k, room.in.at[0]);
-          if (velocity == ParticleUpdate::flip) v += room.record[k];
           if constexpr (Basis::kSpread > 0) {
             if (velocity == ParticleUpdate::apic) {
               scatter_affine<Dim, Basis>(c, run, w, begin, count, k, m, v, room.in.at[0], room.out.at[0]);
-              continue;
+              return;
             }
           }
-          if (weighs_pressed) v[Dim] = static_cast<Real>(room.pressed[k]);
-          room.record[k] = m * v;
-        }
+          room.record[k] = m * (v + room.record[k]);
+        });
         if (Basis::kSpread > 0 && velocity == ParticleUpdate::apic) return;
         scatter_chunk_values(w, count, room.record, room.out.at[0]);
       });

@@ -115,12 +115,11 @@ inline void scatter(const ChunkWeights<Dim, K>& w, int k, R a, const R (&b)[Dim]
   }
 }
 
-template <int Dim, int K, class R>
-inline R gather_values(const ChunkWeights<Dim, K>& w, int k, const R* window) {
-  const R* source = window + w.first[k];
+template <int Side, int Dim, int K, class R>
+inline R sum_of_values(const ChunkWeights<Dim, K>& w, int k, const R* first) {
   R sum[K] = {};  // a chain of additions for each node of a row, so that they need not wait for each other
 #pragma GCC unroll 64
-  for (int n = 0; n < w.kNodes; ++n) sum[n % K] += w.value[n][k] * source[window_offset<Dim, K>(n)];
+  for (int n = 0; n < w.kNodes; ++n) sum[n % K] += w.value[n][k] * first[window_offset<Dim, K, Side>(n)];
   for (int i = 1; i < K; ++i) sum[0] += sum[i];
   return sum[0];
 }
@@ -140,7 +139,7 @@ inline void gather_gradients(const ChunkWeights<Dim, K>& w, int k, const R* wind
 template <int Dim, int K, class R>
 inline R gather(const ChunkWeights<Dim, K>& w, int k, const R* window, R (&out)[Dim]) {
   gather_gradients(w, k, window, out);
-  return gather_values(w, k, window);
+  return sum_of_values<kWindowSide>(w, k, window + w.first[k]);
 }
 
 template <class R, int K>
@@ -241,10 +240,10 @@ inline void gather_gradients(const ProductWeights<Dim, K>& w, int k, const R* wi
   gather(w, k, window, out);
 }
 
-template <int Dim, int K, class R>
-inline R gather_values(const ProductWeights<Dim, K>& w, int k, const R* window) {
+template <int Side, int Dim, int K, class R>
+inline R sum_of_values(const ProductWeights<Dim, K>& w, int k, const R* first) {
   R value{}, plane{};
-  detail::for_each_support_row<Dim, K>(window + w.first[k], [&](int z, int y, const R* row) {
+  detail::for_each_support_row<Dim, K, Side>(first, [&](int z, int y, const R* row) {
     R sum = w.value(0, 0, k) * row[0];
 #pragma GCC unroll 4
     for (int x = 1; x < K; ++x) sum += w.value(0, x, k) * row[x];
@@ -297,18 +296,22 @@ inline void scatter_pairs(const Weights& w, int k, R a, R* window) {
   add_pairs<kWindowSide>(w, k, a, window + w.first[k]);
 }
 template <class Weights, class R>
+inline R gather_values(const Weights& w, int k, const R* window) {
+  return sum_of_values<kWindowSide>(w, k, window + w.first[k]);
+}
+template <class Weights, class R>
 inline R gather_pairs(const Weights& w, int k, const R* window) {
   return sum_of_pairs<kWindowSide>(w, k, window + w.first[k]);
 }
 
-// Of the particles of a chunk. With products in 2-D the nodes of a support stay in registers over particles
-// that follow each other in one cell: else each would wait for what the one before it added. (In 3-D and with
-// domains that deform arithmetic takes longer than that.)
+// Of the particles of a chunk. In 2-D the nodes of a support stay in registers over particles that follow
+// each other in one cell: else each would wait for what the one before it added. (In 3-D arithmetic takes
+// longer than that; of domains that need more nodes they would not fit.)
 
 namespace detail {
 
 template <class Weights>
-inline constexpr bool kStay = Weights::kDim == 2 && Weights::kProducts;
+inline constexpr bool kStay = Weights::kDim == 2 && (Weights::kProducts || Weights::kSide == 3);
 
 /// Calls f(k, nodes) for the particles of a chunk in the plane. @tparam kWrites  the nodes are changed
 template <bool kWrites, class Weights, class R, class F>
@@ -363,6 +366,16 @@ inline void scatter_chunk_pairs(const Weights& w, int count, const R* a, R* wind
       beside(k);
       scatter_pairs(w, k, a[k], window);
     });
+}
+
+/// Calls f(k, Σ_i S_pi window_i).
+template <class Weights, class R, class F>
+inline void gather_chunk_values(const Weights& w, int count, const R* window, const F& f) {
+  if constexpr (detail::kStay<Weights>)
+    detail::for_each_in_support<false>(
+        w, count, window, [&](int k, const R* nodes) { f(k, sum_of_values<Weights::kSide>(w, k, nodes)); });
+  else
+    for (int k = 0; k < count; ++k) f(k, gather_values(w, k, window));
 }
 
 template <class Weights, class R>

@@ -72,7 +72,7 @@ inline void gather_chunk(const Weights& w, int count, bool gradient, GatherRoom<
     if (gradient && r == pairs)
       gather_chunk_pairs(w, count, from.window.at[r], from.value[r]);
     else
-      for (int k = 0; k < count; ++k) from.value[r][k] = gather_values(w, k, from.window.at[r]);
+      gather_chunk_values(w, count, from.window.at[r], [&](int k, auto sum) { from.value[r][k] = sum; });
   unstack<2, 4>(from.value[0], count, room.value);
   if (NC > 8) unstack<2, 4>(from.value[last], count, room.value + 4);
   if (gradient) unstack_pairs(from.value[pairs], count, 1 - pairs, room);

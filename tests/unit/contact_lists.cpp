@@ -199,7 +199,6 @@ TEST_CASE("slabs hold each node once, and all around a slab's nodes lies in slab
   State<2>& state = met.step.state();
   state.threads = 1;
   ContactSlabs<2> slabs;
-  slabs.group(list);
   const auto check = [&](const std::vector<std::uint8_t>& due, bool many) {
     slabs.cut(state, list, due, many);
     REQUIRE((slabs.size() > 1) == many);

@@ -138,6 +138,38 @@ bodies:
   CHECK((rows > 1) == several);
 }
 
+/// The longest strip, in tiles, and how many colours there are.
+template <int Dim>
+std::pair<int, int> strips_of(const Step<Dim>& step) {
+  int longest = 0, colours = 0;
+  for (const auto& colour : step.state().tiling.colours) {
+    colours += !colour.empty();
+    for (const Strip& strip : colour) longest = std::max(longest, strip.end - strip.begin);
+  }
+  return {longest, colours};
+}
+
+TEST_CASE("rows are strips where they are many, and cut where they are few") {
+  const auto bar = [](const char* size) {
+    return scene_from(fmt::format(R"(
+space: plane_strain
+grid: {{origin: [-5 mm, -5 mm], size: [140 mm, 140 mm], cell: 1 mm}}
+time: {{end: 1 s}}
+materials: {{m: {{model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}}}
+bodies: [{{name: a, box: {{from: [0 mm, 0 mm], to: {}}}, material: m, particles_per_cell: 1}}]
+)",
+                                  size));
+  };
+  const Scene low = bar("[128 mm, 20 mm]"), high = bar("[128 mm, 128 mm]");
+  Step<2> few(low), many(high);
+  for (auto* step : {&few, &many}) {
+    advance(*step, 1);
+    check_tables(*step);
+  }
+  CHECK(strips_of(few) == std::pair(4, 4));
+  CHECK(strips_of(many) == std::pair(32, 2));
+}
+
 TEST_CASE("many tiles lie in strips of whole rows, of which those of a colour share no slot") {
   const char* const apart = "{law: coulomb}";
   const auto flat = [](const char* contact, bool several) {

@@ -34,6 +34,7 @@ void Contact<Dim>::find_nodes(const State<Dim>& state) {
     me.wait_for_all();
     mine.nodes.clear();
     mine.entries.clear();
+    mine.stack_begin.clear();
     mine.meetings = mine.screened = 0;
     for (std::size_t s = begin; s < end; ++s) list_stack(state, s, mine);
     me.wait_for_all();
@@ -67,6 +68,7 @@ void Contact<Dim>::list_stack(const State<Dim>& state, std::size_t s, NodeListin
   if (next == field_begin_[s + 1]) return;
   const auto& stack = state.tiling.stacks[s];
   const double* mass = state.nodes.column(Nodal::mass);
+  const std::size_t begin = out.nodes.size();
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
     ContactNode<Dim> node;
     node.field_begin = next;
@@ -93,21 +95,25 @@ void Contact<Dim>::list_stack(const State<Dim>& state, std::size_t s, NodeListin
     node_at[local] = static_cast<int>(out.nodes.size());
     out.nodes.push_back(node);
   }
+  if (out.nodes.size() > begin) out.stack_begin.push_back(begin);
 }
 
 /// Where the share of each thread goes, and room for all of them.
 template <int Dim>
 void Contact<Dim>::make_room(std::size_t threads) {
-  std::size_t nodes = 0, entries = 0;
+  std::size_t nodes = 0, entries = 0, stacks = 0;
   for (std::size_t t = 0; t < threads; ++t) {
     NodeListing<Dim>& listing = listings_[t];
     listing.node_begin = std::exchange(nodes, nodes + listing.nodes.size());
     listing.entry_begin = std::exchange(entries, entries + listing.entries.size());
+    listing.stacks_begin = std::exchange(stacks, stacks + listing.stack_begin.size());
     list_.counters.meetings += listing.meetings;
     list_.counters.screened += listing.screened;
   }
   list_.counters.nodes_peak = std::max<std::uint64_t>(list_.counters.nodes_peak, nodes);
   list_.nodes.resize(nodes);
+  list_.stack_begin.resize(stacks + 1);
+  list_.stack_begin.back() = nodes;
   list_.entries.resize(entries);
   keys_.resize(entries);
   if (bridges_) last_bridges_.swap(list_.bridges), list_.bridges.resize(entries);
@@ -119,6 +125,8 @@ void Contact<Dim>::make_room(std::size_t threads) {
 template <int Dim>
 void Contact<Dim>::take_listed(const State<Dim>& state, const NodeListing<Dim>& listing) {
   const auto offset = static_cast<int>(listing.entry_begin);
+  for (std::size_t k = 0; k < listing.stack_begin.size(); ++k)
+    list_.stack_begin[listing.stacks_begin + k] = listing.node_begin + listing.stack_begin[k];
   std::uint64_t key_before = ~std::uint64_t{0};
   auto last = memory_.begin();  // keys mostly rise from entry to entry, and so does what they find
   for (std::size_t k = 0; k < listing.nodes.size(); ++k) {

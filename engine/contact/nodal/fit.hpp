@@ -13,8 +13,8 @@
 #include "engine/contact/nodal/slabs.hpp"
 #include "engine/contact/nodal/smooth_normals.hpp"
 #include "engine/scene/scene.hpp"
+#include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
-#include "engine/state/team.hpp"
 #include "kernels/contact/collect.hpp"
 #include "kernels/contact/margin.hpp"
 #include "kernels/contact/regression.hpp"
@@ -77,8 +77,7 @@ class ContactFit {
     if (choice.smooth) raw_.resize(contact.entries.size()), kept_.resize(contact.nodes.size());
     first_.resize(contact.fields.size());
     const NormalMean<Dim> mean(state, contact, raw_, choice.pairs);
-    slabs_.group(contact);
-    find_due(slabs_, contact, spec.refit * state.grid.cell, state.threads, due_,
+    find_due(contact, spec.refit * state.grid.cell, state.threads, shares_, due_,
              [&](const ContactNode<Dim>& node) { reuse(state, choice, mean, node, contact); });
     slabs_.cut(state, contact, due_, choice.smooth);
     for (auto& room : rooms_) room.clouds.resize(std::max(slabs_.at_once(), room.clouds.size()));
@@ -423,6 +422,7 @@ class ContactFit {
   std::vector<Kept> kept_;
   std::vector<std::uint8_t> due_;  ///< by contact node: it is fitted in this step
   ContactSlabs<Dim> slabs_;
+  Shares shares_{omp_get_max_threads()};
   std::vector<int> first_;  ///< as ContactList::fields: where its particles begin in their cloud
 };
 

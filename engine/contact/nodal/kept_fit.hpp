@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/contact/nodal/list.hpp"
-#include "engine/contact/nodal/slabs.hpp"
+#include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/contact/separation.hpp"
 
@@ -19,8 +19,9 @@ namespace mpmfast {
 /// together. Calls reuse(node) for the others, in parallel.
 /// @param refit  m
 template <int Dim, class F>
-void find_due(const ContactSlabs<Dim>& slabs, const ContactList<Dim>& contact, double refit, int threads,
+void find_due(const ContactList<Dim>& contact, double refit, int threads, Shares& shares,
               std::vector<std::uint8_t>& due, const F& reuse) {
+  constexpr std::int64_t kAtOnce = 8, kFew = 64;  // stacks
   due.assign(contact.nodes.size(), true);
   if (contact.fits.empty()) return;
   const auto drift_of = [&](const ContactNode<Dim>& node) {
@@ -32,7 +33,10 @@ void find_due(const ContactSlabs<Dim>& slabs, const ContactList<Dim>& contact, d
     }
     return most;
   };
-  slabs.for_each_stack(threads, [&](std::size_t begin, std::size_t end) {
+  const auto stacks = static_cast<std::int64_t>(contact.stack_begin.size()) - 1;
+  share_out(shares, stacks, threads, kAtOnce, kFew, [&](std::int64_t s) {
+    const std::size_t begin = contact.stack_begin[static_cast<std::size_t>(s)],
+                      end = contact.stack_begin[static_cast<std::size_t>(s) + 1];
     bool any = false;
     for (std::size_t k = begin; k < end; ++k) {
       const double drift = drift_of(contact.nodes[k]);

@@ -129,8 +129,9 @@ template <int Dim>
 struct alignas(64) NodeListing {
   std::vector<ContactNode<Dim>> nodes;
   std::vector<ListedEntry<Dim>> entries;
-  std::uint64_t meetings, screened;     ///< as ContactCounters
-  std::size_t node_begin, entry_begin;  ///< where its own go in the list of all
+  std::vector<std::size_t> stack_begin;               ///< of `nodes`: the first of each stack
+  std::uint64_t meetings, screened;                   ///< as ContactCounters
+  std::size_t node_begin, entry_begin, stacks_begin;  ///< where its own go in the list of all
 };
 
 struct ContactCounters {
@@ -149,10 +150,11 @@ struct ContactList {
   std::vector<ContactNode<Dim>> nodes;
   std::vector<ContactField> fields;
   std::vector<ContactEntry<Dim>> entries;
-  std::vector<Bridge<Dim>> bridges;  ///< as `entries`; none where no law has springs
-  std::vector<Bond<Dim>> bonds;      ///< as `entries`; none where no law breaks
-  std::vector<KeptFit<Dim>> fits;    ///< as `entries`; none where each step fits anew
-  std::vector<int> node_at;          ///< [stack · kTileNodes + local] → contact node or −1
+  std::vector<Bridge<Dim>> bridges;      ///< as `entries`; none where no law has springs
+  std::vector<Bond<Dim>> bonds;          ///< as `entries`; none where no law breaks
+  std::vector<KeptFit<Dim>> fits;        ///< as `entries`; none where each step fits anew
+  std::vector<std::size_t> stack_begin;  ///< first node of each stack that has some, and the end
+  std::vector<int> node_at;              ///< [stack · kTileNodes + local] → contact node or −1
   ContactCounters counters;
 };
 

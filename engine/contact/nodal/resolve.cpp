@@ -84,7 +84,10 @@ template <class Laws>
 void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction correction, double dt) {
   const auto n = static_cast<std::int64_t>(list_.nodes.size());
   std::atomic<std::uint64_t> all_solved{0}, all_lumped{0};
-  for_each_stretch(n, state.threads, 64, [&](std::int64_t begin, std::int64_t end) {
+  constexpr std::int64_t kAtOnce = 32, kFew = 64;  // nodes
+  const int asked = n <= kFew ? 1 : state.threads;
+  shares_.cut(asked, n, kAtOnce);
+  on_threads(asked, [&](const Member& me) {
     std::uint64_t solved = 0, lumped = 0;
     const bool may_stick = holds_sticking_ || first_correction_stays_ || correction == Correction::final;
     Together& together = together_[static_cast<std::size_t>(own_number())];
@@ -119,7 +122,7 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
       put_in_lane(state, together, node, waiting);
       if (waiting.solver.is_full()) solve_waiting(waiting);
     };
-    for (std::int64_t k = begin; k < end; ++k) {
+    shares_.for_each(me.thread, [&](std::int64_t k) {
       const ContactNode<Dim>& node = list_.nodes[static_cast<std::size_t>(k)];
       const int fields = node.field_end - node.field_begin;
       if (bridges_ && correction == Correction::final) bridge(state, dt, node);
@@ -143,11 +146,11 @@ void Contact<Dim>::resolve_all(State<Dim>& state, const Laws& laws, Correction c
           wait_in(together.of_four, node);
         else
           solve_alone(node);
-        continue;
+        return;
       }
       if (outcome == PairOutcome::lump) resolve_each(state, laws, correction, dt, node, together.motion);
       finish_node(node);
-    }
+    });
     solve_waiting(together.of_three);
     solve_waiting(together.of_four);
     all_solved += solved;

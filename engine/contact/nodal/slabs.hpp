@@ -3,14 +3,16 @@
 /// @file The contact nodes in slabs that follow each other: what a node keeps for the nodes around it is held
 /// for some slabs at once, not for all nodes of a large scene.
 
+#include <omp.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "engine/contact/nodal/list.hpp"
+#include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
-#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
@@ -23,18 +25,6 @@ class ContactSlabs {
   /// Nodes of a slab for each thread: so many that threads hardly wait for each other at its end.
   static constexpr std::size_t kNodesAThread = 256;
 
-  /// Which nodes belong to which stack.
-  void group(const ContactList<Dim>& contact) {
-    groups_.clear();
-    const auto begin = contact.nodes.begin(), end = contact.nodes.end();
-    for (auto next = begin; next != end;) {
-      groups_.push_back(static_cast<std::size_t>(next - begin));
-      const auto most = next + std::min<std::ptrdiff_t>(end - next, kTileNodes<Dim>);
-      next = std::partition_point(next, most, [&](const auto& node) { return node.stack == next->stack; });
-    }
-    groups_.push_back(contact.nodes.size());
-  }
-
   /// @param due   by node: it is to be fitted; marks one of a stack at least, or none
   /// @param many  else one slab has all nodes
   void cut(const State<Dim>& state, const ContactList<Dim>& contact, const std::vector<std::uint8_t>& due,
@@ -44,16 +34,17 @@ class ContactSlabs {
     fitted_.clear();
     slabs_.clear();
     std::size_t nodes = 0;
-    for (std::size_t g = 0; g + 1 < groups_.size(); ++g) {
-      const auto end = due.begin() + static_cast<std::ptrdiff_t>(groups_[g + 1]);
-      if (std::find(due.begin() + static_cast<std::ptrdiff_t>(groups_[g]), end, std::uint8_t{1}) == end)
+    const auto& begin = contact.stack_begin;
+    for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
+      const auto end = due.begin() + static_cast<std::ptrdiff_t>(begin[g + 1]);
+      if (std::find(due.begin() + static_cast<std::ptrdiff_t>(begin[g]), end, std::uint8_t{1}) == end)
         continue;
-      const int stack = contact.nodes[groups_[g]].stack;
+      const int stack = contact.nodes[begin[g]].stack;
       if (slabs_.empty() || nodes >= enough) {
         slabs_.push_back({fitted_.size(), 0, stack, -1, 0});
         nodes = 0;
       }
-      nodes += groups_[g + 1] - groups_[g];
+      nodes += begin[g + 1] - begin[g];
       fitted_.push_back(g);
       Slab& slab = slabs_.back();
       slab.end = fitted_.size();
@@ -76,21 +67,15 @@ class ContactSlabs {
 
   /// f(index, node) of a slab's nodes, stack after stack, in parallel.
   template <class F>
-  void for_each_node(std::size_t slab, const State<Dim>& state, const ContactList<Dim>& contact, F f) const {
-    const auto begin = static_cast<std::int64_t>(slabs_[slab].begin),
-               end = static_cast<std::int64_t>(slabs_[slab].end);
-    share_out(end - begin, end - begin > 4 ? state.threads : 1, 1, [&](std::int64_t g) {
-      const std::size_t group = fitted_[static_cast<std::size_t>(begin + g)];
-      for (std::size_t k = groups_[group]; k < groups_[group + 1]; ++k) f(k, contact.nodes[k]);
-    });
-  }
-
-  /// f(begin, end) of the nodes of each stack, fitted or not, in parallel.
-  template <class F>
-  void for_each_stack(int threads, F f) const {
-    for_each_of(static_cast<std::int64_t>(groups_.size()) - 1, threads, 64, [&](std::int64_t g) {
-      f(groups_[static_cast<std::size_t>(g)], groups_[static_cast<std::size_t>(g) + 1]);
-    });
+  void for_each_node(std::size_t slab, const State<Dim>& state, const ContactList<Dim>& contact, F f) {
+    constexpr std::int64_t kFew = 4;
+    const std::size_t first = slabs_[slab].begin;
+    share_out(shares_, static_cast<std::int64_t>(slabs_[slab].end - first), state.threads, 1, kFew,
+              [&](std::int64_t g) {
+                const std::size_t stack = fitted_[first + static_cast<std::size_t>(g)];
+                for (std::size_t k = contact.stack_begin[stack]; k < contact.stack_begin[stack + 1]; ++k)
+                  f(k, contact.nodes[k]);
+              });
   }
 
  private:
@@ -99,10 +84,10 @@ class ContactSlabs {
     int first_stack, reach;  ///< reach: the highest stack around it
     std::size_t surrounded_by;
   };
-  std::vector<std::size_t> groups_;  ///< first contact node of each stack that has some, and the end
-  std::vector<std::size_t> fitted_;  ///< those of groups_ with nodes to fit
+  std::vector<std::size_t> fitted_;  ///< into ContactList::stack_begin: those with nodes to fit
   std::vector<Slab> slabs_;
   std::size_t at_once_ = 1;
+  Shares shares_{omp_get_max_threads()};
 };
 
 }  // namespace mpmfast

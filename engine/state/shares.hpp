@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "engine/state/team.hpp"
+
 namespace mpmfast {
 
 class Shares {
@@ -49,5 +51,14 @@ class Shares {
   std::int64_t at_once_ = 1;
   std::unique_ptr<Share[]> shares_;
 };
+
+/// Calls f(k) for all k of [0, n), so many at a time; by one thread where there are no more than a few.
+template <class F>
+void share_out(Shares& shares, std::int64_t n, int threads, std::int64_t at_once, std::int64_t few,
+               const F& f) {
+  const int asked = n <= few ? 1 : threads;
+  shares.cut(asked, n, at_once);
+  on_threads(asked, [&](const Member& me) { shares.for_each(me.thread, f); });
+}
 
 }  // namespace mpmfast
