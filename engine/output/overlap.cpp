@@ -9,6 +9,7 @@
 #include <span>
 
 #include "engine/output/particle_access.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 namespace {
@@ -196,10 +197,10 @@ Overlap overlap_of(const std::vector<ParticleDomain>& domains, int threads) {
   Overlap sum;
   for (std::size_t begin = 0; begin < bins.count(); begin += kBins) {
     const std::size_t end = std::min(begin + kBins, bins.count());
-#pragma omp parallel for num_threads(threads) schedule(dynamic, 64)
-    for (std::int64_t bin = static_cast<std::int64_t>(begin); bin < static_cast<std::int64_t>(end); ++bin)
-      of_bin[static_cast<std::size_t>(bin) - begin] =
-          overlap_in(domains, bins, static_cast<std::size_t>(bin));
+    share_out(static_cast<std::int64_t>(end - begin), threads, 64, [&](std::int64_t k) {
+      const auto at = static_cast<std::size_t>(k);
+      of_bin[at] = overlap_in(domains, bins, begin + at);
+    });
     for (std::size_t k = 0; k < end - begin; ++k) {
       const Overlap& part = of_bin[k];
       sum.area += part.area;

@@ -21,11 +21,17 @@ class Shares {
   /// For the next loop, of n turns, so many of which are taken together. Called by one thread, before the
   /// others begin.
   void cut(int threads, std::int64_t n, std::int64_t at_once) {
+    cut_at(threads, at_once, [&](int t) { return n * t / std::min(threads, most_); });
+  }
+
+  /// The same, where thread t begins with turn begin(t) and the last one ends before begin(threads).
+  template <class Begin>
+  void cut_at(int threads, std::int64_t at_once, const Begin& begin) {
     threads_ = std::min(threads, most_);
     at_once_ = at_once;
     for (int t = 0; t < threads_; ++t) {
-      shares_[static_cast<std::size_t>(t)].next.store(n * t / threads_, std::memory_order_relaxed);
-      shares_[static_cast<std::size_t>(t)].end = n * (t + 1) / threads_;
+      shares_[static_cast<std::size_t>(t)].next.store(begin(t), std::memory_order_relaxed);
+      shares_[static_cast<std::size_t>(t)].end = begin(t + 1);
     }
   }
 

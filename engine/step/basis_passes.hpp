@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "engine/contact/nodal/fit.hpp"
+#include "engine/state/shares.hpp"
 #include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
-#include "engine/state/shares.hpp"
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
@@ -254,7 +254,7 @@ class BasisPasses final : public Passes<Dim> {
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
     heat_reports_.assign(static_cast<std::size_t>(n), {});
     const ParticleView<Dim> view = state.view();
-    shares_[0].cut(state.threads, n, kTilesAtOnce);
+    shares_[0].cut_at(state.threads, kTilesAtOnce, [&](int thread) { return first_tile(state, thread); });
     on_threads(state.threads, [&](const Member& me) {
       HeatRoom<Dim, Basis>& room = *rooms_[static_cast<std::size_t>(me.thread)]->heat;
       shares_[0].for_each(me.thread, [&](std::int64_t t) {
@@ -312,6 +312,18 @@ class BasisPasses final : public Passes<Dim> {
             state.bodies.data(), &state.grid};
   }
 
+  /// The first tile of a thread's share, which has as many particles as those of the others.
+  std::int64_t first_tile(const State<Dim>& state, int thread) const {
+    const auto& tiles = state.tiling.tiles;
+    const auto& runs = state.tiling.runs;
+    const auto first = state.particles.size() * static_cast<std::size_t>(thread) /
+                       std::min(static_cast<std::size_t>(state.threads), rooms_.size());
+    const auto before = [&](const ParticleTile<Dim>& tile, std::size_t particle) {
+      return runs[static_cast<std::size_t>(tile.run_begin)].begin < particle;
+    };
+    return std::lower_bound(tiles.begin(), tiles.end(), first, before) - tiles.begin();
+  }
+
   /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap,
   /// and each slot adds up its tiles in the order of the colours, whatever the threads. Of a strip f must
   /// take all tiles or none, or sums that go on from one to the next are lost.
@@ -320,10 +332,18 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleView<Dim> view = state.view();
     const auto& colours = state.tiling.colours;
     for (std::size_t colour = 0; colour < colours.size(); ++colour)
-      shares_[colour].cut(state.threads, static_cast<std::int64_t>(colours[colour].size()), 1);
+      shares_[colour].cut_at(state.threads, 1, [&](int thread) {
+        const auto& strips = colours[colour];
+        const auto before = [](const Strip& strip, std::int64_t tile) { return strip.begin < tile; };
+        return std::lower_bound(strips.begin(), strips.end(), first_tile(state, thread), before) -
+               strips.begin();
+      });
     on_threads(state.threads, [&](const Member& me) {
       Room& room = *rooms_[static_cast<std::size_t>(me.thread)];
+      bool first = true;
       for (std::size_t colour = 0; colour < colours.size(); ++colour) {
+        if (colours[colour].empty()) continue;
+        if (!std::exchange(first, false)) me.wait_for_all();
         shares_[colour].for_each(me.thread, [&](std::int64_t k) {
           const Strip& strip = colours[colour][static_cast<std::size_t>(k)];
           const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
@@ -336,7 +356,6 @@ class BasisPasses final : public Passes<Dim> {
             f(c, room, rigid);
           }
         });
-        me.wait_for_all();
       }
     });
   }
@@ -400,7 +419,7 @@ class BasisPasses final : public Passes<Dim> {
     reports_.assign(rooms_.size(), {});
     const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-    shares_[0].cut(state.threads, n, kTilesAtOnce);
+    shares_[0].cut_at(state.threads, kTilesAtOnce, [&](int thread) { return first_tile(state, thread); });
     on_threads(state.threads, [&](const Member& me) {
       TileReport& report = reports_[static_cast<std::size_t>(me.thread)].report;
       UpdateRoom<Dim, Basis>& room = rooms_[static_cast<std::size_t>(me.thread)]->update;

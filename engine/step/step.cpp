@@ -129,7 +129,7 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
-  contact_.drift(state_, dt);
+  clock_.time(Pass::contact_geometry, [&] { contact_.drift(state_, dt); });
   move_rigid_end(dt);
   if (cracks_.active()) cracks_.move(state_, dt);
   let_leave();
@@ -229,8 +229,10 @@ template <int Dim>
 void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
   clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
-  clock_.time(Pass::contact_geometry, [&] { contact_.find_geometry(state_, *passes_); });
-  contact_.leave_to(conditions_, state_.threads);
+  clock_.time(Pass::contact_geometry, [&] {
+    contact_.find_geometry(state_, *passes_);
+    contact_.leave_to(conditions_, state_.threads);
+  });
 }
 
 template <int Dim>
