@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "engine/state/team.hpp"
+#include "engine/state/shares.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -25,13 +25,31 @@ void in_both(const Check& check) {
 TEST_CASE("each turn of a loop is taken once, whoever takes it") {
   in_both([] {
     for (const std::int64_t n : {0, 1, 3, 4, 5, 1000}) {
-      std::vector<int> taken(static_cast<std::size_t>(n)), shared = taken;
+      std::vector<int> taken(static_cast<std::size_t>(n)), shared = taken, own_first = taken;
+      Shares shares(kThreads);
+      share_out(shares, n, kThreads, 3, 1, [&](std::int64_t k) { ++own_first[static_cast<std::size_t>(k)]; });
       for_each_of(n, kThreads, 1, [&](std::int64_t k) { ++taken[static_cast<std::size_t>(k)]; });
       share_out(n, kThreads, 3, [&](std::int64_t k) { ++shared[static_cast<std::size_t>(k)]; });
       CHECK(taken == std::vector<int>(static_cast<std::size_t>(n), 1));
       CHECK(shared == taken);
+      CHECK(own_first == taken);
     }
   });
+}
+
+TEST_CASE("a thread takes the turns of its own share before those of the others") {
+  const std::vector<int> begin{0, 5, 5, 12, 20};  // the second has none
+  Shares shares(kThreads);
+  for (int thread = 0; thread < kThreads; ++thread) {
+    shares.cut_at(kThreads, 2, [&](int t) { return begin[static_cast<std::size_t>(t)]; });
+    std::vector<std::int64_t> turns, wanted;
+    shares.for_each(thread, [&](std::int64_t turn) { turns.push_back(turn); });
+    for (int k = 0; k < kThreads; ++k) {
+      const auto of = static_cast<std::size_t>((thread + k) % kThreads);
+      for (int turn = begin[of]; turn < begin[of + 1]; ++turn) wanted.push_back(turn);
+    }
+    CHECK(turns == wanted);
+  }
 }
 
 TEST_CASE("stretches follow each other in the order of the threads") {
