@@ -167,7 +167,8 @@ class Tiling {
 
  private:
   bool within(const NodeIndex<Dim>& tile) const;
-  /// Row by row along x, the last axis slowest; with fields, those of one row of that before the next.
+  /// The number of a tile's place, row by row along x, the last axis slowest. Of particle tiles with their
+  /// field: in each row of the last axis, the places of one field after those of another.
   std::int64_t place(const NodeIndex<Dim>& tile, int field = 0, int fields = 1) const;
   NodeIndex<Dim> coordinates(std::int64_t place, int fields = 1) const;
   int find(std::int64_t place, int field) const;

@@ -8,13 +8,12 @@
 #include <algorithm>
 #include <atomic>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "engine/contact/nodal/fit.hpp"
-#include "engine/state/shares.hpp"
 #include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
+#include "engine/step/tile_loops.hpp"
 #include "kernels/basis/facts.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
@@ -32,7 +31,6 @@ class BasisPasses final : public Passes<Dim> {
   BasisPasses() {
     rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
     for (auto& room : rooms_) room = std::make_unique<Room>();
-    for (int c = 0; c < kCorners<Dim>; ++c) shares_.emplace_back(omp_get_max_threads());
   }
 
   void shape_domains(State<Dim>& state) override {
@@ -251,18 +249,11 @@ class BasisPasses final : public Passes<Dim> {
     const NodeColumns<3> in{
         {nodes.column(Nodal::temperature), nodes.column(Nodal::heat_flow),
          filtered ? nodes.column(Nodal::temperature_series) : nodes.column(Nodal::temperature)}};
-    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-    heat_reports_.assign(static_cast<std::size_t>(n), {});
-    const ParticleView<Dim> view = state.view();
-    shares_[0].cut_at(state.threads, kTilesAtOnce, [&](int thread) { return first_tile(state, thread); });
-    on_threads(state.threads, [&](const Member& me) {
-      HeatRoom<Dim, Basis>& room = *rooms_[static_cast<std::size_t>(me.thread)]->heat;
-      shares_[0].for_each(me.thread, [&](std::int64_t t) {
-        const auto at = static_cast<std::size_t>(t);
-        if (state.field_rigid[static_cast<std::size_t>(state.tiling.tiles[at].field)]) return;
-        heat_reports_[at] = update_heat_tile<Dim, Basis>(context(state, view, static_cast<int>(t)), room,
-                                                         scale, filtered, in);
-      });
+    heat_reports_.assign(state.tiling.tiles.size(), {});
+    loops_.for_each_deformable(state, [&](const TileContext<Dim>& c, int thread) {
+      heat_reports_[static_cast<std::size_t>(c.tile - state.tiling.tiles.data())] =
+          update_heat_tile<Dim, Basis>(c, *rooms_[static_cast<std::size_t>(thread)]->heat, scale, filtered,
+                                       in);
     });
     HeatReport all;
     for (const HeatReport& one : heat_reports_) {
@@ -283,8 +274,6 @@ class BasisPasses final : public Passes<Dim> {
   }
 
  private:
-  static constexpr std::int64_t kTilesAtOnce = 4;  ///< of loops without colours
-
   struct Room {
     ProjectRoom<Dim, Basis> project;
     XpicRoom<Dim, Basis, 2 * Dim> xpic;
@@ -307,56 +296,11 @@ class BasisPasses final : public Passes<Dim> {
     };
   }
 
-  TileContext<Dim> context(const State<Dim>& state, const ParticleView<Dim>& view, int tile) const {
-    return {&view, &state.tiling.tiles[static_cast<std::size_t>(tile)], state.tiling.runs.data(),
-            state.bodies.data(), &state.grid};
-  }
-
-  /// The first tile of a thread's share, which has as many particles as those of the others.
-  std::int64_t first_tile(const State<Dim>& state, int thread) const {
-    const auto& tiles = state.tiling.tiles;
-    const auto& runs = state.tiling.runs;
-    const auto first = state.particles.size() * static_cast<std::size_t>(thread) /
-                       std::min(static_cast<std::size_t>(state.threads), rooms_.size());
-    const auto before = [&](const ParticleTile<Dim>& tile, std::size_t particle) {
-      return runs[static_cast<std::size_t>(tile.run_begin)].begin < particle;
-    };
-    return std::lower_bound(tiles.begin(), tiles.end(), first, before) - tiles.begin();
-  }
-
-  /// Calls f(context, room, rigid) for each tile, colour after colour: windows of one colour do not overlap,
-  /// and each slot adds up its tiles in the order of the colours, whatever the threads. Of a strip f must
-  /// take all tiles or none, or sums that go on from one to the next are lost.
+  /// Calls f(context, room, rigid) as TileLoops::for_each_by_colour.
   template <class F>
   void scatter_tiles(State<Dim>& state, F f) {
-    const ParticleView<Dim> view = state.view();
-    const auto& colours = state.tiling.colours;
-    for (std::size_t colour = 0; colour < colours.size(); ++colour)
-      shares_[colour].cut_at(state.threads, 1, [&](int thread) {
-        const auto& strips = colours[colour];
-        const auto before = [](const Strip& strip, std::int64_t tile) { return strip.begin < tile; };
-        return std::lower_bound(strips.begin(), strips.end(), first_tile(state, thread), before) -
-               strips.begin();
-      });
-    on_threads(state.threads, [&](const Member& me) {
-      Room& room = *rooms_[static_cast<std::size_t>(me.thread)];
-      bool first = true;
-      for (std::size_t colour = 0; colour < colours.size(); ++colour) {
-        if (colours[colour].empty()) continue;
-        if (!std::exchange(first, false)) me.wait_for_all();
-        shares_[colour].for_each(me.thread, [&](std::int64_t k) {
-          const Strip& strip = colours[colour][static_cast<std::size_t>(k)];
-          const auto& of = state.tiling.tiles[static_cast<std::size_t>(strip.begin)];
-          const bool rigid = state.field_rigid[static_cast<std::size_t>(of.field)];
-          TileContext<Dim> c = context(state, view, strip.begin);
-          for (; c.tile != state.tiling.tiles.data() + strip.end; ++c.tile) {
-            c.next = c.tile + 1 == state.tiling.tiles.data() + strip.end ? nullptr : c.tile + 1;
-            c.goes_on_from = std::exchange(c.goes_on_to, c.next && goes_on<Dim>(*c.tile, *c.next));
-            fetch_next_tile(c);
-            f(c, room, rigid);
-          }
-        });
-      }
+    loops_.for_each_by_colour(state, [&](const TileContext<Dim>& c, int thread, bool rigid) {
+      f(c, *rooms_[static_cast<std::size_t>(thread)], rigid);
     });
   }
 
@@ -417,21 +361,10 @@ class BasisPasses final : public Passes<Dim> {
     double low[Dim], high[Dim];
     for (int d = 0; d < Dim; ++d) low[d] = lower[d], high[d] = upper[d];
     reports_.assign(rooms_.size(), {});
-    const ParticleView<Dim> view = state.view();
-    const auto n = static_cast<std::int64_t>(state.tiling.tiles.size());
-    shares_[0].cut_at(state.threads, kTilesAtOnce, [&](int thread) { return first_tile(state, thread); });
-    on_threads(state.threads, [&](const Member& me) {
-      TileReport& report = reports_[static_cast<std::size_t>(me.thread)].report;
-      UpdateRoom<Dim, Basis>& room = rooms_[static_cast<std::size_t>(me.thread)]->update;
-      shares_[0].for_each(me.thread, [&](std::int64_t t) {
-        if (state
-                .field_rigid[static_cast<std::size_t>(state.tiling.tiles[static_cast<std::size_t>(t)].field)])
-          return;
-        TileContext<Dim> c = context(state, view, static_cast<int>(t));
-        if (t + 1 < n) c.next = c.tile + 1;
-        fetch_next_tile(c);
-        merge(update_tile<Dim, Basis, NV>(c, room, in, strain, rule, low, high, visitor(state)), report);
-      });
+    loops_.for_each_deformable(state, [&](const TileContext<Dim>& c, int thread) {
+      const auto at = static_cast<std::size_t>(thread);
+      merge(update_tile<Dim, Basis, NV>(c, rooms_[at]->update, in, strain, rule, low, high, visitor(state)),
+            reports_[at].report);
     });
     TileReport all;
     for (const auto& r : reports_) merge(r.report, all);
@@ -449,7 +382,7 @@ class BasisPasses final : public Passes<Dim> {
     TileReport report;
   };
   std::vector<std::unique_ptr<Room>> rooms_;
-  std::vector<Shares> shares_;  ///< of the colours
+  TileLoops<Dim> loops_{omp_get_max_threads()};
   std::vector<ThreadReport> reports_;
   std::vector<HeatReport> heat_reports_;  ///< by tile: sums want one order
   std::vector<int> inverted_, outside_;

@@ -184,6 +184,7 @@ struct CpdiBasis {
   template <Wanted W, int K>
   static void sum_in_plane(const Lanes (&weight)[4][2][K], const Lanes (&inverse)[2][2], int k,
                            ChunkWeights<2, K>& out) {
+    constexpr double mean = 1.0 / kCorners<2>;
     Lanes along[2], across[2];
     for (int d = 0; W != Wanted::values && d < 2; ++d) {
       along[d] = inverse[0][d] + inverse[1][d];
@@ -195,9 +196,9 @@ struct CpdiBasis {
       const auto y = [&](int c) { return weight[c][1][n / K]; };
       const Lanes v0 = x(0) * y(0), v2 = x(2) * y(2);
       if constexpr (W == Wanted::values)
-        store_lanes(&out.value[n][k], 0.25 * (v0 + x(1) * y(1) + x(2) * y(2) + x(3) * y(3)));
+        store_lanes(&out.value[n][k], mean * (v0 + x(1) * y(1) + x(2) * y(2) + x(3) * y(3)));
       if constexpr (W == Wanted::both)
-        store_lanes(&out.value[n][k], 0.25 * ((v0 + x(3) * y(3)) + (v2 + x(1) * y(1))));
+        store_lanes(&out.value[n][k], mean * ((v0 + x(3) * y(3)) + (v2 + x(1) * y(1))));
       if constexpr (W != Wanted::values) {
         const Lanes one = x(3) * y(3) - v0, other = x(1) * y(1) - v2;
         store_pairs(out.slope[0][n][k], along[0] * one + across[0] * other,
