@@ -1,8 +1,8 @@
 // Walls that act where bodies end (`at: surface`): presses of known stress, flights of known time, friction.
 
 #include <fmt/format.h>
-#include <algorithm>
 
+#include <algorithm>
 #include <numbers>
 
 #include "tests/support.hpp"
