@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/support.hpp"
+#include "tests/validation/standing_wave.hpp"
 
 namespace mpmfast {
 namespace {
@@ -15,35 +15,6 @@ constexpr double kYoung = 10e6, kPoisson = 0.3, kDensity = 1000;
 constexpr double kShear = kYoung / (2 * (1 + kPoisson));
 constexpr double kLambda = kYoung * kPoisson / ((1 + kPoisson) * (1 - 2 * kPoisson));
 constexpr double kPi = std::numbers::pi;
-
-/// Period from the zeros of Σ M V_r mode(r) over some periods; starts with V_r = 0.01 m/s times the mode.
-template <class Mode>
-double measured_period(const Scene& scene, int periods, Mode mode) {
-  Step<2> step(scene);
-  auto& particles = step.state().particles;
-  const auto each = [&](auto f) {
-    for (std::size_t p = 0; p < particles.size(); ++p)
-      f(mode(particles.column(Quantity::position, 0)[p]), particles.column(Quantity::velocity, 0)[p],
-        particles.column(Quantity::mass)[p]);
-  };
-  each([](double m, double& v, double) { v = 0.01 * m; });
-  const auto amplitude = [&] {
-    double sum = 0;
-    each([&](double m, double v, double mass) { sum += mass * m * v; });
-    return sum;
-  };
-  std::vector<double> zeros;
-  double before = amplitude(), time_before = 0;
-  while (zeros.size() < static_cast<std::size_t>(2 * periods + 1)) {
-    step.advance(step.stable_dt());
-    const double now = amplitude(), time = step.state().time;
-    if (now * before < 0) zeros.push_back(time_before + (time - time_before) * before / (before - now));
-    before = now;
-    time_before = time;
-    REQUIRE(step.state().step < 100000);
-  }
-  return (zeros.back() - zeros.front()) / periods;
-}
 
 /// First root of x J0(x) = 2G/(λ + 2G) J1(x), x = kR: a free surface of u = J1(kr).
 double breathing_root() {
