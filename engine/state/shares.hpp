@@ -1,8 +1,8 @@
 #pragma once
 
-/// @file Who does what in a loop over tiles: a thread begins with its own share, so that it meets in every
-/// loop the particles and nodes that it met in the last one and still has in its caches, and helps the others
-/// when it is done.
+/// @file Who does what in a loop over tiles, contact nodes or stacks: a thread begins with its own share, so
+/// that it meets in every loop the particles and nodes that it met in the last one and still has in its
+/// caches, and helps the others when it is done.
 
 #include <algorithm>
 #include <atomic>
@@ -58,7 +58,8 @@ class Shares {
   std::unique_ptr<Share[]> shares_;
 };
 
-/// Calls f(k) for all k of [0, n), so many at a time; by one thread where there are no more than a few.
+/// Calls f(k) for all k of [0, n), so many at a time, each thread those of its own share first; by one thread
+/// where there are no more than a few.
 template <class F>
 void share_out(Shares& shares, std::int64_t n, int threads, std::int64_t at_once, std::int64_t few,
                const F& f) {

@@ -80,11 +80,11 @@ class Tiling {
 
   /// Makes room for the keys of n particles of bodies in these velocity fields, all in group 0.
   void start_keys(std::size_t n, const std::vector<int>& body_field);
-  /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: row
-  /// along the last axis, field, place in the row of the particle tile, group, body, whether it is a boundary
-  /// point, cell within the tile. (The row first: what meets lies near, and threads that share out particles
-  /// and slots each in their order have the same region of both.) Different particles may have theirs set at
-  /// once.
+  /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: index
+  /// of the particle tile on the last axis, field, its place among those of this index, group, body, whether
+  /// it is a boundary point, cell within the tile. (The last axis first: what meets lies near, and threads
+  /// that share out particles and slots each in their order have the same region of both.) Different
+  /// particles may have theirs set at once.
   void set_key(std::size_t particle, const NodeIndex<Dim>& first_node, int field, int body, bool on_surface) {
     NodeIndex<Dim> tile;
     int cell = 0;
@@ -203,7 +203,7 @@ class Tiling {
   int groups_ = 1;
   bool follows_ = false, stayed_ = true;  ///< stayed: the last sort found all in order
   std::vector<int> first_side_;           ///< by field; empty: no cracks
-  std::vector<std::uint64_t> mapped_;     ///< keys of the tiles with maps (field, place, group), rising
+  std::vector<std::uint64_t> mapped_;     ///< keys of the tiles with maps, as `tiles` lie: rising
   std::vector<SideMap<Dim>> maps_;        ///< likewise
   std::vector<std::uint64_t> tile_keys_;  ///< as `tiles`, in scenes with cracks
   std::vector<int> node_slots_;           ///< of the windows with maps

@@ -22,7 +22,8 @@ namespace mpmfast {
 template <int Dim>
 class ContactSlabs {
  public:
-  /// Nodes of a slab for each thread: so many that threads hardly wait for each other at its end.
+  /// Nodes of a slab for each thread, those of its stacks that are not due with them: so many that threads
+  /// hardly wait for each other at its end.
   static constexpr std::size_t kNodesAThread = 256;
 
   /// @param due   by node: it is to be fitted; marks one of a stack at least, or none
