@@ -39,7 +39,8 @@ std::string checksum(const Particles<Dim>& particles) {
   for (const Quantity quantity :
        {Quantity::position, Quantity::velocity, Quantity::deformation_gradient, Quantity::kirchhoff_stress,
         Quantity::dissipated_energy, Quantity::internal_energy, Quantity::plastic_strain,
-        Quantity::temperature, Quantity::elastic_strain, Quantity::out_of_plane_stretch}) {
+        Quantity::temperature, Quantity::elastic_strain, Quantity::out_of_plane_stretch,
+        Quantity::volume_ratio}) {
     if (!particles.has(quantity)) continue;
     for (int k = 0; k < Particles<Dim>::components(quantity); ++k) hash.add(particles.column(quantity, k));
   }

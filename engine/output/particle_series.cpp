@@ -73,6 +73,11 @@ void add_volume(const Particles<Dim>& particles, const std::vector<std::uint32_t
 /// Evolving state that users know.
 template <int Dim>
 void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
+  if (particles.has(Quantity::volume_ratio)) {  // as F, for what is near 1
+    const double* ratio = particles.column(Quantity::volume_ratio);
+    file.add_point_data<double>(kQuantityTable[static_cast<std::size_t>(Quantity::volume_ratio)].name,
+                                [&](std::size_t i, double* out) { *out = ratio[order[i]]; });
+  }
   for (const Quantity quantity : {Quantity::dissipated_energy, Quantity::internal_energy,
                                   Quantity::plastic_strain, Quantity::temperature}) {
     if (!particles.has(quantity)) continue;

@@ -15,8 +15,8 @@ namespace mpmfast {
 namespace {
 
 /// Evolving state that files hold under the names of the columns.
-constexpr std::array kState{Quantity::dissipated_energy, Quantity::internal_energy, Quantity::plastic_strain,
-                            Quantity::temperature};
+constexpr std::array kState{Quantity::volume_ratio, Quantity::dissipated_energy, Quantity::internal_energy,
+                            Quantity::plastic_strain, Quantity::temperature};
 
 std::string name_of(Quantity quantity) {
   return std::string(kQuantityTable[static_cast<std::size_t>(quantity)].name);

@@ -53,10 +53,12 @@ BodyHeat body_heat(const Scene& scene, const BodySpec& body) {
 
 std::vector<Quantity> state_columns(const std::vector<MaterialSpec>& materials) {
   StateColumns any;
+  bool evolves = false;
   for (const MaterialSpec& spec : materials)
     std::visit(
         [&]<class Law>(const Law&) {
           if constexpr (Evolving<Law>) {
+            evolves = true;
             any.dissipated |= Law::kColumns.dissipated;
             any.internal_energy |= Law::kColumns.internal_energy;
             any.plastic_strain |= Law::kColumns.plastic_strain;
@@ -66,6 +68,7 @@ std::vector<Quantity> state_columns(const std::vector<MaterialSpec>& materials) 
         },
         make_material(spec, 1, false));
   std::vector<Quantity> columns;
+  if (evolves) columns.push_back(Quantity::volume_ratio);
   if (any.dissipated) columns.push_back(Quantity::dissipated_energy);
   if (any.internal_energy) columns.push_back(Quantity::internal_energy);
   if (any.plastic_strain) columns.push_back(Quantity::plastic_strain);

@@ -56,12 +56,21 @@ void cool_at(const StateView<Dim>& columns, std::size_t p, double (&deformation)
   for (double& entry : deformation) entry /= columns.thermal_stretch[p];
 }
 
+/// 1/θ³, or 1 where heat stretches nothing.
+template <int Dim>
+double cooled_volume(const StateView<Dim>& columns, std::size_t p) {
+  if (!columns.thermal_stretch) return 1;
+  const double stretch = columns.thermal_stretch[p];
+  return 1 / (stretch * stretch * stretch);
+}
+
 /// Calls f(F, evolving state) in the dimensions that a law is asked in: three where the plane stretches along
 /// its normal.
 template <class Law, int Dim, class F>
 auto as_law_sees(const State<Dim>& state, const StateView<Dim>& columns, std::size_t p,
                  const double (&deformation)[Dim * Dim], const F& f) {
-  const MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
+  MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
+  if constexpr (Evolving<Law>) evolving.volume_ratio = columns.volume_ratio[p] * cooled_volume(columns, p);
   if constexpr (Dim == 2) {
     if (state.depth != Depth::held || columns.thermal_stretch) {
       double full[9];
@@ -189,6 +198,7 @@ void place(const BodySpec& body, std::size_t b, const Vec3& x, double share, con
     particles.column(Quantity::velocity, d)[p] = velocity_at(body, x)[k];
     particles.column(Quantity::deformation_gradient, (Dim + 1) * d)[p] = 1;
   }
+  if (particles.has(Quantity::volume_ratio)) particles.column(Quantity::volume_ratio)[p] = 1;
   particles.column(Quantity::mass)[p] = share * domain.mass;
   particles.column(Quantity::initial_volume)[p] = share * domain.volume;
   particles.id()[p] = static_cast<std::uint32_t>(p);
@@ -304,7 +314,7 @@ void refresh_stress(State<Dim>& state) {
       double t[kSymmetric<N>];
       if constexpr (Evolving<Law>) {
         constexpr double still[N * N] = {};
-        const double j = determinant<N>(g);
+        const double j = evolving.volume_ratio;
         law.template advance<N>(StrainStep<N, double>{still, g, j, j, 0.0, 1.0}, evolving, t, c2);
       } else {
         law.template stress<N>(g, t, c2);

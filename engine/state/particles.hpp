@@ -34,9 +34,10 @@ enum class Quantity {
   out_of_plane_stretch,
   initial_deformation,
   temperature_slope,
-  thermal_stretch
+  thermal_stretch,
+  volume_ratio
 };
-inline constexpr int kQuantities = 19;
+inline constexpr int kQuantities = 20;
 
 struct QuantityInfo {
   Quantity quantity;
@@ -71,6 +72,7 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
      "displacements where domains lie at an angle at the start (row-major F)"},
     {Quantity::temperature_slope, "temperature_slope", "K/m", 2, 3, "heat (its gradient)"},
     {Quantity::thermal_stretch, "thermal_stretch", "-", 1, 1, "thermal expansion (of a length)"},
+    {Quantity::volume_ratio, "volume_ratio", "-", 1, 1, "laws that flow (J, by its own rate)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).
@@ -132,8 +134,9 @@ class Particles {
     return f;
   }
 
-  /// J = det F, with the stretch out of the plane where it has a column.
+  /// J: carried by its own rate where a law of the scene flows, else det F with the stretch out of the plane.
   double volume_ratio(std::size_t p) const {
+    if (has(Quantity::volume_ratio)) return column(Quantity::volume_ratio)[p];
     const double j = deformation_gradient(p).determinant();
     return has(Quantity::out_of_plane_stretch) ? column(Quantity::out_of_plane_stretch)[p] * j : j;
   }

@@ -56,6 +56,7 @@ struct State {
     columns(Quantity::plastic_strain, &v.state.plastic_strain, 1);
     columns(Quantity::temperature, &v.state.temperature, 1);
     columns(Quantity::elastic_strain, v.state.elastic_strain, kSymmetric<Dim>);
+    columns(Quantity::volume_ratio, &v.state.volume_ratio, 1);
     return v;
   }
 };

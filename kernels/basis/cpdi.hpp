@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "kernels/basis/domain_limit.hpp"
 #include "kernels/basis/weights.hpp"
 
 namespace mpmfast {
@@ -65,26 +66,14 @@ struct CpdiBasis {
   static constexpr double kGridReach = Corner::kReach;
   static constexpr double kSpread = 0;  ///< differs from domain to domain
   static constexpr const char* kSays = Corner::kSays;
-  /// Half extent, in cells, beyond which a domain is scaled down: kMaxSupport nodes a side then always
-  /// suffice.
-  static constexpr double kMaxExtent = 0.999;
-
-  /// The half-edge vectors R = F diag(l), scaled as a whole where the domain would outgrow kMaxExtent cells.
+  /// The half-edge vectors R = F diag(l), of a domain that is scaled where its half-diagonals outgrow
+  /// kMostHalfDiagonal cells: kMaxSupport nodes a side then always suffice.
   /// @param f row-major deformation gradient; @param edge row-major result, m
   template <class V>
   static void convect(const V (&f)[Dim * Dim], const double (&half_size)[Dim], double inverse_cell,
                       V (&edge)[Dim * Dim]) {
-    V extent = broadcast<V>(0.0);
-    for (int i = 0; i < Dim; ++i) {
-      V reach = broadcast<V>(0.0);
-      for (int j = 0; j < Dim; ++j) {
-        edge[Dim * i + j] = f[Dim * i + j] * half_size[j];
-        reach += magnitude(edge[Dim * i + j]);
-      }
-      extent = larger(extent, reach * inverse_cell);
-    }
-    const V scale = extent > kMaxExtent ? kMaxExtent / extent : broadcast<V>(1.0);
-    for (auto& e : edge) e *= scale;
+    for (int e = 0; e < Dim * Dim; ++e) edge[e] = f[e] * half_size[e % Dim];
+    limit_domain<Dim>(kMostHalfDiagonal / inverse_cell, edge);
   }
 
   template <int K>

@@ -22,13 +22,13 @@ inline void embed(const V (&plane)[4], V s, V (&f)[9]) {
 /// The same state for a law in three dimensions, and back.
 template <class V>
 inline MaterialState<3, V> widened(const MaterialState<2, V>& s) {
-  MaterialState<3, V> w{s.dissipated, s.internal_energy, s.plastic_strain, s.temperature, {}};
+  MaterialState<3, V> w{s.dissipated, s.internal_energy, s.plastic_strain, s.temperature, {}, s.volume_ratio};
   for (int c = 0; c < kSymmetric<2>; ++c) w.elastic_strain[c] = s.elastic_strain[c];
   return w;
 }
 template <class V>
 inline MaterialState<2, V> narrowed(const MaterialState<3, V>& w) {
-  MaterialState<2, V> s{w.dissipated, w.internal_energy, w.plastic_strain, w.temperature, {}};
+  MaterialState<2, V> s{w.dissipated, w.internal_energy, w.plastic_strain, w.temperature, {}, w.volume_ratio};
   for (int c = 0; c < kSymmetric<2>; ++c) s.elastic_strain[c] = w.elastic_strain[c];
   return s;
 }

@@ -8,6 +8,7 @@
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/materials/radial_return.hpp"
+#include "kernels/materials/shape_memory.hpp"
 
 namespace mpmfast {
 
@@ -57,6 +58,7 @@ struct DruckerPrager {
   }
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return bulk + 4 * shear / 3; }
+  static constexpr double shape_limit() { return kShapeOfSoils; }
 
   /// M of an angle of friction, η of one of dilation.
   double slope(double angle) const {

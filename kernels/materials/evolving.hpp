@@ -2,8 +2,9 @@
 
 /// @file What laws with a history add to F → τ: state columns of their own, and a step of strain in place of
 /// a strain. An elastic law has `stress(F, τ, c²)` and `energy(F)`. An evolving law has `kColumns`,
-/// `advance(step, state, τ, c²)` and `energy(F, state)`; transfer/strain_chunk.hpp loads and stores the
-/// columns that it names and no others.
+/// `advance(step, state, τ, c²)`, `energy(F, state)` and `shape_limit()` (shape_memory.hpp);
+/// transfer/strain_chunk.hpp loads and stores the columns that it names and no others. J of its particles is
+/// a state too, J ← J det(I + a): the determinant of an F that has grown by flow has no digits left.
 
 #include "kernels/simd/lanes.hpp"
 #include "kernels/tensor.hpp"
@@ -24,6 +25,7 @@ struct MaterialState {
   V plastic_strain;                   ///< equivalent plastic strain
   V temperature;                      ///< K
   V elastic_strain[kSymmetric<Dim>];  ///< elastic left Cauchy–Green tensor; of metals isochoric
+  V volume_ratio;                     ///< J that the law answers to; `energy` reads it, the caller sets it
 };
 
 /// One step of strain, F ← (I + a) F.
@@ -46,6 +48,7 @@ template <int Dim, class V>
 inline MaterialState<Dim, V> resting_state(double temperature) {
   MaterialState<Dim, V> state{};
   state.temperature = broadcast<V>(temperature);
+  state.volume_ratio = broadcast<V>(1.0);
   for (int c = 0; c < 3; ++c) state.elastic_strain[c] = broadcast<V>(1.0);
   return state;
 }

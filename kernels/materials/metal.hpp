@@ -5,6 +5,7 @@
 
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/radial_return.hpp"
+#include "kernels/materials/shape_memory.hpp"
 #include "kernels/materials/volume.hpp"
 #include "kernels/materials/yield.hpp"
 
@@ -55,6 +56,10 @@ struct Metal {
   }
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return volume.bulk + 4 * shear / 3; }
+  /// Without yield the shear stress is that of F; without shear there is none.
+  double shape_limit() const {
+    return Yield::kPlastic ? kShapeOfMetals : shear > 0 ? kWholeShape : kShapeOfFluids;
+  }
   /// What the law takes from the grid.
   void set_cell(double cell) requires Volume::kHeats { volume.cell = cell; }
 
@@ -88,7 +93,7 @@ struct Metal {
   /// Recoverable energy per undeformed volume, J/m³.
   template <int Dim, class V>
   V energy(const V (&f)[Dim * Dim], const MaterialState<Dim, V>& state) const {
-    const V j = determinant<Dim>(f);
+    const V j = state.volume_ratio;
     V trace;
     if constexpr (Yield::kPlastic) {
       trace = state.elastic_strain[0] + state.elastic_strain[1] + state.elastic_strain[2];

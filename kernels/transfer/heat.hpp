@@ -55,9 +55,14 @@ inline void scatter_entries(const Weights& w, int k, const double (&entries)[NC]
 /// of rings the whole turn.
 template <int Dim>
 inline double current_volume(const ParticleView<Dim>& p, std::uint32_t q) {
-  double f[Dim * Dim];
-  for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
-  const double ratio = p.stretch ? p.stretch[q] * determinant<Dim>(f) : determinant<Dim>(f);
+  double ratio;
+  if (p.state.volume_ratio) {
+    ratio = p.state.volume_ratio[q];
+  } else {
+    double f[Dim * Dim];
+    for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
+    ratio = p.stretch ? p.stretch[q] * determinant<Dim>(f) : determinant<Dim>(f);
+  }
   return p.volume[q] * (ratio < 2 ? ratio : 2);
 }
 

@@ -32,10 +32,15 @@ template <int Dim>
 inline void find_pressed(const ParticleView<Dim>& p, std::uint32_t begin, int count, double* pressed) {
   constexpr double kStart = 0.95, kRamp = 10;
   for (int k = 0; k < count; k += kLanes) {
-    Lanes f[Dim * Dim];
-    for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
-    Lanes jacobian = determinant<Dim>(f);
-    if (p.depth != Depth::held) jacobian *= load_lanes(p.stretch + begin + k);
+    Lanes jacobian;
+    if (p.state.volume_ratio) {
+      jacobian = load_lanes(p.state.volume_ratio + begin + k);
+    } else {
+      Lanes f[Dim * Dim];
+      for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
+      jacobian = determinant<Dim>(f);
+      if (p.depth != Depth::held) jacobian *= load_lanes(p.stretch + begin + k);
+    }
     const Lanes share = kRamp * (kStart - jacobian);
     store_lanes(pressed + k, share > 1.0 ? 1.0 : share < 0.0 ? 0.0 : share);
   }

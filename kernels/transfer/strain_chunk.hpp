@@ -5,6 +5,7 @@
 
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/shape_memory.hpp"
 #include "kernels/transfer/strain_depth.hpp"
 #include "kernels/views.hpp"
 
@@ -48,28 +49,33 @@ inline bool see_cooled(const StateView<Dim>& view, std::uint32_t at, const Lanes
 }
 
 /// F ← (I + a) F, τ and c of up to kLanes particles from `at`, `count` of which are the caller's.
+/// @return J: of an evolving law by its own rate, else det F
 template <int Dim, class Law>
-inline void advance_law(const StateView<Dim>& view, const Law& law, const Lanes (&l)[Dim * Dim], double dt,
+inline Lanes advance_law(const StateView<Dim>& view, const Law& law, const Lanes (&l)[Dim * Dim], double dt,
                         int terms, std::uint32_t at, int count, Lanes (&f)[Dim * Dim],
                         Lanes (&tau)[kSymmetric<Dim>], Lanes& wave_speed_squared) {
   if constexpr (Evolving<Law>) {
     Lanes a[Dim * Dim], seen[Dim * Dim];
-    Lanes before = determinant<Dim>(f);
     deformation_increment<Dim>(l, dt, terms, a);
     deform<Dim>(a, f);
-    Lanes expansion = l[0];
+    const Lanes before = load_lanes(view.volume_ratio + at), now = before * volume_change<Dim>(a);
+    Lanes expansion = l[0], of_volume = broadcast<Lanes>(1.0);
     for (int d = 1; d < Dim; ++d) expansion += l[(Dim + 1) * d];
-    if (see_cooled<Dim>(view, at, f, seen)) before /= determinant<Dim>(f) / determinant<Dim>(seen);
+    if (see_cooled<Dim>(view, at, f, seen)) of_volume = detail::volume_cooling(view, at);
     MaterialState<Dim, Lanes> state;
     detail::load_state<Law>(view, at, state);
-    law.template advance<Dim>(StrainStep<Dim, Lanes>{a, seen, before, determinant<Dim>(seen), expansion, dt},
-                              state, tau, wave_speed_squared);
+    law.template advance<Dim>(
+        StrainStep<Dim, Lanes>{a, seen, of_volume * before, of_volume * now, expansion, dt}, state, tau,
+        wave_speed_squared);
     detail::store_state(view, law, at, count, state);
+    if (law.shape_limit() < kWholeShape) forget_shape<Dim>(law.shape_limit(), now, count, f);
+    return now;
   } else {
     Lanes seen[Dim * Dim];
     advance_deformation<Dim>(l, dt, terms, f);
     see_cooled<Dim>(view, at, f, seen);
     law.template stress<Dim>(seen, tau, wave_speed_squared);
+    return determinant<Dim>(f);
   }
 }
 
@@ -86,6 +92,7 @@ template <int Dim>
   for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count);
   for (int s = 0; s < kSymmetric<Dim>; ++s) store_first(stress.component[s] + k, tau[s], count);
   store_first(p.wave_speed + at, square_root(wave_speed_squared), count);
+  if (p.state.volume_ratio) store_first(p.state.volume_ratio + at, jacobian, count);
   const LaneSet all = leading_lanes(count);
   return same_lanes(where_less(all, broadcast<Lanes>(0.0), jacobian), all);
 }
@@ -113,9 +120,9 @@ bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint
     Lanes l[4], f[4], tau[4], c2, s = p.stretch ? load_lanes(p.stretch + at) : broadcast<Lanes>(1.0);
     const Lanes rate = hoop ? load_lanes(&room.hoop_rate[k]) : broadcast<Lanes>(0.0);
     load_strain(p, room, begin, k, l, f);
-    advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
+    const Lanes j = advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
     if (p.stretch) store_first(p.stretch + at, s, count - k);
-    sound &= store_strain(p, begin, k, count - k, f, tau, c2, s * determinant<2>(f), stress);
+    sound &= store_strain(p, begin, k, count - k, f, tau, c2, j, stress);
   }
   return sound;
 }
@@ -140,8 +147,10 @@ inline bool deform_chunk(const ParticleView<Dim>& p, std::uint32_t begin, int co
     load_strain(p, room, begin, k, l, f);
     advance_deformation<Dim>(l, dt, terms, f);
     for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count - k);
+    const Lanes j = determinant<Dim>(f);
+    if (p.state.volume_ratio) store_first(p.state.volume_ratio + at, j, count - k);
     const LaneSet all = leading_lanes(count - k);
-    sound &= same_lanes(where_less(all, broadcast<Lanes>(0.0), determinant<Dim>(f)), all);
+    sound &= same_lanes(where_less(all, broadcast<Lanes>(0.0), j), all);
   }
   return sound;
 }
@@ -173,8 +182,8 @@ bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begi
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
     load_strain(p, room, begin, k, l, f);
-    advance_law<Dim>(p.state, law, l, dt, terms, at, count - k, f, tau, c2);
-    sound &= store_strain(p, begin, k, count - k, f, tau, c2, determinant<Dim>(f), stress);
+    const Lanes j = advance_law<Dim>(p.state, law, l, dt, terms, at, count - k, f, tau, c2);
+    sound &= store_strain(p, begin, k, count - k, f, tau, c2, j, stress);
   }
   return sound;
 }

@@ -3,6 +3,7 @@
 /// @file Strain and stress of particles in planes that stretch along their normal (materials/depth.hpp).
 
 #include "kernels/materials/depth.hpp"
+#include "kernels/materials/shape_memory.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
@@ -25,6 +26,13 @@ inline void for_each_state_column(const StateView<Dim>& view, State& state, cons
 template <int Dim>
 inline Lanes cooling(const StateView<Dim>& view, std::uint32_t at) {
   return 1.0 / load_lanes(view.thermal_stretch + at);
+}
+
+/// 1/θ³: what heat has added to their volumes, taken out.
+template <int Dim>
+inline Lanes volume_cooling(const StateView<Dim>& view, std::uint32_t at) {
+  const Lanes once = cooling(view, at);
+  return once * once * once;
 }
 
 /// What of F a law answers to where heat has stretched the material: F/θ, since F = θ F_e. What it stores is
@@ -77,54 +85,56 @@ inline void advance_relaxed(const StateView<2>& view, const Law& law, const Lane
 
 /// Axisymmetry: F ← (I + a) F and s ← (1 + b) s, b the increment of the hoop rate v_r/r. Plane strain that
 /// heat stretches is the same with s = 1.
+/// @return J, as advance_law
 template <class Law>
-inline void advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate, double dt,
+inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate, double dt,
                          int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
                          Lanes& wave_speed_squared) {
-  Lanes before = s * determinant<2>(f);
   const Lanes around = stretch_increment(rate, dt, terms);
   Lanes a[4], full[9];
   deformation_increment<2>(l, dt, terms, a);
   deform<2>(a, f);
   s += around * s;
   embed(f, s, full);
-  Lanes now = s * determinant<2>(f);
-  if (view.thermal_stretch) {
-    const Lanes cooling = detail::cooling(view, at), of_volume = cooling * cooling * cooling;
-    detail::cool(cooling, full);
-    before *= of_volume;
-    now *= of_volume;
-  }
+  if (view.thermal_stretch) detail::cool(detail::cooling(view, at), full);
   if constexpr (Evolving<Law>) {
-    Lanes increment[9];
+    Lanes increment[9], of_volume = broadcast<Lanes>(1.0);
     embed(a, around, increment);
+    const Lanes before = load_lanes(view.volume_ratio + at),
+                now = before * (1.0 + around) * volume_change<2>(a);
+    if (view.thermal_stretch) of_volume = detail::volume_cooling(view, at);
     MaterialState<2, Lanes> plane{};
     detail::load_state<Law>(view, at, plane);
     MaterialState<3, Lanes> state = widened(plane);
-    law.template advance<3>(StrainStep<3, Lanes>{increment, full, before, now, l[0] + l[3] + rate, dt}, state,
-                            tau, wave_speed_squared);
+    law.template advance<3>(
+        StrainStep<3, Lanes>{increment, full, of_volume * before, of_volume * now, l[0] + l[3] + rate, dt},
+        state, tau, wave_speed_squared);
     plane = narrowed(state);
     detail::store_state(view, law, at, count, plane);
+    if (law.shape_limit() < kWholeShape) forget_shape<2>(law.shape_limit(), now / s, count, f);
+    return now;
   } else {
     law.template stress<3>(full, tau, wave_speed_squared);
+    return s * determinant<2>(f);
   }
 }
 
 /// As advance_law, with the stretch s. A law that cannot relax is refused by the reader in plane stress.
 template <class Law>
-inline void advance_law_with_depth(const ParticleView<2>& p, const Law& law, const Lanes (&l)[4], Lanes rate,
+inline Lanes advance_law_with_depth(const ParticleView<2>& p, const Law& law, const Lanes (&l)[4], Lanes rate,
                                    double dt, int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s,
                                    Lanes (&tau)[4], Lanes& wave_speed_squared) {
-  Lanes all[6];
-  if constexpr (Relaxes<Law>) {
-    if (p.depth == Depth::relaxed)
-      advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
-    else
-      advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);
+  Lanes all[6], j;
+  bool relaxed = false;
+  if constexpr (Relaxes<Law>) relaxed = p.depth == Depth::relaxed;
+  if (relaxed) {
+    if constexpr (Relaxes<Law>) advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
+    j = s * determinant<2>(f);
   } else {
-    advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);
+    j = advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);
   }
   for (int c = 0; c < kSymmetric<2>; ++c) tau[c] = all[c];
+  return j;
 }
 
 }  // namespace mpmfast

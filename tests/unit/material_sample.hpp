@@ -45,6 +45,7 @@ struct Sample {
         const int c = symmetric_index<Dim>(i, j);
         work += 0.5 * (old[c] + tau[c]) * gradient(i, j) * dt;
       }
+    state.volume_ratio = volume();
     return work;
   }
   Mat<3> stress() const {
