@@ -6,9 +6,9 @@
 
 namespace mpmfast {
 
-/// Turns the columns of a matrix into each other until they are orthogonal, A ← A V = U Σ, by one-sided Jacobi
-/// rotations (Hestenes 1958). Their lengths are the singular values, in no order; each is as accurate as the
-/// entries of A, however much smaller than the others.
+/// Turns the columns of a matrix into each other until they are orthogonal, A ← A V = U Σ, by one-sided
+/// Jacobi rotations (Hestenes 1958). Their lengths are the singular values, in no order; each is as accurate
+/// as the entries of A, however much smaller than the others.
 /// @param a row-major; @param v row-major result, a rotation
 template <int Dim>
 inline void turn_to_principal_axes(double (&a)[Dim * Dim], double (&v)[Dim * Dim]) {

@@ -1,9 +1,9 @@
 #pragma once
 
-/// @file What is left of F in laws that flow. Fluids, and soils and metals that have yielded, do not answer to
-/// F but to J and to a history of their own. Their F only says how the domain of a particle is shaped, and
-/// after much shear it says nothing: the neighbours have changed. A law that flows states `shape_limit()`, the
-/// largest principal stretch of the isochoric part of F that it keeps; 1: no shape at all.
+/// @file What is left of F in laws that flow. Fluids, and soils and metals that have yielded, do not answer
+/// to F but to J and to a history of their own. Their F only says how the domain of a particle is shaped, and
+/// after much shear it says nothing: the neighbours have changed. A law that flows states `shape_limit()`,
+/// the largest principal stretch of the isochoric part of F that it keeps; 1: no shape at all.
 
 #include <algorithm>
 #include <cmath>

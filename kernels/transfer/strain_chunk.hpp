@@ -52,8 +52,8 @@ inline bool see_cooled(const StateView<Dim>& view, std::uint32_t at, const Lanes
 /// @return J: of an evolving law by its own rate, else det F
 template <int Dim, class Law>
 inline Lanes advance_law(const StateView<Dim>& view, const Law& law, const Lanes (&l)[Dim * Dim], double dt,
-                        int terms, std::uint32_t at, int count, Lanes (&f)[Dim * Dim],
-                        Lanes (&tau)[kSymmetric<Dim>], Lanes& wave_speed_squared) {
+                         int terms, std::uint32_t at, int count, Lanes (&f)[Dim * Dim],
+                         Lanes (&tau)[kSymmetric<Dim>], Lanes& wave_speed_squared) {
   if constexpr (Evolving<Law>) {
     Lanes a[Dim * Dim], seen[Dim * Dim];
     deformation_increment<Dim>(l, dt, terms, a);

@@ -87,9 +87,9 @@ inline void advance_relaxed(const StateView<2>& view, const Law& law, const Lane
 /// heat stretches is the same with s = 1.
 /// @return J, as advance_law
 template <class Law>
-inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate, double dt,
-                         int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
-                         Lanes& wave_speed_squared) {
+inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes (&l)[4], Lanes rate,
+                          double dt, int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s,
+                          Lanes (&tau)[6], Lanes& wave_speed_squared) {
   const Lanes around = stretch_increment(rate, dt, terms);
   Lanes a[4], full[9];
   deformation_increment<2>(l, dt, terms, a);
@@ -122,13 +122,14 @@ inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes 
 /// As advance_law, with the stretch s. A law that cannot relax is refused by the reader in plane stress.
 template <class Law>
 inline Lanes advance_law_with_depth(const ParticleView<2>& p, const Law& law, const Lanes (&l)[4], Lanes rate,
-                                   double dt, int terms, std::uint32_t at, int count, Lanes (&f)[4], Lanes& s,
-                                   Lanes (&tau)[4], Lanes& wave_speed_squared) {
+                                    double dt, int terms, std::uint32_t at, int count, Lanes (&f)[4],
+                                    Lanes& s, Lanes (&tau)[4], Lanes& wave_speed_squared) {
   Lanes all[6], j;
   bool relaxed = false;
   if constexpr (Relaxes<Law>) relaxed = p.depth == Depth::relaxed;
   if (relaxed) {
-    if constexpr (Relaxes<Law>) advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
+    if constexpr (Relaxes<Law>)
+      advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
     j = s * determinant<2>(f);
   } else {
     j = advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);

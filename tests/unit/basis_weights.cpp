@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
-#include <Eigen/LU>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -572,9 +572,9 @@ TEST_CASE_TEMPLATE("CPDI: slopes do not grow with the shear of a domain", Basis,
         largest = std::max(largest, sum);
       });
     }
-  // Σ_i |G_pi| of a square is at most 3.1 in the plane and 3.7 in space, in units of 1/Δx; a third more at
-  // the shear from which on domains are rectangles. Domains that are not replaced have 75 to 1400 at 40.
-  CHECK(largest < (Dim == 2 ? 4.8 : 5.8));
+  // Σ_i |G_pi| of a square is at most 3.1 in the plane and 3.7 in space, in units of 1/Δx; three times that
+  // at the shear from which on domains are rectangles. Domains that are not replaced have 75 to 1400 at 40.
+  CHECK(largest < (Dim == 2 ? 9.5 : 12));
 }
 
 TEST_CASE("gradients of qCPDI have no kink where a corner crosses a node, those of lCPDI do") {

@@ -110,7 +110,8 @@ TEST_CASE("a step that turns a fluid inside out is told") {
   gradient(0, 1) = 1;
   for (int d = 0; d < 2; ++d)
     for (int k = 0; k < kLanes; ++k) fluid.room.gradient[4 * d][k] = gradient(0, d);
-  CHECK(!strain_chunk<2>(fluid.view, fluid.law, 0, kLanes, 1.0, 1, fluid.room, stress_columns(fluid.view, 0)));
+  CHECK(
+      !strain_chunk<2>(fluid.view, fluid.law, 0, kLanes, 1.0, 1, fluid.room, stress_columns(fluid.view, 0)));
 }
 
 /// F = V R.
@@ -165,7 +166,8 @@ TEST_CASE_TEMPLATE("principal axes: columns become orthogonal by a rotation", D,
     CHECK((f * axes - turned).norm() < 1e-14);
     for (int j = 0; j < Dim; ++j)
       for (int k = 0; k < j; ++k)
-        CHECK(std::abs(turned.col(j).dot(turned.col(k))) <= 1e-14 * turned.col(j).norm() * turned.col(k).norm());
+        CHECK(std::abs(turned.col(j).dot(turned.col(k))) <=
+              1e-14 * turned.col(j).norm() * turned.col(k).norm());
   }
 }
 
@@ -185,8 +187,7 @@ TEST_CASE_TEMPLATE("F keeps its stretches up to the limit, its rotation and J", 
     CHECK(after.stretch[Dim - 1] <= kLimit * root * (1 + 1e-9));
     CHECK(after.stretch[0] >= root / std::pow(kLimit, Dim - 1) * (1 - 1e-9));
     CHECK((before.turn - after.turn).norm() < 1e-9);
-    const double of_volume = std::pow(j, 1.0 / Dim),
-                 widest = before.stretch[Dim - 1] / of_volume;
+    const double of_volume = std::pow(j, 1.0 / Dim), widest = before.stretch[Dim - 1] / of_volume;
     if (widest < kLimit * (1 - 1e-9) && j < std::pow(kMostOpening, Dim) && Dim == 2) CHECK(g == f);
     cut += widest > kLimit;
   }

@@ -73,7 +73,8 @@ std::vector<FrameField> frame_fields(const VtuReader& file, int dimension, const
     const std::string unit = unit_of(array.name);
     if (std::find(kNoFields.begin(), kNoFields.end(), array.name) != kNoFields.end()) continue;
     if (array.name == "deformation_gradient" && array.components == 9) {
-      if (!file.find("volume_ratio")) fields.push_back({"volume_ratio", "", array.name, 0, Kind::determinant});
+      if (!file.find("volume_ratio"))
+        fields.push_back({"volume_ratio", "", array.name, 0, Kind::determinant});
       continue;
     }
     if (array.name == "velocity" && array.components == 3)
