@@ -41,6 +41,7 @@ SHORT_STEPS = 30
 FENCE = re.compile(r"^(\s*)(```+)\s*(\S*)\s*$")
 MARK = re.compile(r"^\s*<!--\s*(not run|run|output|scene|file)\s*(?::\s*(.*?))?\s*-->\s*$")
 LINK = re.compile(r"!?\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)|<img[^>]*\bsrc=\"([^\"]+)\"")
+LONGEST = {"README.md": 120}    # lines: what a reader who does not know the project yet takes in at once
 NOT_OURS = {"build", "runs", ".git", "node_modules"}
 
 failures = []
@@ -235,6 +236,13 @@ def check_links(path, name, prose, source):
                 expect(anchor in anchors_of(there), f"{name}:{number}", f"no such heading: {target}")
 
 
+def check_length(path, name):
+    """A page of LONGEST has no more lines than stand there."""
+    lines = len(path.read_text(encoding="utf-8").splitlines())
+    most = LONGEST.get(name, lines)
+    expect(lines <= most, name, f"{lines} lines, at most {most}: move what is beyond to tools/manual")
+
+
 def check_words(name, prose, known):
     """The words in the first column of every table are words that `mpmfast list` prints."""
     for number, line in prose:
@@ -349,6 +357,7 @@ def main():
                 continue
             blocks, prose = read_page(path, name)
             check_links(path, name, prose, source)
+            check_length(path, name)
             if name.startswith("tools/manual/") or name == "README.md":
                 check_keys(name, prose, keys)
             if name in checks_of_page:
