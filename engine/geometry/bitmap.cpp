@@ -20,7 +20,9 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::uint32_t kLongestEdge = 32768;  // pixels; checked before anything is decoded
+// Checked before anything is decoded. A megabyte of a file may hold a thousand megabytes of pixels.
+constexpr std::uint32_t kLongestEdge = 32768;                  // pixels
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 26;  // of one picture; decoding takes 3 bytes each
 
 std::uint32_t big_endian(std::span<const unsigned char> bytes, std::size_t at) {
   std::uint32_t value = 0;
@@ -49,8 +51,10 @@ std::string header_fault(std::span<const unsigned char> bytes) {
                        colour <= 6 ? kColours[colour] : "?");
   }
   const std::uint32_t width = big_endian(bytes, 16), height = big_endian(bytes, 20);
-  if (width == 0 || height == 0 || width > kLongestEdge || height > kLongestEdge) {
-    return fmt::format("an image of {} × {} pixels (at most {} along an edge)", width, height, kLongestEdge);
+  if (width == 0 || height == 0 || width > kLongestEdge || height > kLongestEdge ||
+      std::uint64_t{width} * height > kMostPixels) {
+    return fmt::format("an image of {} × {} pixels (at most {} along an edge, {} in all)", width, height,
+                       kLongestEdge, kMostPixels);
   }
   return "";
 }

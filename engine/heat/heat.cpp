@@ -179,7 +179,7 @@ void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Conta
 
 template <int Dim>
 void Heat<Dim>::visit(Archive& archive) {
-  archive.list("heat/conditions", sums_.conditions);
+  archive.column("heat/conditions", sums_.conditions.data(), sums_.conditions.size());
   archive.number("heat/friction", sums_.friction);
   archive.number("heat/rigid", sums_.rigid);
   archive.number("heat/stored", sums_.stored);

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <system_error>
 #include <vector>
@@ -112,6 +114,15 @@ void CheckpointWriter::keep(int version) {
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path)
     : path_(path), columns_(check_seal(path)), file_(Hdf5File::open(path)) {}
+
+void CheckpointReader::pass(const std::string& name, NumberKind kind, void* values, std::size_t n) {
+  file_.read(name, kind, values, n);
+  passed_.insert(name);
+  if (kind != NumberKind::real) return;
+  const auto* numbers = static_cast<const double*>(values);
+  if (std::any_of(numbers, numbers + n, [](double x) { return std::isnan(x); }))
+    throw FileError(fmt::format("the checkpoint {}: {} holds what is no number", path_.string(), name));
+}
 
 void CheckpointReader::finish() const {
   if (columns_ != passed_.size())

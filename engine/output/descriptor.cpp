@@ -7,6 +7,7 @@
 
 #include <cerrno>
 
+#include "engine/errors.hpp"
 #include "engine/output/files.hpp"
 
 namespace mpmfast {
@@ -17,9 +18,13 @@ constexpr mode_t kUsual = 0666;  // less what the user's mask takes away
 }  // namespace
 
 Descriptor Descriptor::open(const std::filesystem::path& path, bool writing) {
-  const int fd = ::open(path.c_str(), (writing ? O_RDWR : O_RDONLY) | O_CLOEXEC);
-  if (fd < 0) throw_file_error(writing ? "write" : "read", path);
-  return Descriptor(fd);
+  // A pipe would hold us up until somebody writes to it.
+  Descriptor file(::open(path.c_str(), (writing ? O_RDWR : O_RDONLY) | O_CLOEXEC | O_NONBLOCK));
+  if (file.fd_ < 0) throw_file_error(writing ? "write" : "read", path);
+  struct stat status {};
+  if (::fstat(file.fd_, &status) == 0 && !S_ISREG(status.st_mode))
+    throw FileError(path.string() + " is not a file but a folder, a device, a pipe or a socket");
+  return file;
 }
 
 Descriptor Descriptor::create(const std::filesystem::path& path) {

@@ -3,14 +3,13 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <system_error>
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "engine/geometry/read_regular.hpp"
 #include "engine/output/files.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
@@ -96,8 +95,8 @@ void remove_files(const std::filesystem::path& folder, Chosen chosen) {
 }
 
 bool holds_text(const std::filesystem::path& path, const std::string& text) {
-  std::ifstream file(path, std::ios::binary);
-  return file && std::string(std::istreambuf_iterator<char>(file), {}) == text;
+  std::string why_not;
+  return read_regular(path, text.size(), why_not) == text;
 }
 
 /// --force may replace a run of ours, and what a run left that was killed as it began; never what a user
@@ -105,6 +104,10 @@ bool holds_text(const std::filesystem::path& path, const std::string& text) {
 void check_replaceable(const std::filesystem::path& folder, const Scene& scene) {
   std::error_code error;
   if (std::filesystem::is_empty(folder, error)) return;
+  const auto itself = folder.has_filename() ? folder : folder.parent_path();  // a last / would follow a link
+  if (std::filesystem::is_symlink(itself, error))
+    throw FileError(fmt::format("{} is a symbolic link, and --force removes nothing behind one (--out {})",
+                                folder.string(), std::filesystem::weakly_canonical(folder, error).string()));
   const bool same_scene = holds_text(folder / "scene.yaml", scene.resolved_yaml);
   if (!same_scene && std::filesystem::equivalent(scene.file, folder / "scene.yaml", error))
     throw FileError(fmt::format("{} is the scene that is to run: --force would replace it with the run's own",
@@ -123,6 +126,10 @@ void remove_earlier_run(const std::filesystem::path& folder) {
   for (const std::string_view series : kSeries) {
     const auto frames = folder / series;
     std::error_code error;
+    if (std::filesystem::is_symlink(frames, error)) {  // the link goes, what is behind it stays
+      std::filesystem::remove(frames, error);
+      if (error) throw_file_error("remove", frames, error.value());
+    }
     if (!std::filesystem::is_directory(frames, error)) continue;
     remove_files(frames, is_frame);
     if (std::filesystem::is_empty(frames, error)) std::filesystem::remove(frames, error);

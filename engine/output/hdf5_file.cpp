@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 
@@ -58,6 +59,16 @@ herr_t find_error_number(unsigned, const H5E_error2_t* complaint, void* out) {
 }
 
 Hdf5Handle properties(hid_t kind) { return {H5Pcreate(kind), H5Pclose}; }
+
+/// Bytes of a dataset that lies in one piece in the file itself, as ours do; of any other none. A dataset may
+/// claim any number of entries and hold none, which would take the memory of all.
+std::size_t bytes_in_file(hid_t data) {
+  const Hdf5Handle creation(H5Dget_create_plist(data), H5Pclose);
+  if (!creation.valid() || H5Pget_layout(creation.id()) != H5D_CONTIGUOUS ||
+      H5Pget_external_count(creation.id()) != 0)
+    return 0;
+  return static_cast<std::size_t>(H5Dget_storage_size(data));
+}
 
 /// Without locks of the library's own, which not every file system can give.
 Hdf5Handle access() {
@@ -116,10 +127,18 @@ Hdf5Handle Hdf5File::dataset(const std::string& name) const {
 }
 
 std::size_t Hdf5File::length(const std::string& name) const {
-  const Hdf5Handle data = dataset(name), space(H5Dget_space(data.id()), H5Sclose);
+  const Hdf5Handle data = dataset(name), space(H5Dget_space(data.id()), H5Sclose),
+                   type(H5Dget_type(data.id()), H5Tclose);
   const hssize_t n = H5Sget_simple_extent_npoints(space.id());
   if (n < 0) fail("read", path_);
-  return static_cast<std::size_t>(n);
+  const auto count = static_cast<std::size_t>(n);
+  const std::size_t bytes = bytes_in_file(data.id());
+  hsize_t all = 0;
+  H5Fget_filesize(file_.id(), &all);
+  if (bytes > all || count != bytes / std::max<std::size_t>(H5Tget_size(type.id()), 1))
+    throw FileError(fmt::format("{}: {} says that it has {} entries, which are not in the file",
+                                path_.string(), name, count));
+  return count;
 }
 
 void Hdf5File::read(const std::string& name, NumberKind kind, void* values, std::size_t n) const {

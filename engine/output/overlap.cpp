@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <span>
 
+#include "engine/output/first_overlaps.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/state/team.hpp"
 
@@ -169,7 +171,10 @@ Bins::Bins(const std::vector<ParticleDomain>& domains) : first_(domains.size()) 
 }
 
 /// The share of one bin: the pairs that it compares, and the particles whose centre it holds.
-Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins, std::size_t bin) {
+/// @param goes_on  of such a particle that lies in another's domain, the two owners; false: enough
+template <class GoesOn>
+Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins, std::size_t bin,
+                   const GoesOn& goes_on) {
   Overlap sum;
   const auto listed = bins.listed(bin);
   for (std::size_t i = 0; i < listed.size(); ++i) {
@@ -185,8 +190,16 @@ Overlap overlap_in(const std::vector<ParticleDomain>& domains, const Bins& bins,
     sum.inside += p.area();
     ++sum.particles_inside;
     sum.owners = {p.owner, domains[*other].owner};
+    if (!goes_on(sum.owners)) break;
   }
   return sum;
+}
+
+void add(Overlap& sum, const Overlap& part) {
+  sum.area += part.area;
+  sum.inside += part.inside;
+  sum.particles_inside += part.particles_inside;
+  if (part.particles_inside > 0) sum.owners = part.owners;
 }
 
 /// Of domains that may meet. Few bins at a time: what each has is added up in their order.
@@ -199,17 +212,44 @@ Overlap overlap_of(const std::vector<ParticleDomain>& domains, int threads) {
     const std::size_t end = std::min(begin + kBins, bins.count());
     share_out(static_cast<std::int64_t>(end - begin), threads, 64, [&](std::int64_t k) {
       const auto at = static_cast<std::size_t>(k);
-      of_bin[at] = overlap_in(domains, bins, begin + at);
+      of_bin[at] = overlap_in(domains, bins, begin + at, [](const auto&) { return true; });
     });
-    for (std::size_t k = 0; k < end - begin; ++k) {
-      const Overlap& part = of_bin[k];
-      sum.area += part.area;
-      sum.inside += part.inside;
-      sum.particles_inside += part.particles_inside;
-      if (part.particles_inside > 0) sum.owners = part.owners;
-    }
+    for (std::size_t k = 0; k < end - begin; ++k) add(sum, of_bin[k]);
   }
   return sum;
+}
+
+using Owners = std::set<std::pair<int, int>>;
+
+/// As overlap_of, up to so many pairs of owners: no bin looks on when it knows them, and more and more bins
+/// are looked at together. What lies at one place by the thousand is not compared with all the others.
+FirstOverlaps first_of(const std::vector<ParticleDomain>& domains, std::size_t most, int threads) {
+  constexpr std::size_t kFewest = 8, kMost = std::size_t{1} << 16;  // bins at a time
+  const Bins bins(domains);
+  std::vector<Overlap> of_bin;
+  std::vector<Owners> owners_in;
+  Owners owners;
+  FirstOverlaps found;
+  for (std::size_t begin = 0, size = kFewest; begin < bins.count() && owners.size() <= most;
+       size = std::min(2 * size, kMost)) {
+    const std::size_t count = std::min(size, bins.count() - begin);
+    of_bin.resize(count);
+    owners_in.assign(count, {});
+    share_out(static_cast<std::int64_t>(count), threads, 64, [&](std::int64_t k) {
+      const auto at = static_cast<std::size_t>(k);
+      of_bin[at] = overlap_in(domains, bins, begin + at, [&](const std::pair<int, int>& pair) {
+        owners_in[at].insert(std::minmax(pair.first, pair.second));
+        return owners_in[at].size() <= most;
+      });
+    });
+    for (std::size_t k = 0; k < count; ++k) {
+      add(found.overlap, of_bin[k]);
+      owners.merge(owners_in[k]);
+    }
+    begin += count;
+  }
+  found.all = owners.size() <= most;
+  return found;
 }
 
 /// f(domain) of all particles, as particle_domains() lists them.
@@ -254,9 +294,12 @@ Overlap measure_overlap(const std::vector<ParticleDomain>& domains, int threads)
   return overlap_of(meeting, threads);
 }
 
+namespace {
+
 /// Only what may meet is listed: a list of all domains is two thirds as large as the particles themselves.
-Overlap measure_overlap(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
-                        const std::vector<int>& owner, const Surfaces<2>& surfaces, int threads) {
+std::vector<ParticleDomain> meeting_domains(const Particles<2>& particles,
+                                            const std::vector<BodyView<2>>& bodies,
+                                            const std::vector<int>& owner, const Surfaces<2>& surfaces) {
   const auto each = [&](const auto& f) { for_each_domain(particles, bodies, owner, surfaces, f); };
   OwnerBoxes boxes;
   std::size_t count = 0;
@@ -267,7 +310,20 @@ Overlap measure_overlap(const Particles<2>& particles, const std::vector<BodyVie
   each([&](const ParticleDomain& domain) {
     if (boxes.may_meet(domain)) meeting.push_back(domain);
   });
-  return overlap_of(meeting, threads);
+  return meeting;
+}
+
+}  // namespace
+
+Overlap measure_overlap(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                        const std::vector<int>& owner, const Surfaces<2>& surfaces, int threads) {
+  return overlap_of(meeting_domains(particles, bodies, owner, surfaces), threads);
+}
+
+FirstOverlaps first_overlaps(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,
+                             const std::vector<int>& owner, const Surfaces<2>& surfaces, std::size_t most,
+                             int threads) {
+  return first_of(meeting_domains(particles, bodies, owner, surfaces), most, threads);
 }
 
 double area_of_domains(const Particles<2>& particles, const std::vector<BodyView<2>>& bodies,

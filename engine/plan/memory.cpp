@@ -1,7 +1,6 @@
 #include "engine/plan/memory.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 
@@ -165,20 +164,16 @@ double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
   return lasting.columns + lasting.later + passing_need(scene, particles, lasting.later).bytes;
 }
 
-std::uint64_t machine_memory() {
-  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGE_SIZE);
-  return pages > 0 && size > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(size) : 0;
-}
-
-void check_memory(const Scene& scene, const Plan& plan, std::uint64_t available) {
-  const auto most = static_cast<double>(available);
-  if (available == 0 || estimated_bytes(scene, plan, particles_in_boxes(scene, false)) <= most) return;
+void check_memory(const Scene& scene, const Plan& plan, const MemoryLimit& available) {
+  const auto most = static_cast<double>(available.bytes);
+  if (available.bytes == 0 || estimated_bytes(scene, plan, particles_in_boxes(scene, false)) <= most) return;
   const double particles = estimated_particles(scene), bytes = estimated_bytes(scene, plan, particles);
   if (bytes <= most) return;
-  throw SceneError({Diagnostic{scene.file.string(), 0, 0, "grid.cell",
-                               fmt::format("about {:.2g} particles would take {}, and there are {}",
-                                           particles, in_gibibytes(bytes), in_gibibytes(most)),
-                               "Take larger cells, fewer particles_per_cell or smaller bodies"}});
+  throw SceneError(
+      {Diagnostic{scene.file.string(), 0, 0, "grid.cell",
+                  fmt::format("about {:.2g} particles would take {}, and there are {} {}", particles,
+                              in_gibibytes(bytes), in_gibibytes(most), available.whose),
+                  "Take larger cells, fewer particles_per_cell or smaller bodies"}});
 }
 
 }  // namespace mpmfast

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "engine/plan/memory_limits.hpp"
 #include "engine/plan/plan.hpp"
 
 namespace mpmfast {
@@ -31,10 +32,7 @@ double estimated_bytes(const Scene& scene, const Plan& plan, double particles);
 /// Of the program and its libraries, resident; those that write checkpoints come with the first.
 inline constexpr double kProgramBytes = 18.5 * (1 << 20), kCheckpointBytes = 4.5 * (1 << 20);
 
-/// Bytes of memory that the machine has; 0 when it does not tell.
-std::uint64_t machine_memory();
-
-/// Throws SceneError with the figures when a scene would take more than `available` bytes. 0: unlimited
-void check_memory(const Scene& scene, const Plan& plan, std::uint64_t available);
+/// Throws SceneError with the figures when a scene would take more than what is available. 0 bytes: unlimited
+void check_memory(const Scene& scene, const Plan& plan, const MemoryLimit& available);
 
 }  // namespace mpmfast

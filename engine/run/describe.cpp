@@ -13,11 +13,16 @@
 #include "engine/run/overlap_at_start.hpp"
 #include "engine/run/run.hpp"
 #include "engine/scene/keys/names.hpp"
+#include "engine/step/crowding.hpp"
 #include "engine/step/step.hpp"
 
 namespace mpmfast {
 
 namespace {
+
+/// Pairs of bodies at one place, a particle, beyond which no step is tried: some 64 bodies in a cell. Contact
+/// would take seconds and gigabytes for each.
+constexpr double kMostPairsTried = 8;
 
 template <class Number>
 std::string in_mebibytes(Number bytes) {
@@ -137,6 +142,7 @@ std::string describe(const Scene& scene, bool verbose) {
   Step<Dim> step(scene);
   std::string overlap;
   if constexpr (Dim == 2) overlap = overlap_at_start(step.state(), scene).text;
+  const Crowding crowd = crowding(step.state(), step.plan().fields.size());
   const double dt = step.stable_dt(), steps = std::ceil(scene.time.end / dt);
   std::string text = fmt::format("{}\n", scene.title.empty() ? scene.file.filename().string() : scene.title);
   const auto line = [&](const char* name, const std::string& value) {
@@ -144,8 +150,16 @@ std::string describe(const Scene& scene, bool verbose) {
   };
 
   const auto bodies = body_lines(scene, step.state().particles);
-  std::string memory;
-  const std::string estimate = estimated_time(step, steps, [&] { memory = memory_text(step, scene); });
+  std::string memory, estimate;
+  if (crowd.pairs <= kMostPairsTried * static_cast<double>(step.state().particles.size())) {
+    estimate = estimated_time(step, steps, [&] { memory = memory_text(step, scene); });
+  } else {
+    memory = fmt::format("{} of particles; unknown of contact", in_mebibytes(step.state().particles.bytes()));
+    estimate = fmt::format(
+        "unknown: up to {} bodies lie in one cell, '{}' and '{}' among them, and {:.2g} pairs "
+        "of bodies meet",
+        crowd.fields, scene.bodies[crowd.one].name, scene.bodies[crowd.other].name, crowd.pairs);
+  }
 
   const auto& particles = step.state().particles;
   std::string columns, nodal, passes;

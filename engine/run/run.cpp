@@ -104,6 +104,7 @@ class Run {
                       scene.file.string()));
     step_.visit(checkpoint);
     counters_.visit(checkpoint);
+    counters_.check(scene.bodies.size());
     checkpoint.finish();
     history_.emplace(options.folder, scene, counters_.rows, counters_.last_row_step);
     reopen_folder(options.folder);

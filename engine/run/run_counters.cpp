@@ -1,8 +1,23 @@
 #include "engine/run/run_counters.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/errors.hpp"
+
 namespace mpmfast {
 
 namespace {
+
+void refuse_counters(const char* name) {
+  throw FileError(fmt::format("the checkpoint is none of its scene: {} does not fit it", name));
+}
+
+bool is_duration(double seconds) {
+  constexpr double kMost = 1e10;  // s: three hundred years, which clocks can count
+  return seconds >= 0 && seconds < kMost;
+}
 
 /// Lists of text are kept as one, each ended by a zero.
 void visit_texts(Archive& archive, const std::string& name, std::vector<std::string>& texts) {
@@ -40,6 +55,16 @@ void RunOrigin::visit(Archive& archive) {
   visit_texts(archive, "origin/warnings", warnings);
   archive.number("origin/end", end);
   archive.number("origin/max_steps", max_steps);
+  if (archive.reading() && !std::isfinite(end)) throw FileError("the checkpoint's run has no end");
+}
+
+template <int Dim>
+void RunCounters<Dim>::check(std::size_t bodies) const {
+  if (spacing.body >= bodies) refuse_counters("run/spacing_body");
+  if (!is_duration(wall) || !is_duration(stepping)) refuse_counters("run/wall_seconds");
+  if (!std::isfinite(first_dt) || first_dt < 0) refuse_counters("run/first_dt");
+  for (const double time : frame_times)
+    if (!std::isfinite(time)) refuse_counters("run/frame_times");
 }
 
 template <int Dim>

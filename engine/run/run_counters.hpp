@@ -26,7 +26,10 @@ class Marks {
   void pass(double time) {
     while (due(time)) ++next_;
   }
-  void visit(Archive& archive, const std::string& name) { archive.number(name, next_); }
+  void visit(Archive& archive, const std::string& name) {
+    archive.number(name, next_);
+    next_ = std::max(next_, 1);  // a file that says less would have us pass 2^31 marks
+  }
 
  private:
   double interval_;
@@ -96,6 +99,8 @@ struct RunCounters {
 
   /// last_sums must have the sizes of the scene.
   void visit(Archive& archive);
+  /// Throws FileError where what was read cannot be that of a run of so many bodies.
+  void check(std::size_t bodies) const;
 };
 
 extern template struct RunCounters<2>;

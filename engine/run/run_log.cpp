@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "engine/quantities/printable.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -21,9 +23,9 @@ RunLog::RunLog(const std::filesystem::path& folder, const RunSummary& figures)
     return;
   }
   fmt::print(file_, "{}\n{}\n{}: {} particles in {} velocity fields, {}-D, {}\n", program_text(),
-             figures.command, figures.scene_name, figures.particles, figures.fields, figures.dimension,
-             threads_text(figures.threads));
-  for (const std::string& warning : figures.scene_warnings) fmt::print(file_, "{}\n", warning);
+             printable(figures.command), printable(figures.scene_name), figures.particles, figures.fields,
+             figures.dimension, threads_text(figures.threads));
+  for (const std::string& warning : figures.scene_warnings) fmt::print(file_, "{}\n", printable(warning));
   fmt::print(file_, "{:>10} {:>12} {:>12} {:>10} {:>17} {:>13}\n", "step", "time (s)", "dt (s)", "wall (s)",
              "particle-steps/s", "energy error");
   file_.flush();
@@ -42,7 +44,7 @@ void RunLog::count(const RunSummary& figures) {
     const auto known = std::find_if(warnings_.begin(), warnings_.end(),
                                     [&](const Counted& c) { return c.warning.about == warning.about; });
     if (known == warnings_.end()) {
-      fmt::print(file_, "warning: {}\n", warning.text);
+      fmt::print(file_, "warning: {}\n", printable(warning.text));
       warnings_.push_back({std::move(warning), 1});
     } else {
       known->warning = std::move(warning);
@@ -53,12 +55,14 @@ void RunLog::count(const RunSummary& figures) {
 
 void RunLog::close(const RunSummary& summary) {
   fmt::print(file_, "{}{}{} at step {}, {:.6g} s, after {:.2f} s\n", summary.status,
-             summary.reason.empty() ? "" : ": ", summary.reason, summary.steps, summary.time, summary.wall);
+             summary.reason.empty() ? "" : ": ", printable(summary.reason), summary.steps, summary.time,
+             summary.wall);
   for (const auto& [pass, seconds] : summary.seconds)
     fmt::print(file_, "  {:<18}{:>10.3f} s {:>6.1f} %\n", pass, seconds,
                summary.wall > 0 ? 100 * seconds / summary.wall : 0);
   for (const Counted& counted : warnings_)
-    fmt::print(file_, "warning in {} of {} rows, last: {}\n", counted.rows, rows_, counted.warning.text);
+    fmt::print(file_, "warning in {} of {} rows, last: {}\n", counted.rows, rows_,
+               printable(counted.warning.text));
   fmt::print(file_, "checksum {}\n", summary.checksum);
   file_.flush();
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <system_error>
+#include <utility>
 
 #include "engine/errors.hpp"
+#include "engine/geometry/read_regular.hpp"
 #include "engine/scene/sections/describe.hpp"
 #include "engine/scene/suspicions.hpp"
 #include "engine/scene/text/include.hpp"
@@ -37,19 +37,11 @@ std::string file_hint(const std::filesystem::path& file) {
 }
 
 std::string read_text(const std::filesystem::path& file) {
-  const auto refuse = [&](const std::string& why) -> FileError {
-    return FileError(fmt::format("{}: cannot read the scene: {}", file.string(), why));
-  };
+  std::string why_not;
+  if (auto text = read_regular(file, kLargestFile, why_not)) return *std::move(text);
   std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw refuse("no such file" + file_hint(file));
-  if (std::filesystem::is_directory(file, error)) throw refuse("it is a folder");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw refuse("it cannot be opened");
-  const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (!error && size > kLargestFile) throw refuse("it is larger than 16 MiB");
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) throw refuse("reading failed");
-  return text;
+  if (!std::filesystem::exists(file, error)) why_not += file_hint(file);
+  throw FileError(fmt::format("{}: cannot read the scene: {}", file.string(), why_not));
 }
 
 /// What the sections see: with included files merged in, overrides in place and expressions computed.

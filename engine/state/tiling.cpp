@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/errors.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -80,11 +82,44 @@ void Tiling<Dim>::regroup(Particles<Dim>& particles, const std::vector<int>& bod
   stack_up();
 }
 
+namespace {
+
+void require(bool holds) {
+  if (!holds) throw FileError("the checkpoint is none of its scene: its tiles do not fit the particles");
+}
+
+/// Keys rise, stay below the last of the domain, and name the body of their particle.
+/// @param bodies  of the keys: kinds of runs times bodies of the scene
+template <int Dim>
+void check_keys(const std::vector<std::uint64_t>& keys, const Particles<Dim>& particles, std::uint64_t kinds,
+                std::uint64_t bodies, std::uint64_t tiles) {
+  require(keys.size() == particles.size());
+  constexpr std::uint64_t kCells = kTileNodes<Dim>;
+  for (std::size_t p = 0; p < keys.size(); ++p) {
+    require(p == 0 || keys[p - 1] <= keys[p]);
+    require(keys[p] / kCells / bodies < tiles && keys[p] / kCells % bodies / kinds == particles.body()[p]);
+  }
+}
+
+/// No side but those that a field has.
+template <int Dim>
+void check_sides(const SideMap<Dim>& map, bool has_sides) {
+  for (const std::int8_t side : map.side) require(side == 0 || (has_sides && side > 0 && side < 4));
+}
+
+}  // namespace
+
 template <int Dim>
 void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::vector<int>& body_field) {
   archive.list("tiling/keys", buffers_.key);
   archive.number("tiling/bodies", bodies_);
   count_fields(body_field);
+  std::uint64_t rows = 1, places = static_cast<std::uint64_t>(fields_);
+  for (int d = 0; d < Dim; ++d) {
+    const auto span = static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
+    if (d < Dim - 1) rows *= span;
+    places *= span;
+  }
   if (!first_side_.empty()) {
     groups_ = kMostGroups;
     archive.list("tiling/mapped", mapped_);
@@ -92,7 +127,18 @@ void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::
     archive.column("tiling/sides", reinterpret_cast<std::uint8_t*>(maps_.data()),
                    maps_.size() * sizeof(SideMap<Dim>));
   }
-  if (archive.reading() && !buffers_.key.empty()) build(particles, body_field);
+  if (!archive.reading()) return;
+  const auto groups = static_cast<std::uint64_t>(groups_);
+  for (std::size_t k = 0; k < mapped_.size(); ++k) {
+    const std::uint64_t place = mapped_[k] / groups;
+    require(place < places);
+    check_sides(maps_[k], first_side_[place / rows % static_cast<std::uint64_t>(fields_)] >= 0);
+  }
+  if (buffers_.key.empty()) return;
+  require(bodies_ == kinds_ * static_cast<int>(body_field.size()));
+  check_keys(buffers_.key, particles, static_cast<std::uint64_t>(kinds_), static_cast<std::uint64_t>(bodies_),
+             places * groups);
+  build(particles, body_field);
 }
 
 template <int Dim>

@@ -82,8 +82,10 @@ void Step<Dim>::fail(const char* otherwise) const {
   }
   if (count > 0) {
     middle /= static_cast<double>(count);
-    const std::size_t p = least(
-        particles, kNever, [&](std::size_t q) { return broken[q] ? (place_of(q) - middle).norm() : kNever; });
+    std::size_t p = least(particles, kNever,
+                          [&](std::size_t q) { return broken[q] ? (place_of(q) - middle).norm() : kNever; });
+    if (p == none)  // they are too far apart for a distance
+      p = static_cast<std::size_t>(std::find(broken.begin(), broken.end(), true) - broken.begin());
     std::string cause = fmt::format("not a number any more ({})", not_finite(particles, p));
     if (count > 1) cause += fmt::format(", nor are {} particles around it", count - 1);
     fail_at(p, cause);
@@ -104,19 +106,22 @@ void Step<Dim>::fail(const char* otherwise) const {
                            particles.vector(Quantity::velocity, p).norm()));
   if (!particles.has(Quantity::domain_edges) || particles.size() == 0)
     throw RunFailure(fmt::format("step {}, time {:.9g} s: {}", state_.step, state_.time, otherwise));
-  const std::size_t widest = least(particles, kNever, [&](std::size_t p) {
+  std::size_t widest = least(particles, kNever, [&](std::size_t p) {
     double squared = 0;
     for (int e = 0; e < Dim * Dim; ++e) {
       const double edge = particles.column(Quantity::domain_edges, e)[p];
       squared += edge * edge;
     }
-    return -squared;
+    return -std::min(squared, std::numeric_limits<double>::max());
   });
+  if (widest == none) widest = 0;
   fail_at(widest, fmt::format("{}; of all domains its own is the largest", otherwise));
 }
 
+/// A step that is no number has no size: some particle's speed or place is to blame.
 template <int Dim>
 void Step<Dim>::fail_collapsed(double dt, double share) const {
+  if (!std::isfinite(dt)) fail("a speed is no number any more");
   const auto& particles = state_.particles;
   const auto speed = [&](std::size_t p) { return particles.vector(Quantity::velocity, p).norm(); };
   const double* wave_speed = particles.column(Quantity::wave_speed);

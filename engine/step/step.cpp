@@ -13,6 +13,7 @@
 #include "engine/plan/seed.hpp"
 #include "engine/state/slots.hpp"
 #include "engine/state/team.hpp"
+#include "engine/step/crowding.hpp"
 
 namespace mpmfast {
 
@@ -50,8 +51,10 @@ Step<Dim>::Step(const Scene& scene)
 
 template <int Dim>
 const State<Dim>& Step<Dim>::seeded(const Scene& scene) {
-  check_memory(scene, plan_, machine_memory());
+  const MemoryLimit available = available_memory();
+  check_memory(scene, plan_, available);
   seed(scene, plan_, state_);
+  check_crowding(scene, state_, plan_.fields.size(), available);
   return state_;
 }
 
@@ -78,7 +81,7 @@ double Step<Dim>::dt_towards(double end, double first) const {
   const double stable = stable_dt(), left = end - state_.time;
   const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
   if (!(stable >= scene_->time.collapse * first) || (!(dt > 1e-12 * end) && dt < left))
-    fail_collapsed(stable, stable / first);
+    fail_collapsed(stable, first > 0 ? stable / first : 1);
   return dt;
 }
 

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include "engine/contact/nodal/fit.hpp"
 #include "engine/errors.hpp"
+#include "engine/step/check_state.hpp"
 #include "engine/step/step.hpp"
 #include "engine/step/visit_sums.hpp"
 
@@ -16,6 +18,7 @@ void visit_particles(Archive& archive, Particles<Dim>& particles) {
   std::uint64_t n = particles.size();  // fewer than were seeded where some have left
   archive.number("particles/count", n);
   if (n > particles.size()) throw FileError("the checkpoint has more particles than its scene");
+  const auto seeded = archive.reading() ? bodies_by_id(particles) : std::vector<std::uint16_t>();
   particles.keep_first(n);
   archive.column("particles/id", particles.id().data(), n);
   archive.column("particles/body", particles.body().data(), n);
@@ -28,6 +31,7 @@ void visit_particles(Archive& archive, Particles<Dim>& particles) {
           particles.column(q, k), n);
     }
   }
+  if (archive.reading()) check_particles(particles, seeded);
 }
 
 void visit_counters(Archive& archive, ContactCounters& c) {
@@ -42,6 +46,27 @@ void visit_counters(Archive& archive, ContactCounters& c) {
   archive.number("contact/pair_fallbacks", c.pair_fallbacks);
   archive.number("contact/meetings", c.meetings);
   archive.number("contact/screened", c.screened);
+}
+
+/// Fits name particles, of which each must be there.
+/// @param separates  a fit that is known has one on either side
+template <int Dim>
+void check_fits(Archive& archive, const std::vector<double>& fits, bool separates) {
+  std::uint64_t particles = 0;
+  archive.number("particles/count", particles);
+  check_finite("contact/fits", fits.data(), fits.size());
+  constexpr std::size_t kWidth = 2 * Dim + 4;
+  for (std::size_t at = 0; at < fits.size(); at += kWidth) {
+    const double* fit = fits.data() + at;
+    const double flags = fit[kWidth - 1];
+    bool good = fit[kWidth - 2] >= 0 && flags >= 0 && flags < 8;
+    const bool known = good && static_cast<int>(flags) & 1;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double particle = fit[2 * Dim + side];
+      good &= particle >= (known && separates ? 0 : -1) && particle < static_cast<double>(particles);
+    }
+    if (!good) refuse_checkpoint("contact/fits names a particle that is not there");
+  }
 }
 
 }  // namespace
@@ -65,6 +90,7 @@ void Contact<Dim>::visit_fits(Archive& archive) {
     *out = fit.known + 2 * fit.touches + 4 * fit.doubted;
   });
   archive.column("contact/fits", fits.data(), fits.size());
+  if (archive.reading()) check_fits<Dim>(archive, fits, FitChoice(spec_).separate);
   for_each_fit([](auto& fit, const double* in) {
     std::copy_n(in, Dim, fit.raw.data());
     std::copy_n(in + Dim, Dim, fit.normal.data());
@@ -106,6 +132,7 @@ void Contact<Dim>::visit(Archive& archive) {
   }
   archive.column("contact/jumps", jumps.data(), jumps.size());
   archive.column("contact/known_jumps", known.data(), known.size());
+  if (archive.reading()) check_finite("contact/jumps", jumps.data(), jumps.size());
   for (std::size_t k = 0; k < known.size(); ++k) {
     auto& bridge = list_.bridges[k];
     bridge.known = known[k] != 0;
@@ -124,6 +151,7 @@ void Contact<Dim>::visit(Archive& archive) {
       std::copy(bond.offset.data(), bond.offset.data() + Dim, out);
     });
     archive.column("contact/bonds", bonds.data(), bonds.size());
+    if (archive.reading()) check_finite("contact/bonds", bonds.data(), bonds.size());
     for_each_bond([](auto& bond, const double* in) {
       bond.way = in[Dim];
       std::copy(in, in + Dim, bond.offset.data());
@@ -132,6 +160,8 @@ void Contact<Dim>::visit(Archive& archive) {
   archive.column("contact/touching", touching.data(), touching.size());
   archive.column("contact/springs", springs.data(), springs.size());
   archive.column("contact/planes", planes.data(), planes.size());
+  if (archive.reading()) check_finite("contact/springs", springs.data(), springs.size());
+  if (archive.reading()) check_finite("contact/planes", planes.data(), planes.size());
   visit_fits(archive);
   for_each_entry([](auto& entry, std::uint8_t touch, double spring, const double* plane) {
     entry.spring = spring;
@@ -149,6 +179,11 @@ void Step<Dim>::visit(Archive& archive) {
   archive.number("step/travelled", travelled_);
   archive.flag("step/sort_due", sort_due_);
   archive.number("step/nodes_peak", nodes_peak_);
+  if (archive.reading()) {
+    check_not_negative("step/time", state_.time);
+    check_not_negative("step/fastest", fastest_);
+    check_not_negative("step/travelled", travelled_);
+  }
   archive.column("step/seconds", clock_.seconds().data(), clock_.seconds().size());
   visit_sums(archive, "sums", sums_);
   if (cracks_.active()) cracks_.visit(archive);
@@ -159,6 +194,9 @@ void Step<Dim>::visit(Archive& archive) {
   visit_particles(archive, state_.particles);
   state_.tiling.visit(archive, state_.particles, state_.body_field);
   if (!archive.reading()) return;
+  if (state_.tiling.tiles.empty() && state_.particles.size() > 0 && !sort_due_)
+    refuse_checkpoint("no particle is in a tile");
+  check_places(state_, lower_, upper_);
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
   penalty_.forget_tiles();

@@ -25,7 +25,8 @@ void visit_sums(Archive& archive, const std::string& group, Sums<Dim>& sums) {
   visit_vectors<Dim>(archive, group + "/rigid_impulse", sums.rigid_impulse);
   visit_vectors<3>(archive, group + "/rigid_moment", sums.rigid_moment);
   visit_vectors<Dim>(archive, group + "/pair_impulse", sums.pair_impulse);
-  archive.list(group + "/pair_friction_work", sums.pair_friction_work);
+  archive.column(group + "/pair_friction_work", sums.pair_friction_work.data(),
+                 sums.pair_friction_work.size());
   archive.number(group + "/outflow_particles", sums.outflow.particles);
   archive.number(group + "/outflow_mass", sums.outflow.mass);
   archive.number(group + "/outflow_energy", sums.outflow.energy);

@@ -298,7 +298,7 @@ def check_bare(browser, program, folder):
     (out / "run.json").unlink()
     history = out / "history.csv"
     history.write_text(history.read_text().splitlines(keepends=True)[0])
-    made = subprocess.run([program, "report", out, "--out", out / "report.html"], capture_output=True, text=True)
+    made = subprocess.run([program, "report", out, "--out", out / "report.html", "--force"], capture_output=True, text=True)
     check(made.returncode == 0, f"bare: a run that goes on: exit {made.returncode}: {made.stderr}")
     open_page(browser, out)
     check(browser.find_element(By.ID, "status").text == "not ended", "bare: a run that goes on is not said to")

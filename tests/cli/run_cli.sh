@@ -144,6 +144,27 @@ check_output_folder() {
   rm -rf runs again
 }
 
+# What --force removes lies in the folder itself: links go, what they lead to stays.
+check_force_and_links() {
+  local kept link
+  run 0 run scene.yaml --steps 2 --out there --progress none
+  kept=$(find there -type f | sort | xargs md5sum)
+  ln -s there link
+  for link in link link/ ./link//; do
+    run 4 run scene.yaml --steps 2 --out "$link" --force --progress none
+    says err 'is a symbolic link, and --force removes nothing behind one'
+  done
+  rm -rf here/particles here/history.csv
+  ln -s ../there/particles here/particles
+  ln -s ../there/history.csv here/history.csv
+  ln -s ../there/picture_first_body.png here/picture_first_body.png
+  run 0 run scene.yaml --steps 2 --out here --force --progress none
+  [[ ! -L here/particles && -e here/particles/000000.vtu && ! -L here/history.csv ]] ||
+    fail '--force left links in the folder'
+  [[ $(find there -type f | sort | xargs md5sum) == "$kept" ]] || fail '--force changed what is behind a link'
+  rm -rf there link
+}
+
 # --force replaces a run, never what a user wrote.
 check_force() {
   mkdir own
@@ -169,6 +190,7 @@ check_force() {
   [[ ! -e here/plot_energy.png && ! -e here/plot_columns.pdf ]] || fail '--force left a chart of the earlier run'
   mkdir nothing
   run 0 run scene.yaml --steps 2 --out nothing --force --progress none
+  check_force_and_links
   rm -rf own here nothing own_scene.copy
 }
 
@@ -434,6 +456,13 @@ check_wrong_study() {
   says err 'the output folder other holds something else than a study'
   [[ $(ls other) == precious ]] || fail 'a refused study wrote into the folder'
   rm -rf other
+  mkdir other && echo '# my own study' >other/study.yaml
+  run 2 study scene_study.yaml --out other
+  says err 'other/study.yaml is another study, none of whose runs is one of this (--force replaces it'
+  [[ $(ls other) == study.yaml && $(<other/study.yaml) == '# my own study' ]] || fail 'a study replaced another unasked'
+  run 0 study scene_study.yaml --out other --force
+  cmp -s scene_study.yaml other/study.yaml || fail 'study --force did not replace another study'
+  rm -rf other
   run 4 study scene_nowhere.yaml
 }
 
@@ -639,6 +668,13 @@ check_report() {
   grep -q '^</html>$' reported/report.html || fail 'report.html is not whole'
   run 0 report reported --out elsewhere.html
   [[ -s elsewhere.html ]] || fail 'report --out wrote nothing'
+  echo precious >elsewhere.html
+  run 2 report reported --out elsewhere.html
+  says err 'elsewhere.html exists (--force replaces it)'
+  [[ $(<elsewhere.html) == precious ]] || fail 'a refused report wrote into the file'
+  run 0 report reported --out elsewhere.html --force
+  grep -q '^</html>$' elsewhere.html || fail 'report --force did not replace the file'
+  run 0 report reported
   run 4 report nowhere
   says err 'nowhere: no such folder (the output folder of a run was expected)'
   mkdir empty

@@ -5,7 +5,7 @@ source "$(dirname "$0")/helpers.sh"
 
 check_signals() {
   local signal code
-  for signal in INT TERM HUP USR1; do
+  for signal in INT TERM HUP QUIT USR1 USR2 ALRM XCPU; do
     "$program" run scene.yaml --set 'time.end=1 s' --set 'bodies.0.velocity=[0, 0]' \
       --out "stopped_$signal" --progress none >out 2>err &
     local process=$!

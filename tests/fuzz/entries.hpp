@@ -19,6 +19,11 @@ void read_scene_bytes(Bytes bytes);
 void read_study_bytes(Bytes bytes);
 /// A picture has as many pixels as it says.
 void read_bitmap_bytes(Bytes bytes);
+/// A run.json is written out again, or is no such.
+void read_json_bytes(Bytes bytes);
+/// A state of a small scene with columns altered, as lines "COLUMN ENTRY NUMBER" or "COLUMN length NUMBER"
+/// say, is refused, or goes on for a step.
+void read_checkpoint_bytes(Bytes bytes);
 /// A closed surface encloses a volume, and a body of it fills.
 void read_stl_bytes(Bytes bytes);
 

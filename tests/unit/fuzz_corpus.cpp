@@ -52,5 +52,12 @@ TEST_CASE("the readers of pictures and surfaces take the fuzzers' corpus, and ea
   CHECK(replay("tests/fuzz/corpus/bitmap", fuzz::read_stl_bytes) >= 4);
 }
 
+TEST_CASE("the readers of run.json and of checkpoints take the fuzzers' corpus, and each other's") {
+  CHECK(replay("tests/fuzz/corpus/json", fuzz::read_json_bytes) >= 4);
+  CHECK(replay("tests/fuzz/corpus/checkpoint", fuzz::read_checkpoint_bytes) >= 6);
+  CHECK(replay("tests/fuzz/corpus/checkpoint", fuzz::read_json_bytes) >= 6);
+  CHECK(replay("tests/fuzz/corpus/json", fuzz::read_checkpoint_bytes) >= 4);
+}
+
 }  // namespace
 }  // namespace mpmfast

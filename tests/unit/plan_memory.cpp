@@ -123,14 +123,14 @@ TEST_CASE("a scene that needs more memory than there is, is refused with the fig
   const Scene scene = scene_file("bench/block-2d.yaml", {{"grid.cell", "1/15810 m"}});
   const Plan plan = make_plan(scene);
   try {
-    check_memory(scene, plan, std::uint64_t{8} << 30);
+    check_memory(scene, plan, {std::uint64_t{8} << 30, "of the machine"});
     FAIL("it was taken");
   } catch (const SceneError& error) {
     CHECK(std::string(error.what()).find("about 1e+09 particles would take ") != std::string::npos);
-    CHECK(std::string(error.what()).find("and there are 8 GiB") != std::string::npos);
+    CHECK(std::string(error.what()).find("and there are 8 GiB of the machine") != std::string::npos);
   }
-  CHECK_NOTHROW(check_memory(scene, plan, std::uint64_t{1} << 50));
-  CHECK_NOTHROW(check_memory(scene, plan, 0));
+  CHECK_NOTHROW(check_memory(scene, plan, {std::uint64_t{1} << 50, ""}));
+  CHECK_NOTHROW(check_memory(scene, plan, {}));
 }
 
 TEST_CASE("a scene is not refused for the empty corners of the boxes around its bodies") {
@@ -143,8 +143,8 @@ bodies: [{name: b, ring: {centre: [0.5 m, 0.5 m], outer: 0.4 m, inner: 0.39 m}, 
 )");
   const Plan plan = make_plan(scene);
   const double bytes = estimated_bytes(scene, plan, estimated_particles(scene));
-  CHECK_NOTHROW(check_memory(scene, plan, static_cast<std::uint64_t>(1.2 * bytes)));
-  CHECK_THROWS_AS(check_memory(scene, plan, static_cast<std::uint64_t>(0.8 * bytes)), SceneError);
+  CHECK_NOTHROW(check_memory(scene, plan, {static_cast<std::uint64_t>(1.2 * bytes), ""}));
+  CHECK_THROWS_AS(check_memory(scene, plan, {static_cast<std::uint64_t>(0.8 * bytes), ""}), SceneError);
 }
 
 }  // namespace

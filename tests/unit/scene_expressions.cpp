@@ -152,6 +152,7 @@ TEST_CASE("a table with a ragged row, a word or no header is refused with its li
   CHECK(says("a,b\n1,x\n") == ":2: not a number, got 'x'");
   CHECK(says("a,b\n1,\n") == ":2: not a number, got ''");
   CHECK(says("") == ": no header");
-  CHECK_THROWS_WITH_AS(read_table("/dev/zero", Unended::whole), "/dev/zero: cannot read the table",
+  CHECK_THROWS_WITH_AS(read_table("/dev/zero", Unended::whole),
+                       "/dev/zero: cannot read the table: it is not a file but a device, a pipe or a socket",
                        FileError);
 }

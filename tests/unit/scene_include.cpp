@@ -116,7 +116,7 @@ TEST_CASE("a file that cannot be included is named where it is asked for") {
   CHECK(holds(text, ": it is a folder"));
   CHECK(holds(text, "include.2: not a file name or a list of file names, got a map"));
   CHECK(holds(text, "include.3: cannot include ${x}: no such file. Its name takes no variables"));
-  CHECK(holds(text, "include.4: cannot include /dev/zero: not a file"));
+  CHECK(holds(text, "include.4: cannot include /dev/zero: it is not a file but a device"));
 }
 
 TEST_CASE("files that include each other are refused, and so are too many and too deep ones") {

@@ -116,6 +116,10 @@ TEST_CASE("a picture that promises more than its file holds is refused before it
   CHECK(holds(fault_of(Bytes(good.begin(), good.end() - 12)), "ends before its IEND"));
   CHECK(holds(fault_of(with(good, 18, 0x10)), "damaged: "));
   CHECK(holds(fault_of(with(good, 16, 0x10)), "at most 32768 along an edge"));
+  // 32768 × 32768 pixels, and 8192 × 8193: a row more than there may be.
+  CHECK(
+      holds(fault_of(with(with(good, 18, 0x80), 22, 0x80)), "at most 32768 along an edge, 67108864 in all"));
+  CHECK(holds(fault_of(with(with(good, 18, 0x20), 22, 0x20)), "8193 × 8193 pixels (at most"));
 }
 
 TEST_CASE("what an alias holds may reach down to level 32, and no further") {

@@ -286,7 +286,7 @@ TEST_CASE("an STL body is scaled, turned and moved, and written so that reading 
   };
   CHECK(holds(fault_with("../box.stl", "none.stl"), ":7:31: bodies.0.stl.file: cannot read the surface "));
   CHECK(holds(fault_with("../box.stl", "none.stl"), "none.stl: no such file, got 'none.stl'"));
-  CHECK(holds(fault_with("../box.stl", ".."), ": not a file, got '..'"));
+  CHECK(holds(fault_with("../box.stl", ".."), ": it is a folder, got '..'"));
   CHECK(holds(fault_with("scale: 1 mm, ", ""), "bodies.0.stl.scale: missing (a length"));
   CHECK(holds(fault_with("scale: 1 mm", "scale: -1 mm"), "bodies.0.stl.scale: must be positive"));
   CHECK(holds(fault_with("scale: 1 mm", "scale: 1e308"), "bodies.0.stl: the surface is out of range"));

@@ -94,7 +94,8 @@ void add_study_options(CLI::App& command, RawOptions& raw) {
       ->check(CLI::Validator(check_restarts, ""))
       ->needs(launcher)
       ->type_name("N");
-  command.add_flag("--force", raw.force, "Run also what has ended already");
+  command.add_flag("--force", raw.force,
+                   "Run also what has ended already, and replace another study in the folder");
 }
 
 void add_plot_options(CLI::App& command, RawOptions& raw) {
@@ -137,9 +138,10 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
 
 void add_report_options(CLI::App& command, RawOptions& raw) {
   command.add_option("DIR", raw.scene, "The output folder of a run")->required()->type_name("");
-  command.add_option("--out", raw.out, "The page; DIR/report.html if not given")
+  command.add_option("--out", raw.out, "The page; DIR/report.html, which is replaced, if not given")
       ->check(CLI::Validator(check_out_file, ""))
       ->type_name("FILE");
+  command.add_flag("--force", raw.force, "Replace the file of --out");
 }
 
 void add_new_options(CLI::App& command, RawOptions& raw) {

@@ -69,8 +69,9 @@ the run failed; the message says step, time, particle, body, place and cause, an
 4
 a file could not be read or written, or a launcher lost runs of a study
 .TP
-129, 130, 138, 143
-stopped by SIGHUP, SIGINT, SIGUSR1 or SIGTERM after a step; \fBmpmfast resume\fR goes on
+129, 130, 131, 138, 140, 142, 143, 152
+stopped after a step by SIGHUP, SIGINT, SIGQUIT, SIGUSR1, SIGUSR2, SIGALRM, SIGTERM or SIGXCPU (128 and the number of
+the signal); \fBmpmfast resume\fR goes on
 .SH FILES
 An output folder holds \fIscene.yaml\fR (the scene with every default), \fIrun.json\fR (figures and warnings),
 \fIhistory.csv\fR, \fIparticles.pvd\fR (opens in ParaView), \fIcheckpoint.h5\fR and pictures.
@@ -93,10 +94,10 @@ what a run would need, without running it
 /// What a word after the command may be.
 std::string completed_positional(const std::string& positional) {
   if (positional == "SCENE" || positional == "STUDY")
-    return "COMPREPLY+=($(compgen -f -X '!*.yaml' -- \"$word\") $(compgen -d -- \"$word\"))";
-  if (positional == "DIR") return "COMPREPLY+=($(compgen -d -- \"$word\"))";
+    return "_mpmfast_offer -f -X '!*.yaml' -- \"$word\"; _mpmfast_offer -d -- \"$word\"";
+  if (positional == "DIR") return "_mpmfast_offer -d -- \"$word\"";
   if (positional == "TOPIC")
-    return fmt::format("COMPREPLY+=($(compgen -W '{}' -- \"$word\"))", fmt::join(catalogue_topics(), " "));
+    return fmt::format("_mpmfast_offer -W '{}' -- \"$word\"", fmt::join(catalogue_topics(), " "));
   return ":";
 }
 
@@ -130,7 +131,7 @@ std::vector<std::string> settings() {
 
 /// A case of the word before, after which these words may stand.
 std::string offer(const std::string& option, const std::vector<std::string>& words) {
-  return fmt::format("    --{}) COMPREPLY=($(compgen -W '{}' -- \"$word\")); return ;;\n", option,
+  return fmt::format("    --{}) _mpmfast_offer -W '{}' -- \"$word\"; return ;;\n", option,
                      fmt::join(words, " "));
 }
 
@@ -167,19 +168,24 @@ std::string bash_completion(const CLI::App& app) {
   }
   return fmt::format(
       "# Completion of mpmfast for bash: printed by `mpmfast completion`.\n"
+      "# A line of compgen is a word, whatever blanks and stars are in it.\n"
+      "_mpmfast_offer() {{\n"
+      "  local line\n"
+      "  while IFS= read -r line; do COMPREPLY+=(\"$line\"); done < <(compgen \"$@\")\n"
+      "}}\n"
       "_mpmfast() {{\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} options=\n"
       "  COMPREPLY=()\n"
       "  if [ \"$COMP_CWORD\" -eq 1 ]; then\n"
-      "    COMPREPLY=($(compgen -W '{} --help --version' -- \"$word\"))\n"
+      "    _mpmfast_offer -W '{} --help --version' -- \"$word\"\n"
       "    return\n"
       "  fi\n"
       "  case $before in\n{}"
-      "    --out) COMPREPLY=($(compgen -d -- \"$word\")); return ;;\n"
-      "    --set) COMPREPLY=($(compgen -W '{}' -- \"$word\")); compopt -o nospace 2>/dev/null; return ;;\n"
+      "    --out) _mpmfast_offer -d -- \"$word\"; return ;;\n"
+      "    --set) _mpmfast_offer -W '{}' -- \"$word\"; compopt -o nospace 2>/dev/null; return ;;\n"
       "  esac\n"
       "  case ${{COMP_WORDS[1]}} in\n{}  esac\n"
-      "  case $word in -*) COMPREPLY=($(compgen -W \"$options\" -- \"$word\")) ;; esac\n"
+      "  case $word in -*) COMPREPLY=(); _mpmfast_offer -W \"$options\" -- \"$word\" ;; esac\n"
       "}}\n"
       "complete -o filenames -F _mpmfast mpmfast\n",
       fmt::join(names, " "), values, fmt::join(settings(), " "), cases);

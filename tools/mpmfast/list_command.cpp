@@ -21,11 +21,11 @@ void print_topic(const std::string& topic) {
   const std::vector<CatalogueEntry> entries = catalogue(topic);
   std::size_t width = 0;
   for (const CatalogueEntry& entry : entries) width = std::max(width, entry.name.size());
-  fmt::print("{}\n", topic);
+  say("{}\n", topic);
   for (const CatalogueEntry& entry : entries) {
     const std::string says =
         entry.keys.empty() || entry.says.empty() ? entry.keys + entry.says : entry.keys + ": " + entry.says;
-    fmt::print("  {:<{}}{}{}\n", entry.name, says.empty() ? 0 : width, says.empty() ? "" : "  ", says);
+    say("  {:<{}}{}{}\n", entry.name, says.empty() ? 0 : width, says.empty() ? "" : "  ", says);
   }
 }
 
@@ -51,7 +51,7 @@ int list_command(const CommandLine& line) {
   if (!line.topic.empty() && std::find(topics.begin(), topics.end(), line.topic) == topics.end()) {
     const auto sections = reference_sections();
     if (const auto section = sections.find(line.topic); section != sections.end()) {
-      fmt::print("{}", section->second);
+      say("{}", section->second);
       return 0;
     }
     std::vector<std::string> known = topics;
@@ -64,7 +64,7 @@ int list_command(const CommandLine& line) {
   }
   for (const std::string& topic : topics) {
     if (!line.topic.empty() && topic != line.topic) continue;
-    if (line.topic.empty() && topic != topics.front()) fmt::print("\n");
+    if (line.topic.empty() && topic != topics.front()) say("\n");
     print_topic(topic);
   }
   return 0;

@@ -83,10 +83,10 @@ void print_next(const std::vector<NewFile>& files) {
   const auto command = [](const char* name, const NewFile& file) {
     return fmt::format("mpmfast {} {}", name, shell_text(file.path.string()));
   };
-  for (const NewFile& file : files) fmt::print("{}\n", file.path.string());
+  for (const NewFile& file : files) say("{}\n", file.path.string());
   const bool study = files.size() > 1;
-  fmt::print("to see its plan  {}\nto run it        {}\n", command("check", files.back()),
-             command(study ? "study" : "run", files.front()));
+  say("to see its plan  {}\nto run it        {}\n", command("check", files.back()),
+      command(study ? "study" : "run", files.front()));
 }
 
 }  // namespace

@@ -200,7 +200,7 @@ class Plot {
       complain("mpmfast: {}\n", why_not);
       return false;
     }
-    fmt::print("chart            {}\n", files_.at(stem + ".png").string());
+    say("chart            {}\n", files_.at(stem + ".png").string());
     return true;
   }
 

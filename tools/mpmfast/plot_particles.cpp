@@ -142,7 +142,7 @@ class ParticlePlot {
     const fs::path path = files_.at(fmt::format("plot_{}_{:06}.png", field, k));
     const PictureFormat format = picture_format(path).value_or(PictureFormat::png);
     paint_particles(particles, scene_, field, series_.time(k), framing, format, cracks).write(path);
-    fmt::print("picture          {}\n", path.string());
+    say("picture          {}\n", path.string());
   }
 
   void animate(const std::string& field, std::optional<Range> colours) {
@@ -160,7 +160,7 @@ class ParticlePlot {
     }
     const fs::path path = files_.at(fmt::format("plot_{}.png", field));
     animation->write(path);
-    fmt::print("animation        {} ({} frames; opens in a browser)\n", path.string(), series_.size());
+    say("animation        {} ({} frames; opens in a browser)\n", path.string(), series_.size());
   }
 
   static constexpr int kRate = 8;  ///< frames a second

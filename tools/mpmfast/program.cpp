@@ -8,6 +8,8 @@
 
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <ios>
 #include <new>
 #include <system_error>
 
@@ -53,10 +55,27 @@ void hold_closed_streams() {
     if (fcntl(stream, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
 }
 
+/// What helps where there was too little memory for a command.
+const char* way_out_of_memory(Command command) {
+  switch (command) {
+    case Command::run:
+    case Command::resume:
+    case Command::study:
+      return "'mpmfast check' tells how much a scene needs";
+    case Command::check:
+      return "Take larger cells, fewer particles_per_cell or fewer bodies at one place";
+    default:
+      return "Fewer frames, rows or particles take less";
+  }
+}
+
 int perform_and_report(int count, char** arguments) {
+  Command command = Command::run;
   try {
     const ParsedCommandLine parsed = parse_command_line(count, arguments);
-    return parsed.line ? perform(*parsed.line) : parsed.exit_code;
+    if (!parsed.line) return parsed.exit_code;
+    command = parsed.line->command;
+    return perform(*parsed.line);
   } catch (const SceneError& error) {
     const std::size_t count = error.diagnostics().size();
     complain("{}\n{} error{}\n", error.what(), count, count == 1 ? "" : "s");
@@ -67,11 +86,18 @@ int perform_and_report(int count, char** arguments) {
   } catch (const RunFailure& error) {
     complain("mpmfast: the run failed: {}\n", error.what());
     return kExitRunFailed;
-  } catch (const std::system_error& error) {  // of a stream that is closed
-    complain("mpmfast: the output could not be written: {}\n", error.what());
+  } catch (const std::filesystem::filesystem_error& error) {
+    complain("mpmfast: cannot look at {}: {}\n", error.path1().string(), error.code().message());
+    return kExitFile;
+  } catch (const std::ios_base::failure& error) {
+    complain("mpmfast: a file could not be read: {}\n", error.what());
+    return kExitFile;
+  } catch (const std::system_error& error) {
+    const bool closed = std::ferror(stdout) != 0;
+    complain("mpmfast: {}{}\n", closed ? "the output could not be written: " : "", error.what());
     return kExitFile;
   } catch (const std::bad_alloc&) {
-    complain("mpmfast: out of memory ('mpmfast check' tells how much a scene needs)\n");
+    complain("mpmfast: out of memory. {}\n", way_out_of_memory(command));
     return kExitRunFailed;
   } catch (const std::exception& error) {
     complain("mpmfast: internal error: {}\n", error.what());

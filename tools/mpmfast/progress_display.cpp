@@ -33,6 +33,12 @@ std::string bar_text(const Progress& progress) {
   return "[" + std::string(full, '#') + std::string(kCells - full, '.') + "] " + status_text(progress);
 }
 
+/// To the terminal, which obeys it.
+void command(const std::string& text) {
+  std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);
+}
+
 std::size_t terminal_width() {
   constexpr std::size_t kUsual = 80;
   winsize size{};
@@ -89,13 +95,13 @@ void ProgressDisplay::show(const std::string& text, bool news) {
 }
 
 void ProgressDisplay::clear() {
-  if (drawn_) complain("\r\x1b[K");
+  if (drawn_) command("\r\x1b[K");
   drawn_ = false;
 }
 
 void ProgressDisplay::redraw(std::string line) {
   line.resize(std::min(line.size(), terminal_width() - 1));  // a wrapped line could not be redrawn
-  complain("\r{}\x1b[K", line);
+  command("\r" + line + "\x1b[K");
   drawn_ = true;
 }
 

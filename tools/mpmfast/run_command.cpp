@@ -25,19 +25,19 @@ void print_passes(const RunSummary& summary) {
   if (summary.seconds.empty()) return;
   std::size_t width = 0;
   for (const auto& [pass, seconds] : summary.seconds) width = std::max(width, pass.size());
-  fmt::print("seconds by pass\n");
+  say("seconds by pass\n");
   for (const auto& [pass, seconds] : summary.seconds) {
     const double share = summary.wall > 0 ? 100 * seconds / summary.wall : 0;
-    fmt::print("  {:<{}}  {:9.3f} s  {:5.1f} %\n", pass, width, seconds, share);
+    say("  {:<{}}  {:9.3f} s  {:5.1f} %\n", pass, width, seconds, share);
   }
 }
 
 void print_contact(const RunSummary::Contact& contact) {
   if (contact.nodes_peak == 0) return;
-  fmt::print("contact          {} nodes at most, {} screened in all; ", contact.nodes_peak, contact.screened);
-  fmt::print("{} normals of {:.2f} iterations: ", contact.regressions, contact.mean_iterations);
-  fmt::print("{} did not converge, {} fell back ({} doubtful)\n", contact.unconverged, contact.fallbacks,
-             contact.doubtful);
+  say("contact          {} nodes at most, {} screened in all; ", contact.nodes_peak, contact.screened);
+  say("{} normals of {:.2f} iterations: ", contact.regressions, contact.mean_iterations);
+  say("{} did not converge, {} fell back ({} doubtful)\n", contact.unconverged, contact.fallbacks,
+      contact.doubtful);
 }
 
 /// Where to look at the results.
@@ -50,11 +50,11 @@ void print_files(const fs::path& folder) {
       pictures.push_back(entry.path().string());
   }
   std::sort(pictures.begin(), pictures.end());
-  for (const std::string& picture : pictures) fmt::print("picture          {}\n", picture);
+  for (const std::string& picture : pictures) say("picture          {}\n", picture);
   const fs::path series = folder / "particles.pvd";
-  if (fs::exists(series, error)) fmt::print("particles        {}\n", series.string());
-  fmt::print("output           {}\n", folder.string());
-  fmt::print("report           mpmfast report {}\n", shell_text(folder.string()));
+  if (fs::exists(series, error)) say("particles        {}\n", series.string());
+  say("output           {}\n", folder.string());
+  say("report           mpmfast report {}\n", shell_text(folder.string()));
 }
 
 std::string ending(const std::string& reason) {
@@ -65,23 +65,23 @@ std::string ending(const std::string& reason) {
 }
 
 void print_summary(const RunSummary& summary, const fs::path& folder) {
-  fmt::print("{}{} at {}, step {}\n", summary.status, ending(summary.reason), time_text(summary.time),
-             summary.steps);
-  fmt::print("wall time        {:.2f} s on {} thread{}\n", summary.wall, summary.threads,
-             summary.threads == 1 ? "" : "s");
-  fmt::print("speed            {}particle-steps/s ({} particles, {} fields)\n",
-             count_text(summary.particle_steps_per_second), summary.particles, summary.fields);
-  fmt::print("memory           {:.1f} MiB at most\n",
-             static_cast<double>(summary.peak_memory_bytes) / (1024.0 * 1024.0));
+  say("{}{} at {}, step {}\n", summary.status, ending(summary.reason), time_text(summary.time),
+      summary.steps);
+  say("wall time        {:.2f} s on {} thread{}\n", summary.wall, summary.threads,
+      summary.threads == 1 ? "" : "s");
+  say("speed            {}particle-steps/s ({} particles, {} fields)\n",
+      count_text(summary.particle_steps_per_second), summary.particles, summary.fields);
+  say("memory           {:.1f} MiB at most\n",
+      static_cast<double>(summary.peak_memory_bytes) / (1024.0 * 1024.0));
   print_passes(summary);
   print_contact(summary.contact);
-  fmt::print("energy error     {:.3g} %\n", 100 * summary.energy_error);
-  for (const RunWarning& warning : run_warnings(summary)) fmt::print("warning          {}\n", warning.text);
-  fmt::print("checksum         {}\n", summary.checksum);
+  say("energy error     {:.3g} %\n", 100 * summary.energy_error);
+  for (const RunWarning& warning : run_warnings(summary)) say("warning          {}\n", warning.text);
+  say("checksum         {}\n", summary.checksum);
   print_files(folder);
   std::error_code error;
   if (summary.status == "stopped" && fs::exists(folder / "checkpoint.h5", error))
-    fmt::print("to go on         mpmfast resume {}\n", shell_text(folder.string()));
+    say("to go on         mpmfast resume {}\n", shell_text(folder.string()));
 }
 
 /// What a run that failed has left.
@@ -137,8 +137,8 @@ int run_and_report(const CommandLine& line, RunOptions& options,
   }
   display.finish();
   if (!summary) {
-    fmt::print("the run in {} has come so far already; a later --until TIME lets it go on\n",
-               options.folder.string());
+    say("the run in {} has come so far already; a later --until TIME lets it go on\n",
+        options.folder.string());
     return 0;
   }
   print_summary(*summary, options.folder);
@@ -180,7 +180,7 @@ int check_command(const CommandLine& line) {
   const Scene scene = read_and_warn(line, warnings);
   std::string plan = describe_plan(scene, line.verbose);
   while (!plan.empty() && plan.back() == '\n') plan.pop_back();
-  fmt::print("{}\n", plan);
+  say("{}\n", plan);
   return 0;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 
-/// @file SIGINT, SIGTERM, SIGHUP (a terminal that closes) and SIGUSR1 (which schedulers hand on) ask the run
-/// to stop after the step; a second one kills. A limit on the size of files (SIGXFSZ) is left to the write
-/// that meets it, a closed pipe to nobody.
+/// @file Signals that end a program ask the run to stop after the step; a second one kills. They come from a
+/// user (SIGINT, SIGQUIT, SIGTERM), from a terminal that closes (SIGHUP), from a scheduler (SIGUSR1,
+/// SIGUSR2), from a timer (SIGALRM) or from a limit on processor time (SIGXCPU). The kernel repeats SIGXCPU
+/// every second up to the hard limit, so a second one of that kind does not kill. A limit on the size of
+/// files (SIGXFSZ) is left to the write that meets it, a closed pipe to nobody.
 
 namespace mpmfast {
 

@@ -13,6 +13,7 @@
 #include "tools/study/report.hpp"
 #include "tools/study/run_study.hpp"
 #include "tools/study/stability_map.hpp"
+#include "tools/study/study_folder.hpp"
 
 namespace mpmfast {
 
@@ -76,6 +77,10 @@ int study_command(const CommandLine& line) {
              options.folder.string());
     return kExitWrongInput;
   }
+  if (const std::string why = other_study(study, runs, options.folder); !why.empty() && !line.force) {
+    complain("mpmfast: {} (--force replaces it, --out DIR names another folder)\n", why);
+    return kExitWrongInput;
+  }
   check_programs(study);
   try_set_up(runs, options);
   catch_stop_signals();
@@ -83,14 +88,14 @@ int study_command(const CommandLine& line) {
   const StudyProgress progress = run_study(runs, options);
   const StudyResults results = collect_results(study, runs, options.folder);
   const std::vector<std::string> missing = write_report(study, runs, results, options.folder);
-  fmt::print("{}\nruns             {} now, {} kept{}\noutput           {}\n",
-             study.map ? map_overview(study, runs, results) : study_table(study, runs, results), progress.ran,
-             progress.kept, progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
+  say("{}\nruns             {} now, {} kept{}\noutput           {}\n",
+      study.map ? map_overview(study, runs, results) : study_table(study, runs, results), progress.ran,
+      progress.kept, progress.kept > 0 ? " (--force runs all again)" : "", options.folder.string());
   if (const auto failed = failures(results); failed > 0)
-    fmt::print("failed           {} of {} variants (study.csv says why)\n", failed, results.variants.size());
+    say("failed           {} of {} variants (study.csv says why)\n", failed, results.variants.size());
   if (progress.lost > 0)
-    fmt::print("lost             {} of {} runs (said above); the same command tries them again\n",
-               progress.lost, progress.ran + progress.kept);
+    say("lost             {} of {} runs (said above); the same command tries them again\n", progress.lost,
+        progress.ran + progress.kept);
   for (const std::string& why : missing) complain("mpmfast: {}\n", why);
   if (!progress.stopped) return progress.lost > 0 ? kExitFile : 0;
   const int signal = *stop_signal();

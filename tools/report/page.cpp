@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
 #include "assets.hpp"
 #include "engine/errors.hpp"
+#include "engine/geometry/read_regular.hpp"
 #include "engine/output/files.hpp"
+#include "engine/output/json_depth.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/output/shown_units.hpp"
 #include "engine/scene/read_scene.hpp"
@@ -32,9 +32,11 @@ constexpr std::size_t kPageBytes = 20'000'000;
 constexpr std::size_t kMostHistory = 1'000'000;  // numbers
 
 std::string read_text(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw_file_error("read", path);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  constexpr std::uintmax_t kLargestFile = 64u << 20;  // bytes; a scene, or a run.json with its warnings
+  std::string why_not;
+  const auto text = read_regular(path, kLargestFile, why_not);
+  if (!text) throw FileError(fmt::format("cannot read {}: {}", path.string(), why_not));
+  return *text;
 }
 
 void check_folder(const fs::path& folder) {
@@ -53,7 +55,8 @@ Json read_run(const fs::path& folder) {
   const fs::path path = folder / "run.json";
   std::error_code error;
   if (!fs::exists(path, error)) return nullptr;
-  Json run = Json::parse(read_text(path), nullptr, false);
+  const std::string text = read_text(path);
+  Json run = is_shallow_json(text) ? Json::parse(text, nullptr, false) : Json();
   if (!run.is_object())
     throw FileError(fmt::format("{} is no run.json of a run: not a JSON object", path.string()));
   return run;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -21,9 +22,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Exit statuses of the command line.
-constexpr std::array<std::pair<int, const char*>, 6> kEndings{
-    {{0, "finished"}, {3, "failed"}, {129, "stopped"}, {130, "stopped"}, {138, "stopped"}, {143, "stopped"}}};
+// Exit statuses of the command line; the signals are those that ask a run to stop
+// (tools/mpmfast/signals.cpp).
+constexpr std::array<std::pair<int, const char*>, 10> kEndings{{{0, "finished"},
+                                                                {3, "failed"},
+                                                                {128 + SIGHUP, "stopped"},
+                                                                {128 + SIGINT, "stopped"},
+                                                                {128 + SIGQUIT, "stopped"},
+                                                                {128 + SIGUSR1, "stopped"},
+                                                                {128 + SIGUSR2, "stopped"},
+                                                                {128 + SIGALRM, "stopped"},
+                                                                {128 + SIGTERM, "stopped"},
+                                                                {128 + SIGXCPU, "stopped"}}};
 
 void add_common(std::vector<std::string>& words, int threads) {
   words.insert(words.end(), {"--progress", "none"});

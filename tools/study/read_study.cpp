@@ -1,12 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
-#include <system_error>
 
 #include "engine/errors.hpp"
+#include "engine/geometry/read_regular.hpp"
 #include "study_parts.hpp"
 
 namespace mpmfast {
@@ -259,12 +257,11 @@ Study parse_study(const std::string& text, const std::filesystem::path& file) {
 }
 
 Study read_study(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, error))
-    throw FileError(fmt::format("{}: cannot read the study", file.string()));
-  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  return parse_study(text, file);
+  constexpr std::uintmax_t kLargestFile = 16u << 20;  // bytes
+  std::string why_not;
+  const auto text = read_regular(file, kLargestFile, why_not);
+  if (!text) throw FileError(fmt::format("{}: cannot read the study: {}", file.string(), why_not));
+  return parse_study(*text, file);
 }
 
 }  // namespace mpmfast

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/errors.hpp"
+#include "engine/output/json_depth.hpp"
 #include "mpmfast_version.hpp"
 #include "other_program.hpp"
 #include "pareto.hpp"
@@ -30,7 +31,9 @@ std::string read_text(const fs::path& file) {
 
 /// run.json, or nothing when it is not there or not whole.
 std::optional<nlohmann::json> read_summary(const fs::path& folder) {
-  auto json = nlohmann::json::parse(read_text(folder / "run.json"), nullptr, false);
+  const std::string text = read_text(folder / "run.json");
+  if (!is_shallow_json(text)) return std::nullopt;
+  auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) return std::nullopt;
   return json;
 }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 #include "engine/errors.hpp"
+#include "engine/geometry/read_regular.hpp"
 
 namespace mpmfast {
 
@@ -54,11 +54,11 @@ const std::vector<double>* Table::find(const std::string& name) const {
 }
 
 Table read_table(const std::filesystem::path& file, Unended last) {
-  std::error_code error;
-  std::ifstream stream(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file, error) || !stream)  // a device may never end
-    throw FileError(fmt::format("{}: cannot read the table", file.string()));
-  std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 40;  // bytes
+  std::string why_not;
+  auto whole = read_regular(file, kLargestFile, why_not);
+  if (!whole) throw FileError(fmt::format("{}: cannot read the table: {}", file.string(), why_not));
+  std::string text = *std::move(whole);
   if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
     text.erase(0, kByteOrderMark.size());
   if (last == Unended::whole && !text.empty() && text.back() != '\n') text += '\n';

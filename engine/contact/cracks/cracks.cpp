@@ -214,67 +214,6 @@ void Cracks<Dim>::move(const State<Dim>& state, double dt) {
   }
 }
 
-template <int Dim>
-void Cracks<Dim>::visit(Archive& archive) {
-  std::uint64_t count = lines_.size();
-  archive.number("cracks/count", count);
-  lines_.resize(count);
-  for (std::size_t k = 0; k < lines_.size(); ++k) {
-    const std::string name = "cracks/" + std::to_string(k);
-    archive.number(name + "/field", lines_[k].field);
-    const auto visit_points = [&](const std::string& what, std::vector<Vec<Dim>>& points) {
-      std::vector<double> places;
-      for (const Vec<Dim>& x : points) places.insert(places.end(), x.data(), x.data() + Dim);
-      archive.list(name + what, places);
-      points.resize(places.size() / Dim);
-      for (std::size_t p = 0; p < points.size(); ++p)
-        std::copy_n(places.data() + Dim * p, Dim, points[p].data());
-    };
-    visit_points("/points", lines_[k].points);
-    visit_points("/left", lines_[k].sides[0]);
-    visit_points("/right", lines_[k].sides[1]);
-    for (const bool end : {false, true}) {
-      CrackEnd& one = lines_[k].ends[end];
-      const std::string of = name + (end ? "/end" : "/start");
-      archive.flag(of + "/grows", one.grows);
-      archive.number(of + "/due", one.due);
-      archive.number(of + "/straight", one.straight);
-      archive.number(of + "/grown", one.grown);
-      archive.flag(of + "/fresh", one.fresh);
-    }
-  }
-  archive.number("cracks/drifted", drifted_);
-  archive.number("cracks/moved", moved_);
-  visit_nodes(archive);
-}
-
-/// What was seen last.
-template <int Dim>
-void Cracks<Dim>::visit_nodes(Archive& archive) {
-  archive.list("cracks/blocks", block_keys_);
-  blocks_.resize(block_keys_.size());
-  std::vector<int> places, told;
-  std::vector<double> normals;
-  for (const auto& block : blocks_) places.insert(places.end(), block.begin(), block.end());
-  for (const CrackedNode<Dim>& node : nodes_)
-    for (std::size_t k = 0; k < CrackedNode<Dim>::kMost; ++k) {
-      told.insert(told.end(), {node.crack[k], node.ways[k]});
-      normals.insert(normals.end(), node.normal[k].data(), node.normal[k].data() + Dim);
-    }
-  archive.list("cracks/places", places);
-  archive.list("cracks/told", told);
-  archive.list("cracks/normals", normals);
-  for (std::size_t b = 0; b < blocks_.size(); ++b)
-    std::copy_n(places.data() + b * kTileNodes<Dim>, kTileNodes<Dim>, blocks_[b].begin());
-  nodes_.resize(told.size() / (2 * CrackedNode<Dim>::kMost));
-  for (std::size_t n = 0, at = 0; n < nodes_.size(); ++n)
-    for (std::size_t k = 0; k < CrackedNode<Dim>::kMost; ++k, ++at) {
-      nodes_[n].crack[k] = told[2 * at];
-      nodes_[n].ways[k] = told[2 * at + 1];
-      std::copy_n(normals.data() + Dim * at, Dim, nodes_[n].normal[k].data());
-    }
-}
-
 // Here: the members that this file defines.
 template class Cracks<2>;
 template class Cracks<3>;

@@ -53,6 +53,26 @@ void describe_file(Slot& slot, const Scene& scene, std::filesystem::path& file) 
     file = std::filesystem::absolute(scene.file.parent_path() / text).lexically_normal();
 }
 
+namespace {
+
+/// Of the pictures of a scene, which keep a byte each.
+constexpr std::size_t kMostPixelsInAll = std::size_t{1} << 28;
+
+/// Of all pictures so far; the levels of one follow each other.
+std::size_t pixels_so_far(const Scene& scene) {
+  std::size_t sum = 0;
+  const GreyImage* last = nullptr;
+  for (const BodySpec& body : scene.bodies) {
+    const auto* bitmap = std::get_if<BitmapShape>(&body.shape);
+    const GreyImage* image = bitmap ? bitmap->image.get() : nullptr;
+    if (image && image != last) sum += image->pixel.size();
+    last = image;
+  }
+  return sum;
+}
+
+}  // namespace
+
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
   std::filesystem::path& file = entry.shape.file;
   constexpr const char* kSays = "Path, counted from the folder of the scene.";
@@ -66,7 +86,11 @@ void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
   if (!slot.reads() || !slot.good()) return;
   std::string why_not;
   entry.shape.image = load_grey_png(file, why_not);
-  if (!entry.shape.image) slot.complain(fmt::format("cannot read the image {}: {}", file.string(), why_not));
+  if (!entry.shape.image)
+    return slot.complain(fmt::format("cannot read the image {}: {}", file.string(), why_not));
+  if (pixels_so_far(scene) + entry.shape.image->pixel.size() <= kMostPixelsInAll) return;
+  entry.shape.image.reset();
+  slot.complain(fmt::format("the images of the scene have more than {} pixels in all", kMostPixelsInAll));
 }
 
 void describe_bitmap_keys(Keys& body, const Scene& scene, const std::vector<std::string>& material_names,

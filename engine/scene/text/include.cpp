@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
+
+#include "engine/geometry/read_regular.hpp"
 
 namespace mpmfast {
 
@@ -132,20 +132,12 @@ class Includer {
 
   std::optional<std::string> read(const fs::path& file, std::string& why_not) {
     std::error_code error;
-    const auto refuse = [&](const char* why) {
-      why_not = why;
+    const auto size = fs::is_regular_file(file, error) ? fs::file_size(file, error) : 0;
+    if (!error && (read_ += size) > kMostText) {
+      why_not = "larger than 16 MiB, with the files before it";
       return std::nullopt;
-    };
-    if (!fs::exists(file, error)) return refuse("no such file");
-    if (fs::is_directory(file, error)) return refuse("it is a folder");
-    if (!fs::is_regular_file(file, error)) return refuse("not a file");
-    const auto size = fs::file_size(file, error);
-    if (!error && (read_ += size) > kMostText) return refuse("larger than 16 MiB, with the files before it");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) return refuse("it cannot be opened");
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) return refuse("reading failed");
-    return text;
+    }
+    return read_regular(file, kMostText, why_not);
   }
 
   Problems& problems_;

@@ -1,0 +1,80 @@
+#include "engine/step/check_state.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/errors.hpp"
+
+namespace mpmfast {
+
+void refuse_checkpoint(std::string_view why) {
+  throw FileError(fmt::format("the checkpoint is none of its scene: {}", why));
+}
+
+void check_finite(std::string_view name, const double* values, std::size_t n) {
+  for (std::size_t k = 0; k < n; ++k)
+    if (!std::isfinite(values[k])) refuse_checkpoint(fmt::format("{} holds {} at {}", name, values[k], k));
+}
+
+void check_not_negative(std::string_view name, double value) {
+  if (!(value >= 0 && std::isfinite(value))) refuse_checkpoint(fmt::format("{} is {}", name, value));
+}
+
+template <int Dim>
+std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles) {
+  std::vector<std::uint16_t> bodies(particles.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) bodies[particles.id()[p]] = particles.body()[p];
+  return bodies;
+}
+
+template <int Dim>
+void check_particles(const Particles<Dim>& particles, const std::vector<std::uint16_t>& seeded) {
+  std::vector<bool> met(seeded.size());
+  for (std::size_t p = 0; p < particles.size(); ++p) {
+    const std::uint32_t id = particles.id()[p];
+    if (id >= seeded.size() || met[id]) refuse_checkpoint(fmt::format("a particle has the id {}", id));
+    met[id] = true;
+    if (particles.body()[p] != seeded[id])
+      refuse_checkpoint(fmt::format("particle {} is of body {}", id, particles.body()[p]));
+  }
+  for (const Quantity q : particles.quantities())
+    for (int k = 0; k < Particles<Dim>::components(q); ++k)
+      check_finite(kQuantityTable[static_cast<std::size_t>(q)].name, particles.column(q, k),
+                   particles.size());
+  for (const Quantity q : {Quantity::mass, Quantity::initial_volume, Quantity::wave_speed})
+    for (std::size_t p = 0; particles.has(q) && p < particles.size(); ++p)
+      check_not_negative(kQuantityTable[static_cast<std::size_t>(q)].name, particles.column(q)[p]);
+}
+
+/// A cell more is let go, since walls and what leaves the grid are judged after a step.
+template <int Dim>
+void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+  const double cell = state.grid.cell;
+  for (std::size_t p = 0; p < state.particles.size(); ++p) {
+    const Vec<Dim> x = state.particles.vector(Quantity::position, p);
+    if (!((x.array() >= lower.array() - cell).all() && (x.array() <= upper.array() + cell).all()))
+      refuse_checkpoint(fmt::format("particle {} lies outside of the grid", state.particles.id()[p]));
+  }
+  std::size_t placed = 0;
+  for (const auto& tile : state.tiling.tiles)
+    for (int r = tile.run_begin; r < tile.run_end; ++r) {
+      const auto& run = state.tiling.runs[static_cast<std::size_t>(r)];
+      for (std::uint32_t p = run.begin; p < run.end; ++p, ++placed)
+        if (state.particles.body()[p] != run.body ||
+            state.body_field[static_cast<std::size_t>(run.body)] != tile.field ||
+            state.surfaces.holds(run.body, state.particles.id()[p]) != run.on_surface)
+          refuse_checkpoint(fmt::format("particle {} is listed with others", state.particles.id()[p]));
+    }
+  if (!state.tiling.tiles.empty() && placed != state.particles.size())
+    refuse_checkpoint("some particles are in no tile");
+}
+
+template std::vector<std::uint16_t> bodies_by_id(const Particles<2>&);
+template std::vector<std::uint16_t> bodies_by_id(const Particles<3>&);
+template void check_particles(const Particles<2>&, const std::vector<std::uint16_t>&);
+template void check_particles(const Particles<3>&, const std::vector<std::uint16_t>&);
+template void check_places(const State<2>&, const Vec<2>&, const Vec<2>&);
+template void check_places(const State<3>&, const Vec<3>&, const Vec<3>&);
+
+}  // namespace mpmfast
