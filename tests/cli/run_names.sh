@@ -47,6 +47,7 @@ check_file_names() {
     is_free "--out $attack.svg"
     checks=$((checks + 1))
     [[ -s "$attack.svg" && -s "$attack.svg.gp" ]] || fail "there is no picture '$attack.svg'"
+    mkdir "folder of $attack"
     run 0 plot plotted --columns kinetic_J --out "folder of $attack"
     is_free "--out 'folder of $attack'"
     checks=$((checks + 1))
@@ -126,7 +127,9 @@ charts = dict(base, error={"quantity": "block.vy", "compare": "final", "expected
               curves=[curve, dict(curve, name="panels", panels=names[12])])
 holds = [{"name": name, "quantity": "kinetic_J", "at_most": -1, "only": {"variants": name}} for name in names]
 maps = dict(base, holds=holds, map={"panels": names[4], "columns": names[12]})
-for file, study in (("charts.yaml", charts), ("maps.yaml", maps)):
+small = dict(base, variants=variants[:1], holds=[{"name": "a", "quantity": "kinetic_J", "at_most": -1}],
+             vary={"case": {"small": {}}, "x": {"'a ''": {}, "50 % of %s": {}}}, map={"panels": "case", "columns": "x"})
+for file, study in (("charts.yaml", charts), ("maps.yaml", maps), ("small.yaml", small)):
     json.dump(study, open(file, "w"))
 PYTHON
   run 0 study charts.yaml --out charts --progress none
@@ -143,7 +146,9 @@ PYTHON
   checks=$((checks + 1))
   [[ -s $1 ]] || fail 'a study of odd names has no map'
   shows "$1" '`touch taken`'
-  shows "$1" '50 % of %s'
+  run 0 study small.yaml --out small --progress none
+  shows small/map_small.svg '50 % of %s'
+  shows small/map_small.svg "'a ''"
   # A program's path stands in a comment of the scene that it runs.
   printf '#!/bin/sh\nexit 0\n' >$'p\nspace: line'
   chmod +x $'p\nspace: line'
