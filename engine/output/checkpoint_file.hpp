@@ -16,7 +16,7 @@
 namespace mpmfast {
 
 /// Of the names and meanings of the columns: raise it when they change.
-inline constexpr int kCheckpointVersion = 14;
+inline constexpr int kCheckpointVersion = 15;
 
 /// A file beside the one that is wanted: it is gone in the end, unless it took that one's place.
 class AsideFile {

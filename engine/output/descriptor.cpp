@@ -33,6 +33,12 @@ Descriptor Descriptor::create(const std::filesystem::path& path) {
   return Descriptor(fd);
 }
 
+Descriptor Descriptor::open_or_create(const std::filesystem::path& path) {
+  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, kUsual);
+  if (fd < 0) throw_file_error("write", path);
+  return Descriptor(fd);
+}
+
 Descriptor::~Descriptor() {
   if (fd_ >= 0) ::close(fd_);
 }
@@ -75,6 +81,13 @@ bool Descriptor::claim() const { return ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || 
 bool Descriptor::has_name() const {
   struct stat status {};
   return ::fstat(fd_, &status) != 0 || status.st_nlink > 0;
+}
+
+bool Descriptor::is_at(const std::filesystem::path& path) const {
+  struct stat own {
+  }, named{};
+  return ::fstat(fd_, &own) == 0 && ::stat(path.c_str(), &named) == 0 && own.st_dev == named.st_dev &&
+         own.st_ino == named.st_ino;
 }
 
 void sync_folder(const std::filesystem::path& folder) noexcept {

@@ -15,6 +15,8 @@ class Descriptor {
  public:
   static Descriptor open(const std::filesystem::path& path, bool writing = false);
   static Descriptor create(const std::filesystem::path& path);  ///< or empties what is there
+  /// Makes the file where there is none, and leaves what it holds.
+  static Descriptor open_or_create(const std::filesystem::path& path);
 
   Descriptor() = default;
   Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
@@ -35,6 +37,8 @@ class Descriptor {
   bool claim() const;
   /// Does the file still have a name?
   bool has_name() const;
+  /// Is this file the one of that name?
+  bool is_at(const std::filesystem::path& path) const;
 
  private:
   explicit Descriptor(int fd) : fd_(fd) {}

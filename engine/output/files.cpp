@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -63,6 +64,12 @@ void write_aside(const std::filesystem::path& path, std::span<const std::string_
 
 void write_aside(const std::filesystem::path& path, std::string_view content) {
   write_aside(path, std::span(&content, 1));
+}
+
+bool has_control_character(const std::filesystem::path& path) {
+  const std::string& name = path.native();
+  return std::any_of(name.begin(), name.end(),
+                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
 }
 
 void make_folder(const std::filesystem::path& folder) {

@@ -16,6 +16,10 @@ namespace mpmfast {
 void write_aside(const std::filesystem::path& path, std::span<const std::string_view> parts);
 void write_aside(const std::filesystem::path& path, std::string_view content);
 
+/// Does the name hold a character such as a line's end, which scripts and messages would take for more than
+/// a name?
+bool has_control_character(const std::filesystem::path& path);
+
 /// Makes a folder and its parents. Throws FileError.
 void make_folder(const std::filesystem::path& folder);
 

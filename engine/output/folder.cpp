@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -121,6 +122,15 @@ void check_replaceable(const std::filesystem::path& folder, const Scene& scene) 
                                 folder.string(), fmt::join(kProofs, ", ")));
 }
 
+/// A run that goes on holds its history too: where folders cannot be locked, this is what is left.
+void check_unclaimed(const std::filesystem::path& folder) {
+  const auto history = folder / "history.csv";
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(history, error) || ::access(history.c_str(), W_OK) != 0) return;
+  if (!Descriptor::open(history, true).claim())
+    throw FileError(folder.string() + " belongs to a run that goes on now");
+}
+
 void remove_earlier_run(const std::filesystem::path& folder) {
   remove_files(folder, is_ours);
   for (const std::string_view series : kSeries) {
@@ -150,19 +160,22 @@ void reopen_folder(const std::filesystem::path& folder) {
                    [](const std::string& name) { return ends_with(name, ".tmp") && is_frame(name); });
 }
 
-void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force) {
+FolderLock prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force) {
+  if (has_control_character(folder))
+    throw FileError("the name of the output folder holds a control character");
   std::error_code error;
-  if (std::filesystem::exists(folder, error)) {
-    if (!std::filesystem::is_directory(folder, error))
-      throw FileError("output folder " + folder.string() + " is a file");
-    if (!force && !std::filesystem::is_empty(folder, error))
-      throw FileError("output folder " + folder.string() +
-                      " exists already; with force the run in it is replaced");
-    check_replaceable(folder, scene);
-    remove_earlier_run(folder);
-  }
+  if (std::filesystem::exists(folder, error) && !std::filesystem::is_directory(folder, error))
+    throw FileError("output folder " + folder.string() + " is a file");
   make_folder(folder);
+  FolderLock lock(folder, FolderWriter::run);
+  check_unclaimed(folder);
+  if (!force && !std::filesystem::is_empty(folder, error))
+    throw FileError("output folder " + folder.string() +
+                    " exists already; with force the run in it is replaced");
+  check_replaceable(folder, scene);
+  remove_earlier_run(folder);
   write_aside(folder / "scene.yaml", scene.resolved_yaml);
+  return lock;
 }
 
 }  // namespace mpmfast

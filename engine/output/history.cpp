@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/errors.hpp"
+#include "engine/output/hash.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/quantities/time_table.hpp"
@@ -174,6 +175,18 @@ LineEnds find_line(const Descriptor& file, const std::filesystem::path& path, st
   return ends;
 }
 
+/// Adds the first bytes of a file.
+void add_bytes(Hash128& hash, const Descriptor& file, const std::filesystem::path& path, std::uint64_t size) {
+  std::vector<char> block(std::size_t{1} << 16);
+  for (std::uint64_t at = 0; at < size;) {
+    const std::size_t n = file.read_at(
+        block.data(), static_cast<std::size_t>(std::min<std::uint64_t>(block.size(), size - at)), at, path);
+    if (n == 0) return;
+    hash.add(block.data(), n);
+    at += n;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> history_columns(const Scene& scene) { return column_names(scene); }
@@ -244,29 +257,42 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
 }
 
 HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene)
-    : path_(folder / "history.csv"), file_(Descriptor::create(path_)), scene_(&scene) {
-  claim();
+    : path_(folder / "history.csv"),
+      file_(Descriptor::open_or_create(path_)),
+      scene_(&scene),
+      hash_(std::make_unique<Hash128>()) {
+  claim();  // before anything of it is cut: it may be another's
+  file_.cut(0, path_);
   append_line(header(scene));
 }
 
-HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene, std::uint64_t rows,
-                         std::uint64_t last_step)
-    : path_(folder / "history.csv"), file_(Descriptor::open(path_, true)), scene_(&scene), rows_(rows) {
+HistoryFile::HistoryFile(const std::filesystem::path& folder, const Scene& scene, const HistoryMark& mark)
+    : path_(folder / "history.csv"),
+      file_(Descriptor::open(path_, true)),
+      scene_(&scene),
+      mark_{mark.rows, mark.last_step, ""},
+      hash_(std::make_unique<Hash128>()) {
   claim();
-  const LineEnds ends = find_line(file_, path_, rows);
-  const std::string first = header(scene), last = rows > 0 ? fmt::format("{},", last_step) : "";
+  const LineEnds ends = find_line(file_, path_, mark.rows);
+  const std::string first = header(scene), last = mark.rows > 0 ? fmt::format("{},", mark.last_step) : "";
   std::string text(std::max(first.size(), last.size()), '\0');
   const auto starts_with = [&](std::uint64_t offset, const std::string& wanted) {
     return file_.read_at(text.data(), wanted.size(), offset, path_) == wanted.size() &&
            text.compare(0, wanted.size(), wanted) == 0;
   };
-  if (ends.lines <= rows || !starts_with(0, first) || (rows > 0 && !starts_with(ends.before, last)))
+  const bool is_long = ends.lines > mark.rows;
+  if (is_long) add_bytes(*hash_, file_, path_, ends.after);
+  if (!is_long || !starts_with(0, first) || !starts_with(ends.before, last) || hash_->text() != mark.hash)
     throw FileError(
         fmt::format("{} is not that of the checkpoint, which has {} rows up to step {}: nothing was changed",
-                    path_.string(), rows, last_step));
+                    path_.string(), mark.rows, mark.last_step));
   size_ = ends.after;
   file_.cut(size_, path_);
 }
+
+HistoryFile::~HistoryFile() = default;
+
+HistoryMark HistoryFile::mark() const { return {mark_.rows, mark_.last_step, hash_->text()}; }
 
 void HistoryFile::claim() const {
   if (!file_.claim()) throw FileError(path_.parent_path().string() + " belongs to a run that goes on now");
@@ -292,6 +318,7 @@ void HistoryFile::append_line(std::string_view line) {
     throw;
   }
   size_ += line.size();
+  hash_->add(line.data(), line.size());
 }
 
 void HistoryFile::append(const HistoryRow& row) {
@@ -300,7 +327,8 @@ void HistoryFile::append(const HistoryRow& row) {
   for (std::size_t k = 1; k < numbers.size(); ++k)
     fmt::format_to(std::back_inserter(line), ",{:.9g}", numbers[k]);
   append_line(line += '\n');
-  ++rows_;
+  ++mark_.rows;
+  mark_.last_step = row.step;
 }
 
 }  // namespace mpmfast

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "engine/output/descriptor.hpp"
+#include "engine/output/folder_lock.hpp"
 #include "engine/output/lines.hpp"
 #include "engine/output/overlap.hpp"
 #include "engine/scene/scene.hpp"
@@ -24,8 +26,8 @@ namespace mpmfast {
 /// Prepares the output folder: refuses an existing one without `force` (SceneError-free; throws FileError),
 /// with `force` removes what an earlier run of ours left there, the pictures that `mpmfast plot` made of it
 /// and report.html, and nothing else: not the scripts of charts (.gp), which are there to be edited. Writes
-/// scene.yaml.
-void prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
+/// scene.yaml. What it returns holds the folder: refuses one in which a run goes on, with `force` too.
+FolderLock prepare_folder(const std::filesystem::path& folder, const Scene& scene, bool force);
 
 /// The charts of `mpmfast plot`.
 inline constexpr std::array<std::string_view, 6> kChartStems{
@@ -91,17 +93,26 @@ std::vector<std::string> history_columns(const Scene& scene);
 /// A row of it, as many numbers.
 std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene);
 
+/// How far a history has come, and which one it is.
+struct HistoryMark {
+  std::uint64_t rows = 0;                       ///< without the header
+  std::uint64_t last_step = ~std::uint64_t{0};  ///< of the last row
+  std::string hash;                             ///< XXH3-128 of header and rows, as hexadecimal text
+};
+
+class Hash128;
+
 /// history.csv: whole up to its last row whenever the run ends, on a full disk too. It belongs to one process
 /// at a time. Everything throws FileError.
 class HistoryFile {
  public:
   /// With a header and no row yet.
   HistoryFile(const std::filesystem::path& folder, const Scene& scene);
-  /// The one that is there, cut to its first rows, of which the last must be that of a step.
-  HistoryFile(const std::filesystem::path& folder, const Scene& scene, std::uint64_t rows,
-              std::uint64_t last_step);
+  /// The one that is there, cut to the mark: up to it, it must be to the byte what was written then.
+  HistoryFile(const std::filesystem::path& folder, const Scene& scene, const HistoryMark& mark);
+  ~HistoryFile();
   void append(const HistoryRow& row);
-  std::uint64_t rows() const { return rows_; }
+  HistoryMark mark() const;
   /// Waits until the disk has it.
   void sync() const;
 
@@ -113,7 +124,9 @@ class HistoryFile {
   std::filesystem::path path_;
   Descriptor file_;
   const Scene* scene_;
-  std::uint64_t size_ = 0, rows_ = 0;  ///< bytes; without the header
+  std::uint64_t size_ = 0;  ///< bytes
+  HistoryMark mark_;        ///< without the hash
+  std::unique_ptr<Hash128> hash_;
 };
 
 /// NAME.pvd and NAME/NNNNNN.vtu: the files of a series, numbered without gaps, and the list that ParaView
@@ -183,6 +196,8 @@ std::string text_hash(const std::string& text);
 /// The content of run.json.
 struct RunSummary {
   std::string scene_name, status = "finished", reason;
+  std::string failed_by;  ///< of a run that failed: physics, files or program
+  HistoryMark history;    ///< what history.csv holds
   int dimension = 2, threads = 1;
   std::uint64_t particles = 0, fields = 0, nodes_active_peak = 0, steps = 0;
   double time = 0, dt_min = 0, dt_max = 0, wall = 0, particle_steps_per_second = 0;

@@ -73,6 +73,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
         fmt::format("{:016x}", XXH64(summary.resolved_yaml.data(), summary.resolved_yaml.size(), 0));
   json["status"] = summary.status;
   json["reason"] = summary.reason;
+  if (!summary.failed_by.empty()) json["failed_by"] = summary.failed_by;
   json["dimension"] = summary.dimension;
   json["particles"] = summary.particles;
   json["fields"] = summary.fields;
@@ -99,6 +100,8 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
                        {"J", summary.outflow->energy}};
   json["warnings"] = summary.scene_warnings;
   for (const RunWarning& warning : run_warnings(summary)) json["warnings"].push_back(warning.text);
+  if (!summary.history.hash.empty())
+    json["history"] = {{"rows", summary.history.rows}, {"hash", summary.history.hash}};
   json["checksum"] = summary.checksum;
   // A file name need not be UTF-8: what is not is replaced rather than losing the whole summary.
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

@@ -10,6 +10,7 @@
 #include "engine/errors.hpp"
 #include "engine/output/checkpoint_file.hpp"
 #include "engine/run/make_row.hpp"
+#include "engine/run/origin.hpp"
 #include "engine/run/overlap_at_start.hpp"
 #include "engine/run/pause.hpp"
 #include "engine/run/run_counters.hpp"
@@ -35,46 +36,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-RunOrigin first_origin(const Scene& scene, const RunOptions& options) {
-  RunOrigin origin;
-  origin.scene_hash = text_hash(scene.resolved_yaml);
-  origin.program = program_text();
-  origin.scene_name = scene.file.filename().string();
-  origin.command = options.command;
-  origin.overrides = options.overrides;
-  origin.warnings = options.scene_warnings;
-  origin.end = std::min(scene.time.end, options.until);
-  origin.max_steps = options.max_steps;
-  return origin;
-}
-
-/// The origin that a checkpoint states, with the end that is asked for now; nothing when that is reached and
-/// all is written. An earlier limit that was not reached holds, one that was gives way to the scene's end.
-std::optional<RunOrigin> next_origin(const Scene& scene, const RunOptions& options,
-                                     CheckpointReader& checkpoint) {
-  RunOrigin origin;
-  double time = 0;
-  std::uint64_t step = 0;
-  origin.visit(checkpoint);
-  checkpoint.number("step/time", time);
-  checkpoint.number("step/number", step);
-  if (origin.scene_hash != text_hash(scene.resolved_yaml))
-    throw FileError(
-        fmt::format("{} was altered: it is not the scene of the checkpoint beside it", scene.file.string()));
-  if (origin.program != program_text() && options.warn)
-    options.warn(
-        fmt::format("the run was begun by another program, {}: what follows need not be to the bit "
-                    "what that would have given",
-                    origin.program));
-  if (has_ended(time, origin.end)) origin.end = scene.time.end;
-  origin.max_steps =
-      step < origin.max_steps ? std::min(origin.max_steps, options.max_steps) : options.max_steps;
-  if (std::isfinite(options.until)) origin.end = options.until;
-  const bool whole = std::filesystem::exists(options.folder / "run.json");
-  if (whole && (has_ended(time, origin.end) || step >= origin.max_steps)) return std::nullopt;
-  return origin;
-}
-
 std::vector<double> after_first(const std::vector<double>& times) {
   return times.empty() ? times : std::vector<double>(times.begin() + 1, times.end());
 }
@@ -84,7 +45,7 @@ class Run {
  public:
   /// From the start.
   Run(const Scene& scene, const RunOptions& options) : Run(scene, options, first_origin(scene, options)) {
-    prepare_folder(options.folder, scene, options.force);
+    lock_.emplace(prepare_folder(options.folder, scene, options.force));
     if constexpr (Dim == 2) warn_of_overlap();
     history_.emplace(options.folder, scene);
     log_.emplace(options.folder, figures());
@@ -96,17 +57,14 @@ class Run {
   }
 
   /// From a checkpoint of the folder, of which the origin has been read.
-  Run(const Scene& scene, const RunOptions& options, const RunOrigin& origin, CheckpointReader& checkpoint)
-      : Run(scene, options, origin) {
-    if (origin_.seeding != origin.seeding)
-      throw FileError(
+  Run(const Scene& scene, const RunOptions& options, const NextOrigin& next, CheckpointReader& checkpoint)
+      : Run(scene, options, next.origin) {
+    if (origin_.seeding != next.origin.seeding)
+      throw CannotResume(
           fmt::format("{} does not give the particles that the run began with: did an image change?",
                       scene.file.string()));
-    step_.visit(checkpoint);
-    counters_.visit(checkpoint);
-    counters_.check(scene.bodies.size());
-    checkpoint.finish();
-    history_.emplace(options.folder, scene, counters_.rows, counters_.last_row_step);
+    read(checkpoint);
+    limits_changed_ = next.limits_changed;
     reopen_folder(options.folder);
     ++counters_.resumes;
     log_.emplace(options.folder, figures());
@@ -121,10 +79,10 @@ class Run {
     start_ = last_save_ -
              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(counters_.wall));
     try {
+      if (limits_changed_) save();  // a kill before the next checkpoint must not bring the old ones back
       loop();
     } catch (const std::exception& failure) {
-      const auto* physical = dynamic_cast<const RunFailure*>(&failure);
-      keep_what_there_is(failure.what(), physical ? physical->place() : std::nullopt);
+      keep_what_there_is(failure);
       throw;
     }
     // Before the last row and frame, which a run that went on would not have written; they are written even
@@ -152,6 +110,20 @@ class Run {
       : scene_(scene), options_(options), origin_(origin), step_(scene), counters_(scene) {
     origin_.seeding = seeding_hash(step_.state().particles);
     counters_.last_sums = step_.sums();
+  }
+
+  /// The state, and the history that belongs to it; changes no file.
+  void read(CheckpointReader& checkpoint) {
+    try {
+      step_.visit(checkpoint);
+      counters_.visit(checkpoint);
+      counters_.check(scene_.bodies.size());
+      checkpoint.finish();
+      history_.emplace(options_.folder, scene_,
+                       HistoryMark{counters_.rows, counters_.last_row_step, counters_.history_hash});
+    } catch (const FileError& error) {
+      throw CannotResume(error.what());
+    }
   }
 
   void warn_of_overlap() {
@@ -208,7 +180,9 @@ class Run {
     if (!scene_.output.checkpoint.active) return;
     step_.find_stresses();
     counters_.wall = seconds_since(start_);
-    counters_.rows = history_->rows();
+    const HistoryMark mark = history_->mark();
+    counters_.rows = mark.rows;
+    counters_.history_hash = mark.hash;
     if (series_) counters_.frame_times = series_->times();
     CheckpointWriter checkpoint(options_.folder / kCheckpointName);
     origin_.visit(checkpoint);
@@ -279,15 +253,17 @@ class Run {
 
   /// After a failure: run.json first, then the neighbourhood of the place where it failed, a last frame and
   /// pictures of the half-made step, if they can be made. The history ends with the last whole row.
-  void keep_what_there_is(const std::string& reason, const std::optional<RunFailure::Place>& place) {
+  void keep_what_there_is(const std::exception& failure) {
+    const auto* physical = dynamic_cast<const RunFailure*>(&failure);
+    failed_by_ = physical ? "physics" : dynamic_cast<const FileError*>(&failure) ? "files" : "program";
     const auto attempt = [](auto f) {
       try {
         f();
       } catch (const std::exception&) {  // the failure itself is what the user must hear of
       }
     };
-    attempt([&] { summarise("failed", reason); });
-    if (place) attempt([&] { write_failed(*place); });
+    attempt([&] { summarise("failed", failure.what()); });
+    if (physical && physical->place()) attempt([&] { write_failed(*physical->place()); });
     attempt([&] { write_frame(); });
     attempt([&] { draw("last"); });
   }
@@ -344,6 +320,8 @@ class Run {
     s.resolved_yaml = scene_.resolved_yaml;
     s.status = status;
     s.reason = reason;
+    s.failed_by = failed_by_;
+    s.history = history_->mark();
     s.peak_memory_bytes = peak_memory_bytes();
     for (std::size_t k = 0; k < kPassNames.size(); ++k)
       s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
@@ -359,6 +337,7 @@ class Run {
 
   const Scene& scene_;
   const RunOptions& options_;
+  std::optional<FolderLock> lock_;  ///< of a run from the start; one that goes on was given it
   RunOrigin origin_;
   Step<Dim> step_;
   RunCounters<Dim> counters_;
@@ -367,15 +346,26 @@ class Run {
   std::optional<ParticleSeries<Dim>> series_;
   std::optional<FrameSeries> grid_series_;
   std::uint64_t saved_step_ = kNever;  ///< of the last checkpoint
+  bool limits_changed_ = false;        ///< since the checkpoint from which it goes on
   std::string stop_reason_;            ///< empty: it was not stopped
+  std::string failed_by_;              ///< empty: it did not fail
   Pause asking_;
   Clock::time_point start_ = Clock::now(), last_report_ = start_, last_save_ = start_;
 };
 
+/// In place, since a reader is not moved.
+std::optional<CheckpointReader> open_checkpoint(const std::filesystem::path& path) {
+  try {
+    return std::optional<CheckpointReader>(std::in_place, path);
+  } catch (const FileError& error) {
+    throw CannotResume(error.what());
+  }
+}
+
 template <int Dim>
-RunSummary go_on(const Scene& scene, const RunOptions& options, const RunOrigin& origin,
+RunSummary go_on(const Scene& scene, const RunOptions& options, const NextOrigin& next,
                  std::optional<CheckpointReader>& checkpoint) {
-  Run<Dim> run(scene, options, origin, *checkpoint);
+  Run<Dim> run(scene, options, next, *checkpoint);
   checkpoint.reset();  // closes the file, which the next one replaces
   return run.execute();
 }
@@ -404,12 +394,13 @@ std::optional<RunSummary> resume_run(const RunOptions& options) {
         options.folder.string() +
         " holds no checkpoint (the first comes after a minute, or as output.checkpoint says): run the "
         "scene anew");
-  std::optional<CheckpointReader> checkpoint(path);
+  const FolderLock lock(options.folder, FolderWriter::run);
+  std::optional<CheckpointReader> checkpoint = open_checkpoint(path);
   const Scene scene = read_scene(options.folder / "scene.yaml");
-  const std::optional<RunOrigin> origin = next_origin(scene, options, *checkpoint);
-  if (!origin) return std::nullopt;
-  if (scene.dimension() == 3) return go_on<3>(scene, options, *origin, checkpoint);
-  return go_on<2>(scene, options, *origin, checkpoint);
+  const std::optional<NextOrigin> next = next_origin(scene, options, *checkpoint);
+  if (!next) return std::nullopt;
+  if (scene.dimension() == 3) return go_on<3>(scene, options, *next, checkpoint);
+  return go_on<2>(scene, options, *next, checkpoint);
 }
 
 }  // namespace mpmfast

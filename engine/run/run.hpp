@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/errors.hpp"
 #include "engine/output/output.hpp"
 #include "engine/scene/scene.hpp"
 
@@ -44,14 +45,22 @@ struct RunOptions {
   std::function<bool()> stop;  ///< asked between steps, every 50 ms at most: true stops it; may be empty
 };
 
+/// What is in the folder does not go on: the checkpoint is spoilt, or scene, history and checkpoint do not
+/// belong together.
+class CannotResume : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// Runs a scene and writes everything of design §4. Throws FileError (exit 4); RunFailure (exit 3) after the
 /// history is closed and run.json says status "failed": the last checkpoint stays.
 RunSummary run_scene(const Scene& scene, const RunOptions& options);
 
 /// Goes on with the run in options.folder from its checkpoint, to the bit as if it had never stopped, up to
-/// options.until or, without it, to where the run was to go. What was written after the checkpoint is cut
-/// off. Returns nothing, and changes nothing, when the run is there already. Throws as run_scene; FileError
-/// also when checkpoint, scene and history do not belong together, SceneError when the scene was spoilt.
+/// options.until or, without it, to where the run was to go: to the limit that it had, unless it ended there.
+/// What was written after the checkpoint is cut off. Returns nothing, and changes nothing, when the run is
+/// there already. Throws as run_scene; CannotResume when checkpoint, scene and history do not belong
+/// together, SceneError when the scene was spoilt.
 std::optional<RunSummary> resume_run(const RunOptions& options);
 
 /// What `mpmfast check` prints: bodies, particles, nodes, fields, contact, memory, time step, steps,

@@ -79,6 +79,7 @@ void RunCounters<Dim>::visit(Archive& archive) {
   archive.number("run/last_row_step", last_row_step);
   archive.number("run/last_frame_step", last_frame_step);
   archive.number("run/rows", rows);
+  archive.list("run/history_hash", history_hash);
   archive.list("run/frame_times", frame_times);
   archive.number("run/last_row_time", last_row_time);
   archive.number("run/particle_steps", particle_steps);

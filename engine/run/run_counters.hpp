@@ -86,6 +86,7 @@ struct RunCounters {
   Sums<Dim> last_sums;             ///< at the last row
   std::uint64_t last_row_step = ~std::uint64_t{0}, last_frame_step = ~std::uint64_t{0};
   std::uint64_t rows = 0;           ///< of history.csv
+  std::string history_hash;         ///< of its header and these rows
   std::vector<double> frame_times;  ///< s
   double last_row_time = 0;         ///< s
   double particle_steps = 0;        ///< particles of each step, which may become fewer

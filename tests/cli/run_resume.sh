@@ -113,6 +113,79 @@ check_resume() {
   rm -rf whole parts stepped spoilt run_before.json scene_before.yaml checkpoint_before.h5
 }
 
+# A history of the same scene and steps, but of another run, or one that somebody edited, is no part of the run.
+check_foreign_history() {
+  local row
+  run 0 run scene.yaml --out one --steps 3 --progress none --set output.history=100
+  run 0 run scene.yaml --out two --steps 3 --progress none --set output.history=100 --set 'bodies.0.velocity=[0, -2 m/s]'
+  cp one/history.csv history_before.csv
+  cp one/run.json run_before.json
+  for row in 1 2 3; do
+    sed "${row}s/-1/-3/;${row}s/0,/0.0,/" history_before.csv >one/history.csv
+    run 4 resume one
+    says err 'one/history.csv is not that of the checkpoint'
+  done
+  cp two/history.csv one/history.csv
+  run 4 resume one
+  says err 'one/history.csv is not that of the checkpoint'
+  cmp -s one/history.csv two/history.csv && cmp -s one/run.json run_before.json || fail 'a refused resume wrote a file'
+  { cat history_before.csv; echo 'what a kill left'; } >one/history.csv
+  run 0 resume one --progress none
+  run 0 run scene.yaml --out two --force --progress none --set output.history=100
+  cmp -s one/history.csv two/history.csv || fail 'a resumed run has another history'
+  rm -rf one two history_before.csv run_before.json
+}
+
+# limit FOLDER TIME STEPS: where the run ended.
+limit() {
+  checks=$((checks + 1))
+  /usr/bin/python3 - "$@" <<'PYTHON' || fail "$1 did not end at $2 us or $3 steps: $(grep -E '"(time_s|steps|reason)"' "$1/run.json")"
+import json, sys
+run = json.load(open(sys.argv[1] + "/run.json"))
+time, steps = sys.argv[2:]
+good = run["status"] == "finished"
+good = good and (time == "-" or abs(run["time_s"] - 1e-6 * float(time)) < 1e-15)
+sys.exit(not (good and (steps == "-" or run["steps"] == int(steps))))
+PYTHON
+}
+
+# The limits of a run hold until it has ended there, whatever stops it before; and those that a resume was told.
+check_limits() {
+  local often='--set output.checkpoint.steps=1 --progress none'
+  run 0 run scene.yaml --out limits --until '0.5 us' $often
+  limit limits 0.5 -
+  rm limits/run.json  # as a kill does after the last checkpoint
+  run 0 resume limits --progress none
+  limit limits 0.5 -
+  run 0 resume limits --progress none
+  limit limits 1 -
+  run 0 run scene.yaml --out limits --force --steps 3 $often
+  rm limits/run.json
+  run 0 resume limits --progress none
+  limit limits - 3
+  run 0 resume limits --progress none
+  limit limits 1 -
+  # What a resume was told holds too, though it was killed before the next checkpoint.
+  run 0 run scene.yaml --out limits --force --until '0.3 us' --set 'bodies.0.velocity=[0, 0]' --progress none
+  local words process
+  for words in '--until 1s' ''; do
+    # shellcheck disable=SC2086
+    "$program" resume limits $words --progress none >out 2>err &
+    process=$!
+    sleep 0.7
+    checks=$((checks + 1))
+    kill -0 "$process" 2>/dev/null || fail 'a run that a resume had told to go on to 1 s ended before'
+    kill -KILL "$process" 2>/dev/null
+    wait "$process" 2>/dev/null
+  done
+  # A number of steps gives way to a time that is told.
+  run 0 run scene.yaml --out limits --force --steps 3 $often
+  rm limits/run.json
+  run 0 resume limits --until '0.9 us' --progress none
+  limit limits 0.9 -
+  rm -rf limits
+}
+
 # No file may grow beyond 40 KiB: the checkpoint does, after history and frames.
 check_full_disk() {
   checks=$((checks + 1))
@@ -162,6 +235,8 @@ check_signals
 check_closed_pipe
 check_second_interrupt
 check_resume
+check_foreign_history
+check_limits
 check_full_disk
 check_removed_folder
 printf '%d checks, %d failures\n' "$checks" "$failures"

@@ -202,37 +202,56 @@ TEST_CASE(
     file.append(row);
   };
   std::string three;
+  HistoryMark third, fifth;
   {
     HistoryFile file(folder.path(), scene);
     for (const std::uint64_t step : {0, 10, 25}) append(file, step);
     three = read_text(path);
-    CHECK(file.rows() == 3);
-    CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 3, 25), FileError);  // the other one still writes
+    third = file.mark();
+    CHECK(third.rows == 3);
+    CHECK(third.last_step == 25);
+    CHECK(third.hash == text_hash(three));
+    // The other one still writes.
+    CHECK_THROWS_AS(HistoryFile(folder.path(), scene, third), FileError);
+    CHECK_THROWS_AS(HistoryFile(folder.path(), scene), FileError);
+    CHECK(read_text(path) == three);
     const FullDisk disk(three.size() + 20);
     CHECK_THROWS_AS(append(file, 31), FileError);
     CHECK(read_text(path) == three);
   }
   {
-    HistoryFile file(folder.path(), scene, 3, 25);
+    HistoryFile file(folder.path(), scene, third);
     CHECK(read_text(path) == three);
     append(file, 31);
     append(file, 32);
+    fifth = file.mark();
+    CHECK(fifth.hash == text_hash(read_text(path)));
   }
   write_text(path, read_text(path) + "33,torn");
-  HistoryFile(folder.path(), scene, 5, 32);
+  HistoryFile(folder.path(), scene, fifth);
   {
-    HistoryFile file(folder.path(), scene, 3, 25);
+    HistoryFile file(folder.path(), scene, third);
     CHECK(read_text(path) == three);
   }
-  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 4, 31), FileError);
-  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 3, 26), FileError);
-  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 2, 1), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, fifth), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, {4, 31, third.hash}), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, {3, 26, third.hash}), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, {2, 1, third.hash}), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, {3, 25, ""}), FileError);
   CHECK(read_text(path) == three);
-  HistoryFile file(folder.path(), scene, 3, 25);
+  for (std::size_t at = 0; at < three.size(); ++at) {  // a digit, a comma, a name: one byte is enough
+    std::string edited = three;
+    edited[at] ^= 1;
+    write_text(path, edited);
+    CHECK_THROWS_AS(HistoryFile(folder.path(), scene, third), FileError);
+    REQUIRE(read_text(path) == edited);
+  }
+  write_text(path, three);
+  HistoryFile file(folder.path(), scene, third);
   std::filesystem::remove(path);
   CHECK_THROWS_AS(append(file, 31), FileError);
   CHECK_THROWS_AS(file.sync(), FileError);
-  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, 3, 25), FileError);
+  CHECK_THROWS_AS(HistoryFile(folder.path(), scene, third), FileError);
 }
 
 TEST_CASE("a particle series that goes on loses later frames, and a reopened folder what a kill left") {

@@ -158,7 +158,9 @@ TEST_CASE("what was written after the checkpoint is cut off") {
   fs::remove(folder / "killed" / "run.json");
   std::ofstream(folder / "killed" / "history.csv", std::ios::app) << "99,0.1";
   std::ofstream(folder / "killed" / "particles" / "000006.vtu.tmp") << "x";
-  CHECK(resume_run(into(folder / "killed"))->resumes == 1);
+  RunOptions options = into(folder / "killed");
+  options.until = scene.time.end;  // not the limit of the early one
+  CHECK(resume_run(options)->resumes == 1);
   check_same_files(folder / "killed", folder / "whole");
 }
 
@@ -241,6 +243,46 @@ TEST_CASE("an end that was asked for holds until it is reached, then the scene's
   CHECK_FALSE(resume_run(into(folder / "run")));
 }
 
+TEST_CASE(
+    "a run that was killed at its limit ends there, and a later end that was asked for lifts all limits") {
+  const Folder folder;
+  const Scene scene = scene_from(kDisks);
+  const fs::path run = folder / "run";
+  RunOptions options = into(run);
+  options.until = 20e-6;
+  run_scene(scene, options);
+  fs::remove(run / "run.json");  // a kill between the last checkpoint and the summary
+  CHECK(resume_run(into(run))->time == doctest::Approx(20e-6));
+  options.until = 30e-6;  // asked for of a run that goes on, and killed there
+  resume_run(options);
+  fs::remove(run / "run.json");
+  CHECK(resume_run(into(run))->time == doctest::Approx(30e-6));
+  CHECK(resume_run(into(run))->time == doctest::Approx(40e-6));
+
+  RunOptions stepped = into(folder / "stepped");
+  stepped.max_steps = 5;
+  run_scene(scene, stepped);
+  fs::remove(folder / "stepped" / "run.json");
+  CHECK(resume_run(into(folder / "stepped"))->steps == 5);
+  fs::remove(folder / "stepped" / "run.json");
+  RunOptions later = into(folder / "stepped");
+  later.until = 30e-6;
+  CHECK(resume_run(later)->time == doctest::Approx(30e-6));
+}
+
+TEST_CASE("what a resume was told is kept at once") {
+  const Folder folder;
+  const Scene scene = scene_from(kDisks);
+  RunOptions options = into(folder / "run");
+  options.until = 20e-6;
+  run_scene(scene, options);
+  options.until = 30e-6;
+  volatile int signal = SIGTERM;  // before the first step
+  options.stop_signal = &signal;
+  CHECK(resume_run(options)->status == "stopped");
+  CHECK(resume_run(into(folder / "run"))->time == doctest::Approx(30e-6));
+}
+
 TEST_CASE("checkpoints come every so many steps, every so often, or never") {
   const Folder folder;
   const auto run_with = [&](const std::string& name, const std::string& checkpoint) {
@@ -307,7 +349,24 @@ TEST_CASE("a checkpoint beside another scene, another history or none is refused
               "scene.yaml was altered"));
   CHECK(holds(refused("history.csv", history.substr(0, history.size() / 2)), "history.csv is not that of"));
   CHECK(holds(refused("history.csv", "step" + history), "history.csv is not that of"));
+  std::string edited = text_of(folder / "run" / "history.csv");
+  edited[edited.rfind(',') + 1] ^= 1;  // the first digit of the last number of the last row
+  CHECK(holds(refused("history.csv", edited), "history.csv is not that of"));
+  // The same steps of the same bodies, which another run made.
+  RunOptions other = into(folder / "other");
+  other.max_steps = 12;
+  run_scene(scene_from(kDisks, {{"bodies.0.velocity", "[61 m/s, 5 m/s]"}}), other);
+  CHECK(
+      holds(refused("history.csv", text_of(folder / "other" / "history.csv")), "history.csv is not that of"));
   CHECK(holds(refused("checkpoint.h5", "x"), "is none of mpmfast"));
+  CHECK_THROWS_AS(
+      [&] {
+        fs::copy(folder / "run", folder / "mixed", fs::copy_options::recursive);
+        fs::copy(folder / "other" / "history.csv", folder / "mixed" / "history.csv",
+                 fs::copy_options::overwrite_existing);
+        resume_run(into(folder / "mixed"));
+      }(),
+      CannotResume);
   CHECK(resume_run(into(folder / "run"))->status == "finished");
 }
 

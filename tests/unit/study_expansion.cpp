@@ -175,3 +175,14 @@ TEST_CASE(
   CHECK((first.time.cfl == 0.2 && last.time.cfl == 0.4));
   CHECK((first.bodies[0].particles_per_cell[0] == 2 && last.bodies[0].particles_per_cell[0] == 3));
 }
+
+TEST_CASE("no folder of a run is called like an option, or leaves the study's folder") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(folder.study(
+      "scene: scene.yaml\n"
+      "variants: [{name: --wrap=id}, {name: -1}, {name: ..}, {name: \"../a\\nb\"}, {name: study}]\n"
+      "quantities: {v: block.vy}\n"));
+  std::vector<std::string> folders;
+  for (const StudyRun& run : runs.variants) folders.push_back(run.folder);
+  CHECK(folders == std::vector<std::string>{"run--wrap=id", "run-1", "run", ".._a_b", "study_2"});
+}

@@ -104,6 +104,55 @@ TEST_CASE("an earlier run counts only with the same scene, by the same program, 
   CHECK((!ended() && note() == ""));
 }
 
+TEST_CASE("an earlier run counts only with the history that it wrote, and if no file or program ended it") {
+  const StudyFolder folder;
+  const StudyRuns runs = expand_study(folder.study(kStudy));
+  const StudyRun& run = runs.variants[0];
+  const auto history = folder.path() / run.folder / "history.csv",
+             json = folder.path() / run.folder / "run.json";
+  const auto now = [&] { return earlier_run(run, folder.path(), 0); };
+  const auto leave = [&](const std::string& more, const std::string& status = "finished") {
+    leave_run(folder.path(), run, status, 1, -10);
+    std::string summary = output_test::read_text(json);
+    write_text(json, summary.replace(summary.rfind('}'), 1, more + "}"));
+  };
+  const std::string rows = "step,time_s,block.vy\n0,0,0\n10,1e-5,-10\n";
+  const std::string hash = fmt::format(", \"history\": {{\"rows\": 2, \"hash\": \"{}\"}}", text_hash(rows));
+  leave(hash);
+  CHECK((!now().ended && now().note == "its history is not the one that it wrote"));
+  write_text(history, rows);
+  CHECK(now().ended);
+  for (std::size_t at = 0; at < rows.size(); ++at) {  // edited or cut anywhere
+    std::string edited = rows;
+    edited[at] ^= 1;
+    write_text(history, edited);
+    CHECK_FALSE(now().ended);
+    write_text(history, rows.substr(0, at));
+    CHECK_FALSE(now().ended);
+  }
+  std::filesystem::remove(history);
+  CHECK((!now().ended && now().note == "its history is gone"));
+  // Of a program that tells no hash: rows, up to the last step.
+  leave("");
+  write_text(history, rows);
+  CHECK(now().ended);
+  for (const char* cut :
+       {"", "step,time_s,block.vy\n", "step,time_s,block.vy\n0,0,0\n", "step,time_s\n1\n"}) {
+    write_text(history, cut);
+    CHECK_FALSE(now().ended);
+  }
+  leave(", \"failed_by\": \"physics\"", "failed");
+  CHECK(now().ended);
+  leave(", \"failed_by\": \"files\"", "failed");
+  CHECK((!now().ended && now().stopped && now().unwritten));
+  leave(", \"failed_by\": \"program\"", "failed");
+  CHECK((!now().ended && !now().stopped));
+  for (const char* summary : {"{\"status\": 5}", "{\"status\": \"finished\", \"version\": {}}", "[]", "7"}) {
+    write_text(json, summary);
+    CHECK_FALSE(now().ended);
+  }
+}
+
 TEST_CASE("a study started again runs what has not ended; by force, everything") {
   const StudyFolder folder;
   const Study study = folder.study(
@@ -146,7 +195,8 @@ TEST_CASE("another program can run a variant; its run counts until the program c
   const auto make_program = [&](const std::string& ending) {
     write_text(folder.path() / "other",
                "#!/bin/sh\nmkdir -p \"$4\"\necho '{\"status\": \"finished\"}' > "
-               "\"$4/run.json\"\necho \"$@\" > \"$4/words\"\nexit " +
+               "\"$4/run.json\"\nprintf '%s\\n' time_s,block.vy 0,0 > \"$4/history.csv\"\n"
+               "echo \"$@\" > \"$4/words\"\nexit " +
                    ending + "\n");
     fs::permissions(folder.path() / "other", fs::perms::owner_all);
   };

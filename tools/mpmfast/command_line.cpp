@@ -11,6 +11,7 @@
 #include "command_mistakes.hpp"
 #include "complain.hpp"
 #include "describe_command_line.hpp"
+#include "engine/output/files.hpp"
 #include "engine/quantities/quantity.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/text/suggest.hpp"
@@ -225,6 +226,19 @@ bool file_like(const std::string& word) {
   return end == ".yaml" || end == ".yml" || std::filesystem::is_regular_file(word, error);
 }
 
+/// What is wrong with a name of a file or folder; empty when nothing is.
+std::string wrong_name(const RawOptions& raw) {
+  std::vector<std::string> names = raw.folders;
+  names.insert(names.end(), {raw.scene, raw.out});
+  for (std::string& name : names) {
+    if (!has_control_character(name)) continue;
+    for (char& c : name)
+      if (has_control_character(std::string(1, c))) c = '?';
+    return fmt::format("a name holds a control character (a line's end, say; here '?'), got '{}'", name);
+  }
+  return "";
+}
+
 /// The command as a shell would take it again.
 std::string command_text(int count, const char* const* arguments) {
   std::string out;
@@ -310,6 +324,8 @@ ParsedCommandLine parse_command_line(int count, const char* const* arguments) {
     fmt::print("{}", *commands.man ? man_page(commands.app) : bash_completion(commands.app));
     return {std::nullopt, 0};
   }
+  if (const std::string wrong = wrong_name(raw); !wrong.empty() && !*commands.begin)
+    return {std::nullopt, refuse(wrong)};
   CommandLine line = make_line(commands, raw);
   line.text = command_text(count, arguments);
   return {line, 0};

@@ -46,8 +46,8 @@ std::optional<fs::path> file_of(const std::string& name) {
     const auto byte = static_cast<unsigned char>(c);
     return byte > 0x20 && byte != 0x7F && c != '/' && c != '\\';
   };
-  if (!is_utf8(name) || stem.empty() || stem.front() == '.' || stem.front() == '-' ||
-      !std::all_of(stem.begin(), stem.end(), good))
+  if (!is_utf8(name) || has_control_character(name) || stem.empty() || stem.front() == '.' ||
+      stem.front() == '-' || !std::all_of(stem.begin(), stem.end(), good))
     return std::nullopt;
   return file;
 }

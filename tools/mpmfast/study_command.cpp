@@ -65,6 +65,17 @@ auto failures(const StudyResults& results) {
                        [](const StudyResult& result) { return result.status == "failed"; });
 }
 
+/// Says which do not. A file that was removed while the study went on may be why.
+bool all_have_results(const StudyRuns& runs, const StudyResults& results) {
+  bool all = true;
+  for (std::size_t k = 0; k < results.variants.size(); ++k)
+    if (results.variants[k].status.empty()) {
+      complain("mpmfast: no result of the run '{}' is left in its folder\n", runs.variants[k].name);
+      all = false;
+    }
+  return all;
+}
+
 }  // namespace
 
 int study_command(const CommandLine& line) {
@@ -84,7 +95,7 @@ int study_command(const CommandLine& line) {
   check_programs(study);
   try_set_up(runs, options);
   catch_stop_signals();
-  prepare_study_folder(study, options.folder);
+  const FolderLock lock = prepare_study_folder(study, options.folder);
   const StudyProgress progress = run_study(runs, options);
   const StudyResults results = collect_results(study, runs, options.folder);
   const std::vector<std::string> missing = write_report(study, runs, results, options.folder);
@@ -97,7 +108,7 @@ int study_command(const CommandLine& line) {
     say("lost             {} of {} runs (said above); the same command tries them again\n", progress.lost,
         progress.ran + progress.kept);
   for (const std::string& why : missing) complain("mpmfast: {}\n", why);
-  if (!progress.stopped) return progress.lost > 0 ? kExitFile : 0;
+  if (!progress.stopped) return progress.lost > 0 || !all_have_results(runs, results) ? kExitFile : 0;
   const int signal = *stop_signal();
   return kExitSignal +
          (signal != 0 ? signal : SIGTERM);  // none came to us: a program of the study was stopped

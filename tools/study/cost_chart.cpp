@@ -185,7 +185,8 @@ ChartPoints collect(const Study& study, const StudyRuns& runs, const StudyResult
 std::string explanation(bool failed) {
   std::string out;
   const auto explain = [&](int type, const char* words) {
-    out += fmt::format(", \\\n  NaN with points pt {} lc rgb '{}' title '{}'", type, kGrey, words);
+    out +=
+        fmt::format(", \\\n  NaN with points pt {} lc rgb '{}' title {}", type, kGrey, gnuplot_text(words));
   };
   explain(kFilled[0], "filled: on the front");
   explain(kFilled[0] - 1, "open: beaten by another");
@@ -259,7 +260,7 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
   for (const auto& [title, points] : panels) {
     const std::string suffix = axis ? fmt::format("_{}", count++) : "";
     plot += fmt::format("set title {}\n", gnuplot_text(title)) +
-            plot_of(points, colour, axis ? "notitle" : fmt::format("title '{}'", front), suffix, data);
+            plot_of(points, colour, axis ? "notitle" : "title " + gnuplot_text(front), suffix, data);
     if (!axis) plot += meaning;
     plot += "\n";
   }
@@ -267,8 +268,8 @@ std::string draw_cost_chart(const Study& study, const StudyRuns& runs, const Stu
     plot +=
         "unset logscale\nunset border\nunset tics\nunset xlabel\nunset ylabel\nunset title\nunset grid\n"
         "set key at graph 0,1 left top Left reverse samplen 1\n"
-        "plot [0:1][0:1] NaN with lines lw 5 lc rgb '#cccccc' title '" +
-        front + "'" + meaning + "\nset border\nset tics\nunset multiplot\n";
+        "plot [0:1][0:1] NaN with lines lw 5 lc rgb '#cccccc' title " +
+        gnuplot_text(front) + meaning + "\nset border\nset tics\nunset multiplot\n";
   return draw_with_gnuplot({folder, stem}, data, plot + "\nunset logscale\n",
                            axis ? static_cast<int>(480 * across) : 1000,
                            axis ? static_cast<int>(360 * down + 30) : 620);

@@ -83,7 +83,8 @@ class Expansion {
     }
     settings.insert(settings.end(), more.begin(), more.end());
     run.name = name;
-    const std::string wanted = file_name_of(name).empty() ? "run" : file_name_of(name);
+    std::string wanted = file_name_of(name);
+    if (wanted.empty() || wanted.front() == '-') wanted = "run" + wanted;  // no option of a launcher
     run.folder = wanted;
     run.scene_file = scene_of(study_, choice);
     for (int n = 2; !folders_.insert(run.folder).second; ++n) run.folder = fmt::format("{}_{}", wanted, n);

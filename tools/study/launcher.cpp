@@ -28,6 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 2> kNamesInBraces{"{threads}", "{name}"};
+constexpr int kRefused =
+    4;  ///< the exit status of a resume that cannot be, and of files that cannot be written
 constexpr std::string_view kCommand = "$ ";  ///< before a command in the log
 // A shared folder may show a file only so long after another machine wrote it.
 constexpr std::chrono::seconds kShareDelay{30};
@@ -83,7 +85,8 @@ class LaunchedRun {
       const std::string why = reason(status, now);
       if (restart == launch_.restarts || !may_heal(status, now, goes_on))
         return {true, false, fmt::format("lost: {} ({})", why, log_.string())};
-      anew = goes_on && !was_killed(status) && !now.stopped;  // its checkpoint does not serve
+      // What is refused says so; what else ends by itself left a checkpoint that does not serve.
+      anew = goes_on && (status == kRefused || (!was_killed(status) && !now.stopped));
       again(fmt::format("{}; started again{}, {} of {}", why,
                         !anew && may_go_on() ? " from its checkpoint" : "", restart + 1, launch_.restarts));
     }
@@ -152,8 +155,8 @@ class LaunchedRun {
   }
 
   std::string reason(int status, const EarlierRun& now) const {
-    if (now.stopped) return "somebody stopped it";
-    if (!now.note.empty()) return "what ran does not count, " + now.note;
+    if (now.stopped && status != kRefused) return "somebody stopped it";
+    if (!now.note.empty() && !now.stopped) return "what ran does not count, " + now.note;
     if (status == 0 || status == 3)
       return fmt::format("exit status {}, but no run.json: is the folder shared, does the launcher wait?",
                          status);
@@ -165,6 +168,7 @@ class LaunchedRun {
 
   /// Another start would meet the same mistake where the run ended by itself.
   static bool may_heal(int status, const EarlierRun& now, bool goes_on) {
+    if (now.unwritten) return false;
     if (now.stopped) return true;
     if (!now.note.empty()) return false;
     return goes_on || (status != 0 && status != 2 && status != 3);

@@ -52,7 +52,9 @@ void check_programs(const Study& study) {
     for (const Choice& choice : axis.choices) {
       if (!choice.program) continue;
       const fs::path path = program_path(study, *choice.program);
-      if (find_program(path).empty())
+      if (has_control_character(path)) {  // it stands in a comment of the scenes that it runs
+        problems.add(choice.program->place, choice.program->path, "holds a control character");
+      } else if (find_program(path).empty())
         problems.add(choice.program->place, choice.program->path,
                      fmt::format("no program '{}' that could be run", path.string()));
     }
@@ -86,13 +88,16 @@ std::vector<std::string> resume_words(const fs::path& program, const fs::path& f
 
 std::string run_by_program(const StudyRun& run, const fs::path& folder, int threads,
                            const volatile int* stop_signal) {
-  const fs::path scene = order_file(run, folder);
+  const fs::path scene = order_file(run, folder), summary = folder / run.folder / "run.json";
+  std::error_code error;
+  fs::remove(summary, error);  // of an earlier program, should this one never begin
   write_aside(scene, order_text(run));
   ChildOptions options;  // its summary is in run.json; its messages are for the user
   options.stop_signal = stop_signal;
   const int status = run_child(run_words(run.program, scene, folder / run.folder, threads), options);
   for (const auto& [code, ending] : kEndings)
     if (status == code) return ending;
+  fs::remove(summary, error);  // a disk that was full is no result
   throw FileError(
       fmt::format("{} run {} ended with exit status {}", run.program.string(), scene.string(), status));
 }

@@ -133,18 +133,36 @@ class StudyQueue {
 
   /// Runs it here: "finished, 0.25 s", "failed: why".
   std::string status_of(const StudyRun& run, bool go_on) const {
-    if (!run.program.empty())
-      return run_by_program(run, options_.folder, threads_of(options_), options_.stop_signal);
+    if (!run.program.empty()) return status_by_program(run);
     const RunOptions how = options_of(run, options_);
     try {
-      const bool saved = std::filesystem::exists(how.folder / "checkpoint.h5");
-      const std::optional<RunSummary> resumed = go_on && saved ? resume_run(how) : std::nullopt;
+      const std::optional<RunSummary> resumed = go_on ? resume(how) : std::nullopt;
       const RunSummary summary = resumed ? *resumed : run_scene(run.scene, how);
       return summary.status == "stopped" ? summary.status
                                          : fmt::format("{}, {:.2f} s", summary.status, summary.wall);
     } catch (const RunFailure& failure) {
       return fmt::format("failed: {}", failure.what());
     }
+  }
+
+  /// Nothing where there is no checkpoint that serves: the run begins anew.
+  static std::optional<RunSummary> resume(const RunOptions& how) {
+    if (!fs::exists(how.folder / "checkpoint.h5")) return std::nullopt;
+    try {
+      return resume_run(how);
+    } catch (const CannotResume&) {
+      return std::nullopt;
+    }
+  }
+
+  /// By another program, which need not be one that leaves results.
+  std::string status_by_program(const StudyRun& run) const {
+    const std::string ending =
+        run_by_program(run, options_.folder, threads_of(options_), options_.stop_signal);
+    const EarlierRun left = earlier_run(run, options_.folder, 0);
+    if (left.ended || left.stopped || ending == "stopped") return ending;
+    throw FileError(fmt::format("{} left no result of the run '{}': {}", run.program.string(), run.name,
+                                left.note.empty() ? "no run.json that can be read" : left.note));
   }
 
   std::vector<const StudyRun*> runs_;
@@ -165,9 +183,11 @@ bool may_hold_study(const fs::path& folder) {
          (fs::is_empty(folder, error) || fs::exists(folder / "study.yaml", error));
 }
 
-void prepare_study_folder(const Study& study, const fs::path& folder) {
+FolderLock prepare_study_folder(const Study& study, const fs::path& folder) {
   make_folder(folder);
+  FolderLock lock(folder, FolderWriter::study);
   write_aside(folder / "study.yaml", study.text);
+  return lock;
 }
 
 void try_set_up(const StudyRuns& runs, const StudyOptions& options) {

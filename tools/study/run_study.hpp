@@ -39,8 +39,9 @@ struct StudyOptions {
 /// Is the folder absent, empty, or that of a study?
 bool may_hold_study(const std::filesystem::path& folder);
 
-/// Makes the folder and keeps the study in it. Throws FileError.
-void prepare_study_folder(const Study& study, const std::filesystem::path& folder);
+/// Makes the folder and keeps the study in it. What it returns holds the folder: refuses one in which a study
+/// goes on. Throws FileError.
+FolderLock prepare_study_folder(const Study& study, const std::filesystem::path& folder);
 
 /// Sets every run up that has not ended, and drops it: throws SceneError before anything is written when one
 /// cannot be (a particle outside the grid).

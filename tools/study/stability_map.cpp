@@ -98,21 +98,24 @@ const char* cell_colour(const StudyResult* cell) {
 }
 
 std::string draw(const Study& study, const Map& map, const std::filesystem::path& folder) {
-  std::string data = "$map << EOD\n", rows, columns;
+  std::string data = "$map << EOD\n", rows, columns, texts;
   for (std::size_t y = 0; y < map.rows.size(); ++y) {
-    rows += fmt::format("{}{} {}", y ? ", " : "", gnuplot_text(map.rows[y].name), y);
-    for (std::size_t x = 0; x < map.columns.size(); ++x)
-      data += fmt::format("{} {} {} \"{}\"\n", x, y, cell_colour(map.rows[y].cells[x]),
-                          cell_text(study, map.rows[y].cells[x]));
+    rows += fmt::format("{}{} {}", y ? ", " : "", gnuplot_tic(map.rows[y].name), y);
+    for (std::size_t x = 0; x < map.columns.size(); ++x) {
+      const StudyResult* cell = map.rows[y].cells[x];
+      data += fmt::format("{} {} {}\n", x, y, cell_colour(cell));
+      if (was_run(cell))
+        texts +=
+            fmt::format("set label {} at {},{} center front\n", gnuplot_text(cell_text(study, cell)), x, y);
+    }
   }
-  data += "EOD\n";
+  data += "EOD\n" + texts;
   for (std::size_t x = 0; x < map.columns.size(); ++x)
-    columns += fmt::format("{}{} {}", x ? ", " : "", gnuplot_text(map.columns[x]), x);
+    columns += fmt::format("{}{} {}", x ? ", " : "", gnuplot_tic(map.columns[x]), x);
   const std::string plot = fmt::format(
       "set title {}\nset xlabel {}\nset xtics ({}) scale 0\nset ytics ({}) scale 0\nunset key\n"
       "set xrange [-0.5:{}]\nset yrange [{}:-0.5]\nset style fill solid border rgb 'white'\n"
-      "plot $map using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc rgb variable, \\\n"
-      "  $map using 1:2:4 with labels",
+      "plot $map using 1:2:($1-0.5):($1+0.5):($2-0.5):($2+0.5):3 with boxxyerror lc rgb variable",
       gnuplot_text(map.name), gnuplot_text(study.axes[study.map->columns].name), columns, rows,
       static_cast<double>(map.columns.size()) - 0.5, static_cast<double>(map.rows.size()) - 0.5);
   const int width = 160 + 110 * static_cast<int>(map.columns.size());

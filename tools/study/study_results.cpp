@@ -14,6 +14,7 @@
 
 #include "engine/errors.hpp"
 #include "engine/output/json_depth.hpp"
+#include "engine/output/output.hpp"
 #include "mpmfast_version.hpp"
 #include "other_program.hpp"
 #include "pareto.hpp"
@@ -31,11 +32,19 @@ std::string read_text(const fs::path& file) {
 
 /// run.json, or nothing when it is not there or not whole.
 std::optional<nlohmann::json> read_summary(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "run.json", error)) return std::nullopt;
   const std::string text = read_text(folder / "run.json");
   if (!is_shallow_json(text)) return std::nullopt;
   auto json = nlohmann::json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object()) return std::nullopt;
   return json;
+}
+
+/// Empty where there is no text of that name.
+std::string text(const nlohmann::json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
 double number(const nlohmann::json& json, const char* key) {
@@ -49,8 +58,8 @@ std::uint64_t count(const nlohmann::json& json, const char* key) {
 }
 
 void read_summary(const nlohmann::json& json, StudyResult& result) {
-  result.status = json.value("status", "");
-  result.reason = json.value("reason", "");
+  result.status = text(json, "status");
+  result.reason = text(json, "reason");
   result.particle_steps = number(json, "particles") * number(json, "steps");
   result.wall = number(json, "wall_s");
   result.speed = number(json, "particle_steps_per_s");
@@ -176,9 +185,37 @@ std::string what_differs(const StudyRun& run, const fs::path& folder, const nloh
   constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
       {{"version", kVersion}, {"git", kGit}, {"compiler", kCompiler}, {"flags", kFlags}}};
   for (const auto& [key, value] : kProgram)
-    if (json.value(key, "") != value)
-      return fmt::format("the program's {} was {}", key, json.value(key, "not known"));
+    if (const std::string was = text(json, key); was != value)
+      return fmt::format("the program's {} was {}", key, was.empty() ? "not known" : was);
   return "";
+}
+
+/// Does a history have rows, and the last one that of the run's last step? For programs that tell no hash.
+bool ends_with_run(const fs::path& history, const nlohmann::json& json) {
+  try {
+    const Table table = read_table(history, Unended::torn);
+    if (table.rows() == 0) return false;
+    const std::vector<double>* step = table.find("step");
+    const double last = number(json, "steps");
+    return text(json, "status") == "failed" || !step || std::isnan(last) || step->back() == last;
+  } catch (const FileError&) {
+    return false;
+  }
+}
+
+/// Why what an ended run left is no result; empty if it is one.
+std::string no_result(const fs::path& folder, const nlohmann::json& json) {
+  const std::string by = text(json, "failed_by");
+  if (!by.empty() && by != "physics")
+    return fmt::format("it was no failure of the run: {}", text(json, "reason"));
+  const fs::path history = folder / "history.csv";
+  std::error_code error;
+  if (!fs::is_regular_file(history, error)) return "its history is gone";
+  const auto mark = json.find("history");
+  const bool same = mark != json.end() && mark->is_object()
+                        ? text_hash(read_text(history)) == text(*mark, "hash")
+                        : ends_with_run(history, json);
+  return same ? "" : "its history is not the one that it wrote";
 }
 
 }  // namespace
@@ -186,11 +223,13 @@ std::string what_differs(const StudyRun& run, const fs::path& folder, const nloh
 EarlierRun earlier_run(const StudyRun& run, const fs::path& folder, int threads) {
   const auto json = read_summary(folder / run.folder);
   if (!json) return {};
-  const std::string status = json->value("status", ""), other = what_differs(run, folder, *json);
+  const std::string status = text(*json, "status"), other = what_differs(run, folder, *json);
   if (status != "finished" && status != "failed") return {false, other.empty(), "it was stopped before"};
   if (!other.empty()) return {false, false, other};
-  if (threads > 0 && json->value("threads", 0) != threads) return {false, false, "the threads were others"};
-  if (status == "failed") return {true, false, fmt::format("failed: {}", json->value("reason", ""))};
+  if (threads > 0 && number(*json, "threads") != threads) return {false, false, "the threads were others"};
+  if (text(*json, "failed_by") == "files") return {false, true, text(*json, "reason"), true};
+  if (const std::string why = no_result(folder / run.folder, *json); !why.empty()) return {false, false, why};
+  if (status == "failed") return {true, false, fmt::format("failed: {}", text(*json, "reason"))};
   return {true, false, fmt::format("finished, {:.2f} s", number(*json, "wall_s"))};
 }
 
@@ -215,17 +254,17 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const fs
   for (const StudyRun& run : runs.references) {
     references_ended = references_ended && earlier_run(run, folder, 0).ended;
     const auto json = read_summary(folder / run.folder);
-    if (json && json->value("status", "") == "failed") out.reference_failed = true;
+    if (json && text(*json, "status") == "failed") out.reference_failed = true;
   }
   for (const StudyRun& run : runs.variants) {
     StudyResult result;
     const auto json = read_summary(folder / run.folder);
     if (json && earlier_run(run, folder, 0).ended) {
       read_summary(*json, result);
-      out.machine.cpu = json->value("cpu", "");
+      out.machine.cpu = text(*json, "cpu");
       if (run.program.empty())
-        out.machine.version = fmt::format("{} ({})", json->value("version", ""), json->value("git", ""));
-      out.machine.threads = json->value("threads", 0);
+        out.machine.version = fmt::format("{} ({})", text(*json, "version"), text(*json, "git"));
+      out.machine.threads = static_cast<int>(count(*json, "threads"));
       if (references_ended) measure(study, runs, run, folder, result);
       judge(study, run, folder, result);
       tabulate(study, run, folder, result);

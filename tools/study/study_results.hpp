@@ -48,9 +48,12 @@ StudyResults collect_results(const Study& study, const StudyRuns& runs, const st
 
 /// What an earlier start of the study left of a run.
 struct EarlierRun {
-  bool ended = false;    ///< finished or failed, with this scene and by this program: nothing to do
-  bool stopped = false;  ///< by a signal, with this scene and by this program: its checkpoint serves
-  std::string note;      ///< how it ended, or why it does not count; empty when there is nothing
+  /// Finished or failed, with this scene and by this program, its history as it wrote it: nothing to do.
+  bool ended = false;
+  /// By a signal or a full disk, with this scene and by this program: its checkpoint serves.
+  bool stopped = false;
+  std::string note;        ///< how it ended, or why it does not count; empty when there is nothing
+  bool unwritten = false;  ///< stopped, since a file could not be written
 };
 
 /// @param threads  the earlier run must have had as many, unless 0
