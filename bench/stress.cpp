@@ -48,15 +48,18 @@ void advance(benchmark::State& state) {
   auto law = Parameters;
   benchmark::DoNotOptimize(law);
   constexpr std::size_t n = 1024;
-  Column<double> increment[Dim * Dim], tau[kSymmetric<Dim>], wave_speed, evolving[4 + kSymmetric<Dim>];
+  Column<double> increment[Dim * Dim], tau[kSymmetric<Dim>], wave_speed, evolving[5 + kSymmetric<Dim>];
   for (auto& column : increment) column.resize_discard(n);
   for (auto& column : tau) column.resize_discard(n);
   for (auto& column : evolving) column.resize_discard(n);
   wave_speed.resize_discard(n);
-  StateView<Dim> view{evolving[0].data(), evolving[1].data(), evolving[2].data(), evolving[3].data(), {}};
+  StateView<Dim> view{
+      evolving[0].data(), evolving[1].data(), evolving[2].data(), evolving[3].data(), {}, nullptr};
+  view.volume_ratio = evolving[4 + kSymmetric<Dim>].data();
   for (int c = 0; c < kSymmetric<Dim>; ++c) view.elastic_strain[c] = evolving[4 + c].data();
   for (std::size_t p = 0; p < n; ++p) {
     view.temperature[p] = law.start_temperature;
+    view.volume_ratio[p] = 1;
     for (int c = 0; c < 3; ++c) view.elastic_strain[c][p] = 1;
     for (std::size_t e = 0; e < Dim * Dim; ++e)
       increment[e][p] = 0.02 * std::sin(static_cast<double>(p * 9 + e));

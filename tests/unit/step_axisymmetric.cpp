@@ -201,10 +201,11 @@ TEST_CASE("a law with a history answers about an axis as in three dimensions") {
     l[e] = broadcast<Lanes>(gradient[e]);
     f[e] = broadcast<Lanes>(e % 3 == 0 ? 1.0 : 0.0);
   }
-  std::vector<double> dissipated(kLanes, 0.0), plastic(kLanes, 0.0), elastic(4 * kLanes);
+  std::vector<double> dissipated(kLanes, 0.0), plastic(kLanes, 0.0), elastic(4 * kLanes), volume(kLanes, 1.0);
   StateView<2> view{};
   view.dissipated = dissipated.data();
   view.plastic_strain = plastic.data();
+  view.volume_ratio = volume.data();
   for (int c = 0; c < 4; ++c) {
     view.elastic_strain[c] = elastic.data() + c * kLanes;
     std::fill_n(view.elastic_strain[c], kLanes, c < 3 ? 1.0 : 0.0);
@@ -215,7 +216,7 @@ TEST_CASE("a law with a history answers about an axis as in three dimensions") {
   Lanes all[6];
   for (int step = 0; step < 20; ++step) {
     solid.strain(full, 1e-3);
-    advance_hoop(view, steel, l, rate, 1e-3, 2, 0, kLanes, f, s, all, c2);
+    store_lanes(volume.data(), advance_hoop(view, steel, l, rate, 1e-3, 2, 0, kLanes, f, s, all, c2));
   }
   for (int c = 0; c < 4; ++c) {
     tau[c] = all[c];
@@ -224,6 +225,7 @@ TEST_CASE("a law with a history answers about an axis as in three dimensions") {
   CHECK(plastic[0] > 0.01);
   CHECK(plastic[0] == doctest::Approx(solid.state.plastic_strain).epsilon(1e-12));
   CHECK(double{s[0]} == doctest::Approx(solid.f[8]).epsilon(1e-14));
+  CHECK(volume[0] == doctest::Approx(solid.volume()).epsilon(1e-13));
 }
 
 }  // namespace
