@@ -198,6 +198,24 @@ void SurfaceWalls<Dim>::take(const State<Dim>& state, const Column& column, cons
           {slot, Vec<Dim>::Unit(wall.axis), share_ * start.row[k], momentum[slot] / mass[slot], wall.speed});
 }
 
+/// Of a column that forces bring to the wall the first strain of the step is not held: material moves with v_s,
+/// then with the target.
+template <int Dim>
+void SurfaceWalls<Dim>::take_touch(const State<Dim>& state, const Column& column, const Change& both,
+                                   BoundaryBooks<Dim>& books) const {
+  const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
+  const double *mass = state.nodes.column(Nodal::mass),
+               *momentum = state.nodes.column(Nodal::momentum, wall.axis);
+  const Change start = of_momentum(state, column, column.target, wall.axis);
+  for (std::size_t k = 0; k < kRows; ++k) {
+    const int slot = column.slot[k];
+    if (slot < 0 || !(mass[slot] > 0)) continue;
+    const double v = momentum[slot] / mass[slot];
+    books.taken.push_back({slot, Vec<Dim>::Unit(wall.axis), start.row[k], v, wall.speed});
+    books.work += (both.row[k] - start.row[k]) * (0.5 * (v + column.target) - wall.speed);
+  }
+}
+
 /// Impulses that the particles take too.
 template <int Dim>
 void SurfaceWalls<Dim>::push(State<Dim>& state, double dt, Column& column, const Change& change,
@@ -233,6 +251,7 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
       });
       if (!(-wall.out * both.sum > 0)) continue;
       column.touches = true;
+      if (wall.moves) take_touch(state, column, both, books);
       push(state, dt, column, both, 1, books);
       continue;
     }
@@ -244,6 +263,7 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
     if (by_force + share_ * by_start > 0) {
       push(state, dt, column, forced, 1, books);
       take(state, column, start, books);
+      if (wall.moves) books.work += forced.sum * (column.target - wall.speed);
       push(state, dt, column, start, share_, books);
       add(state, Nodal::momentum, column, wall.axis, start, 1 - share_);
     } else if (by_force + by_start > 0) {  // it comes in while the forces pull: the grid alone is held

@@ -141,6 +141,8 @@ class SurfaceWalls {
            double factor) const;
   void take(const State<Dim>& state, const Column& column, const Change& start,
             BoundaryBooks<Dim>& books) const;
+  void take_touch(const State<Dim>& state, const Column& column, const Change& both,
+                  BoundaryBooks<Dim>& books) const;
   void push(State<Dim>& state, double dt, Column& column, const Change& change, double factor,
             BoundaryBooks<Dim>& books) const;
   void hold_slip(State<Dim>& state, const Column& column);

@@ -43,13 +43,13 @@ std::string sine() {
 /// The bar shaken by its end, by given nodes ("box") or by a wall.
 std::string shaken_bar(const std::string& at) {
   if (at == "box")
-    return bar("left: {box: {from: [-1 m, -1 m], to: [1.2 m, 2 m]}, direction: x, speed: " + sine() + "}");
+    return bar("base: {box: {from: [-1 m, -1 m], to: [1.2 m, 2 m]}, direction: x, speed: " + sine() + "}");
   return bar("left: {piston: " + sine() + ", position: 1.2 m, at: " + at + "}");
 }
 
 /// The bar pushed by a wall, until the first wave is on its way back: what rests on a wall is never pulled.
 std::string pushed_bar(const std::string& at) {
-  return bar("left: {piston: {times: [0 s, 0.1 s], values: [0 m/s, 2 m/s]}, position: 1.2 m, at: " + at + "}");
+  return bar("left: {piston: {times: [0 s, 0.1 s], values: [0 m/s, 0.2 m/s]}, position: 1.2 m, at: " + at + "}");
 }
 
 double energy_of(Step<2>& step) { return kinetic_energy(step.state().particles) + step.stored_energy(); }
@@ -78,7 +78,7 @@ TEST_CASE("a bar has the work of what shakes it, by any condition, in every basi
         CAPTURE(std::string(at));
         CAPTURE(std::string(basis));
         CAPTURE(std::string(cfl));
-        const double off = imbalance(shaken_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}}); MESSAGE(at, " ", basis, " ", cfl, " ", off);CHECK(off<5e-4);
+        const double off = imbalance(shaken_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}}); MESSAGE(std::string(at), " ", std::string(basis), " ", std::string(cfl), " ", off);CHECK(off<5e-4);
       }
 }
 
@@ -89,8 +89,7 @@ TEST_CASE("a bar has the work of the piston that pushes it, wherever the piston 
         CAPTURE(std::string(at));
         CAPTURE(std::string(basis));
         CAPTURE(std::string(cfl));
-        CHECK(imbalance(pushed_bar(at),
-                        {{"method.basis", basis}, {"time.cfl", cfl}, {"time.end", "0.19 s"}}) < 5e-4);
+        const double off = imbalance(pushed_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}, {"time.end", "0.19 s"}}); MESSAGE(std::string(at), " ", std::string(basis), " ", std::string(cfl), " ", off); CHECK(off < 5e-4);
       }
 }
 
