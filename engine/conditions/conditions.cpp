@@ -32,7 +32,9 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) 
   cut_.assign(n, 1);
   books_.force.assign(n, Vec<Dim>::Zero());
   for (std::size_t b = 0; b < n; ++b) {
-    fastest_ = std::max(fastest_, largest(speed_table(scene.boundaries[b])));
+    const double largest_speed = largest(speed_table(scene.boundaries[b]));
+    fastest_ = std::max(fastest_, largest_speed);
+    moves_.push_back(largest_speed > 0);
     const int index = static_cast<int>(b);
     if (const auto* wall = std::get_if<WallSpec>(&scene.boundaries[b].condition)) {
       components_.push_back({index, axis_vector<Dim>(wall->axis), true});
@@ -50,11 +52,10 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) 
 template <int Dim>
 void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
   const auto& grid = scene_->grid;
-  books_.work = books_.friction_work = 0;
+  books_.open();
   for (std::size_t b = 0; b < scene_->boundaries.size(); ++b) {
     const auto& table = speed_table(scene_->boundaries[b]);
     speed_[b] = mean_over(table, t, dt);
-    books_.force[b] = Vec<Dim>::Zero();
     const auto* wall = std::get_if<WallSpec>(&scene_->boundaries[b].condition);
     if (!wall) continue;
     const double plane = wall->position + integral_to(table, t);
@@ -206,20 +207,25 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
   struct Prescribed {
     Vec<Dim> direction;
     double speed;
+    bool moves;
     int boundary;
   };
   std::vector<Prescribed> distinct;
   for (int member : c.members) {
     const Component& component = components_[static_cast<std::size_t>(member)];
-    const double speed = component.moving ? speed_[static_cast<std::size_t>(component.boundary)] : 0.0;
+    const auto b = static_cast<std::size_t>(component.boundary);
+    const double speed = component.moving ? speed_[b] : 0.0;
+    const bool moves = component.moving && moves_[b];
     const auto parallel = [&](const Prescribed& p) {
       return std::abs(p.direction.dot(component.direction)) > 1 - 1e-12;
     };
     const auto twin = std::find_if(distinct.begin(), distinct.end(), parallel);
     if (twin == distinct.end())
-      distinct.push_back({component.direction, speed, component.boundary});
-    else
+      distinct.push_back({component.direction, speed, moves, component.boundary});
+    else {
       twin->speed += twin->direction.dot(component.direction) * speed;
+      twin->moves |= moves;
+    }
   }
   c.count = 0;
   c.share.setZero();
@@ -227,11 +233,13 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
     if (c.count == Dim) break;  // the velocity is fixed already
     Vec<Dim> rest = p.direction;
     double rest_speed = p.speed;
+    bool moves = p.moves;
     for (int k = 0; k < c.count; ++k) {
       const double along = p.direction.dot(c.direction[k]);
       c.share(c.count, k) = along;
       rest -= along * c.direction[k];
       rest_speed -= along * c.speed[k];
+      moves |= along != 0 && c.moves[k];
     }
     const double length = rest.norm();
     if (length < 1e-9) continue;
@@ -239,12 +247,16 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
     c.pushing[c.count] = p.direction;
     c.direction[c.count] = rest / length;
     c.speed[c.count] = rest_speed / length;
+    c.moves[c.count] = moves;
     c.boundary[c.count++] = p.boundary;
   }
 }
 
 template <int Dim>
 void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
+  if (velocities == Nodal::re_extrapolated)
+    books_.settle(
+        [&](const auto& taken) { return state.nodes.vector(velocities, taken.slot).dot(taken.direction); });
   for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
     const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
@@ -342,6 +354,29 @@ void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
   }
 }
 
+/// What the particles take of v_s at nodes and planes that move (BoundaryBooks): the share s of m (u − v_s).
+template <int Dim>
+void Conditions<Dim>::take_shares(const State<Dim>& state, double share) {
+  const double* mass = state.nodes.column(Nodal::mass);
+  const auto start = [&](int slot) -> Vec<Dim> {
+    return state.nodes.vector(Nodal::momentum, slot) / mass[slot];
+  };
+  for (const auto& [slot, combination] : nodes_) {
+    const Combination& c = combinations_[static_cast<std::size_t>(combination)];
+    for (int k = 0; mass[slot] > 0 && k < c.count; ++k) {
+      if (!c.moves[k]) continue;
+      const double v = start(slot).dot(c.direction[k]);
+      books_.taken.push_back({slot, c.direction[k], share * mass[slot] * (c.speed[k] - v), v, c.speed[k]});
+    }
+  }
+  apply_cuts(state, start, [&](int component, int slot, const Vec<Dim>& e, double impulse) {
+    const Component& c = components_[static_cast<std::size_t>(component)];
+    const auto b = static_cast<std::size_t>(c.boundary);
+    if (c.moving && moves_[b])
+      books_.taken.push_back({slot, e, share * impulse, start(slot).dot(e), speed_[b]});
+  });
+}
+
 /// The strains of a step see (1 − P)v_s and (1 − P)v', P the part that the wall holds. A reaction −P(f Δt)
 /// then gives the particles what is stored and the wall's work, to round-off; −P v_s beside it takes ½ m |P
 /// v_s|² off in every step, most of it what particles at different distances from the wall differ by. To
@@ -349,6 +384,8 @@ void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
 /// that.
 template <int Dim>
 void Conditions<Dim>::react(State<Dim>& state, double dt, double share) {
+  gives_back_ = share < 1;
+  if (fastest_ > 0) take_shares(state, share);
   apply(state, dt, [&](double mass, int slot, const Vec<Dim>& e, double speed) {
     const Vec<Dim> f = state.nodes.vector(Nodal::force, slot), p = state.nodes.vector(Nodal::momentum, slot);
     const double wanted = mass * speed - p.dot(e);
@@ -394,6 +431,12 @@ void Conditions<Dim>::enforce(State<Dim>& state, double dt) {
     book(component, impulse, dt);
   });
   walls_.enforce(state, dt, books_);
+  if (gives_back_) return;
+  // v′ without what the particles' weights smooth: v_s + a Δt.
+  books_.settle([&](const auto& taken) {
+    const double mass = state.nodes.column(Nodal::mass)[taken.slot];
+    return taken.start + dt / mass * state.nodes.vector(Nodal::force, taken.slot).dot(taken.direction);
+  });
 }
 
 template class Conditions<2>;

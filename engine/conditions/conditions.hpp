@@ -98,6 +98,7 @@ class Conditions {
     int count = 0;             ///< orthonormal directions
     Vec<Dim> direction[Dim];
     double speed[Dim];
+    bool moves[Dim];        ///< at some time
     Mat<Dim> share;         ///< prescribed directions by orthonormal ones, lower triangle
     Vec<Dim> pushing[Dim];  ///< the prescribed directions
     int boundary[Dim];      ///< which boundary a direction's reaction is booked on
@@ -133,6 +134,7 @@ class Conditions {
   template <class Velocity, class Push>
   void apply_cuts(const State<Dim>& state, Velocity velocity, Push push) const;
   void book(int component, double impulse, double dt);
+  void take_shares(const State<Dim>& state, double share);
 
   const Scene* scene_;
   std::vector<Component> components_;
@@ -142,6 +144,8 @@ class Conditions {
   std::vector<int> combination_at_;                 ///< by slot; −1: free
   std::vector<Cut> cuts_;
   std::vector<double> speed_;  ///< by boundary, this step
+  std::vector<bool> moves_;    ///< by boundary: at some time
+  bool gives_back_ = false;    ///< in this step particles keep their velocities and give back v′
   std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it
   std::vector<double> cut_;    ///< by wall: cells from the last row inside to the plane; 1: it lies on a row
   BoundaryBooks<Dim> books_;

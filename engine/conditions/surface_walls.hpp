@@ -9,18 +9,12 @@
 #include <limits>
 #include <vector>
 
+#include "engine/conditions/boundary_books.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
 
 namespace mpmfast {
-
-/// Forces of the boundaries on the material in a step, N, and the work of both, J.
-template <int Dim>
-struct BoundaryBooks {
-  std::vector<Vec<Dim>> force;  ///< as Scene::boundaries
-  double work = 0, friction_work = 0;
-};
 
 /// A wall meets each velocity field in the columns of nodes that cross its plane. The gap of a column is that
 /// of the particles around it, d = min ((X_p − plane)·n − R_p), n inwards (N20 Eq. 24 with a plane for one of
@@ -79,6 +73,7 @@ class SurfaceWalls {
   struct Wall {
     int boundary, axis, out;  ///< out: sign of the way out along the axis
     double friction;          ///< infinite: it holds
+    bool moves;               ///< at some time
     double plane = 0;         ///< cells from the grid's origin
     double speed = 0;         ///< m/s along the axis
     int row = 0;              ///< first one at or beyond the plane
@@ -144,6 +139,10 @@ class SurfaceWalls {
   Change of_momentum(const State<Dim>& state, const Column& column, double target, int axis) const;
   void add(State<Dim>& state, Nodal q, const Column& column, int axis, const Change& change,
            double factor) const;
+  void take(const State<Dim>& state, const Column& column, const Change& start,
+            BoundaryBooks<Dim>& books) const;
+  void take_touch(const State<Dim>& state, const Column& column, const Change& both,
+                  BoundaryBooks<Dim>& books) const;
   void push(State<Dim>& state, double dt, Column& column, const Change& change, double factor,
             BoundaryBooks<Dim>& books) const;
   void hold_slip(State<Dim>& state, const Column& column);
