@@ -27,6 +27,7 @@ struct ParticleView {
   double* edges[Dim * Dim];         ///< half-edge vectors of CPDI domains
   double* reference_position[Dim];
   double* initial_deformation[Dim * Dim];  ///< row-major F where domains lie at an angle at the start
+  double* domain_share[Dim];               ///< of the body's undeformed domains, by direction
   double* slopes[Dim * Dim];               ///< of the velocity about the particle, row-major (APIC)
   double* mass;
   double* volume;  ///< undeformed

@@ -145,8 +145,11 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
   const double inverse = state.grid.inverse_cell;
   const double* position[Dim];
   const double* deformation[Dim * Dim];
+  const bool split = particles.has(Quantity::domain_share);
+  const double* share[Dim];
   for (int d = 0; d < Dim; ++d) {
     position[d] = particles.column(Quantity::position, d);
+    share[d] = split ? particles.column(Quantity::domain_share, d) : nullptr;
   }
   for (int e = 0; e < Dim * Dim; ++e) deformation[e] = particles.column(Quantity::deformation_gradient, e);
   near.gap.fill({});
@@ -160,7 +163,8 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
       if (inside > 2 * kFar || inside < -kRowsBeyond) continue;
       const auto extent = [&](int axis) {
         double sum = 0;
-        for (int d = 0; d < Dim; ++d) sum += std::abs(deformation[axis * Dim + d][p]) * body.half_size[d];
+        for (int d = 0; d < Dim; ++d)
+          sum += std::abs(deformation[axis * Dim + d][p]) * body.half_size[d] * (split ? share[d][p] : 1);
         return sum * inverse;
       };
       const double gap = inside - extent(wall.axis);

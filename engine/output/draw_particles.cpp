@@ -88,7 +88,11 @@ Mat<Dim> half_edges(const Particles<Dim>& particles, const Scene& scene, std::si
   double mean = 1;
   for (std::size_t d = 0; d < Dim; ++d) mean *= per_cell[d];
   mean = Dim == 2 ? std::sqrt(mean) : std::cbrt(mean);
-  for (int d = 0; d < Dim; ++d) edges.col(d) *= size * mean / per_cell[static_cast<std::size_t>(d)];
+  double share = 1;
+  for (int d = 0; d < Dim; ++d) share *= particles.domain_share(p, d);
+  const double whole = size / (Dim == 2 ? std::sqrt(share) : std::cbrt(share));
+  for (int d = 0; d < Dim; ++d)
+    edges.col(d) *= whole * particles.domain_share(p, d) * mean / per_cell[static_cast<std::size_t>(d)];
   return edges;
 }
 

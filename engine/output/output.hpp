@@ -219,6 +219,11 @@ struct RunSummary {
   std::string spacing_body;        ///< where it was
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::optional<Outflow> outflow;  ///< with grid.leaving: outflow
+  struct Splits {
+    std::uint64_t splits = 0;  ///< of particles in two
+    std::uint64_t held = 0;    ///< edges that are too long and were halved as often as they may be
+  };
+  std::optional<Splits> splits;  ///< with method.split
   std::string checksum;
   std::string command;                      ///< the command line
   std::vector<std::string> overrides;       ///< --set arguments

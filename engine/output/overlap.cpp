@@ -261,7 +261,7 @@ void for_each_domain(const Particles<2>& particles, const std::vector<BodyView<2
     if (surfaces.holds(static_cast<int>(body), particles.id()[p])) continue;
     Mat<2> edges = particles.has(Quantity::deformation_gradient) ? particles.deformation_gradient(p)
                                                                  : Mat<2>(Mat<2>::Identity());
-    for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k];
+    for (int k = 0; k < 2; ++k) edges.col(k) *= bodies[body].half_size[k] * particles.domain_share(p, k);
     f(ParticleDomain{particles.vector(Quantity::position, p), edges, owner[body]});
   }
 }

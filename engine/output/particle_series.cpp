@@ -70,6 +70,17 @@ void add_volume(const Particles<Dim>& particles, const std::vector<std::uint32_t
   });
 }
 
+/// Of what is split, for whoever draws domains; z is 1 in 2-D.
+template <int Dim>
+void add_domain_share(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order,
+                      VtuFile& file) {
+  const auto fill = [&](std::size_t i, float* out) {
+    for (int d = 0; d < 3; ++d)
+      out[d] = d < Dim ? static_cast<float>(particles.domain_share(order[i], d < Dim ? d : 0)) : 1;
+  };
+  file.add_point_data<float>("domain_share", fill, kVectorNames);
+}
+
 /// Evolving state that users know.
 template <int Dim>
 void add_state(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order, VtuFile& file) {
@@ -118,6 +129,7 @@ void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& par
   if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
   if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
   if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
+  if (particles.has(Quantity::domain_share)) add_domain_share(particles, order, file);
   add_state(particles, order, file);
   add_lines(lines, file);
   file.write(vtu, time);

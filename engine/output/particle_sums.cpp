@@ -78,19 +78,6 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
   row.mean_stress = all.mean_stress();
 }
 
-namespace {
-
-/// Do the particles of a body leave each other by its law?
-bool parts(const Scene& scene, const BodySpec& body) {
-  return std::visit(
-      []<class Law>(const Law&) {
-        return requires { Law::kParts; };
-      },
-      scene.materials[static_cast<std::size_t>(body.material)].model);
-}
-
-}  // namespace
-
 template <int Dim>
 Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene) {
   Spacing widest;
@@ -100,7 +87,8 @@ Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene) {
     if (is_rigid(scene, body) || parts(scene, body)) continue;
     const Mat<Dim> f = particles.deformation_gradient(p);
     for (int d = 0; d < Dim; ++d) {
-      const double cells = f.col(d).norm() / body.particles_per_cell[static_cast<std::size_t>(d)];
+      const double cells = f.col(d).norm() * particles.domain_share(p, d) /
+                           body.particles_per_cell[static_cast<std::size_t>(d)];
       if (cells > widest.cells) widest = {cells, particles.body()[p]};
     }
   }

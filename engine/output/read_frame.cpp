@@ -36,6 +36,7 @@ std::vector<Quantity> columns_of(const VtuReader& file, const Scene& scene) {
   }
   if (file.find("stress")) out.push_back(Quantity::kirchhoff_stress);
   if (file.find("volume")) out.push_back(Quantity::initial_volume);
+  if (file.find("domain_share")) out.push_back(Quantity::domain_share);
   for (const Quantity quantity : kState)
     if (file.find(name_of(quantity))) out.push_back(quantity);
   return out;
@@ -61,6 +62,7 @@ void fill_columns(const VtuReader& file, Particles<Dim>& out) {
     constexpr std::array<std::size_t, 2> axes{0, 1};
     fill(file, "Points", 3, Quantity::position, axes, out);
     fill(file, "velocity", 3, Quantity::velocity, axes, out);
+    fill(file, "domain_share", 3, Quantity::domain_share, axes, out);
     fill(file, "deformation_gradient", 9, Quantity::deformation_gradient,
          std::array<std::size_t, 4>{0, 1, 3, 4}, out);
     fill(file, "deformation_gradient", 9, Quantity::out_of_plane_stretch, std::array<std::size_t, 1>{8}, out);
@@ -69,6 +71,7 @@ void fill_columns(const VtuReader& file, Particles<Dim>& out) {
     constexpr std::array<std::size_t, 3> axes{0, 1, 2};
     fill(file, "Points", 3, Quantity::position, axes, out);
     fill(file, "velocity", 3, Quantity::velocity, axes, out);
+    fill(file, "domain_share", 3, Quantity::domain_share, axes, out);
     fill(file, "deformation_gradient", 9, Quantity::deformation_gradient,
          std::array<std::size_t, 9>{0, 1, 2, 3, 4, 5, 6, 7, 8}, out);
     fill(file, "stress", 6, Quantity::kirchhoff_stress, std::array<std::size_t, 6>{0, 1, 2, 3, 4, 5}, out);

@@ -98,6 +98,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
     json["outflow"] = {{"particles", summary.outflow->particles},
                        {"kg", summary.outflow->mass},
                        {"J", summary.outflow->energy}};
+  if (summary.splits) json["splits"] = {{"count", summary.splits->splits}, {"held", summary.splits->held}};
   json["warnings"] = summary.scene_warnings;
   for (const RunWarning& warning : run_warnings(summary)) json["warnings"].push_back(warning.text);
   if (!summary.history.hash.empty())

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/output/output.hpp"
+#include "engine/state/splitting.hpp"
 
 namespace mpmfast {
 
@@ -70,7 +71,16 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
              "particles of body '{}' came {:.3g} cells apart, and the basis bridges {:g}: a body parts there "
              "without a law of fracture; more particles_per_cell{} keep it whole for longer",
              summary.spacing_body, summary.spacing, summary.most_spacing,
-             summary.most_spacing > 1 ? "" : " or a CPDI basis")});
+             summary.most_spacing <= 1 ? " or a CPDI basis"
+             : summary.splits          ? ""
+                                       : " or method.split")});
+  if (summary.splits && summary.splits->held > 0)
+    out.push_back(
+        {"splits",
+         fmt::format(
+             "{} edges of domains are longer than method.split allows, and stay so: they were halved {} "
+             "times, or lie across an axis; a body is drawn out there to a thread, or parts",
+             summary.splits->held, kMostHalvings)});
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back({"energy", fmt::format("the energy balance drifted by {}{} % (history.csv shows when): {}",
                                          summary.energy_error > 0 ? "+" : "", percent(summary.energy_error),

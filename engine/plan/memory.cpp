@@ -159,6 +159,7 @@ PassingNeed passing_need(const Scene& scene, double particles, double later) {
 double estimated_particles(const Scene& scene) { return particles_in_boxes(scene, true); }
 
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
+  if (plan.split_edge > 0) particles *= 1 + kSplitAllowance;
   const Bytes lasting =
       scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles);
   return lasting.columns + lasting.later + passing_need(scene, particles, lasting.later).bytes;

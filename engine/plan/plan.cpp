@@ -43,6 +43,15 @@ void plan_method(const MethodSpec& method, Plan& plan) {
   plan.deformation_terms = method.deformation_terms;
 }
 
+/// The grains of a law that parts them leave each other: a longer domain tells nothing of the material there,
+/// and that of a lone grain grows without end.
+void plan_splitting(const Scene& scene, Plan& plan) {
+  if (!scene.method.split || !facts(plan.basis).convected) return;
+  plan.split_edge = scene.method.split_edge;
+  for (const BodySpec& body : scene.bodies)
+    plan.body_splits.push_back(!is_rigid(scene, body) && !parts(scene, body));
+}
+
 /// A field for each body, for each group of bodies, or one for all that are not rigid.
 void plan_fields(const Scene& scene, Plan& plan) {
   for (const auto& body : scene.bodies) {
@@ -161,6 +170,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
                            Quantity::wave_speed};
   if (facts(plan.basis).convected) plan.particle_columns.push_back(Quantity::domain_edges);
+  if (plan.split_edge > 0) plan.particle_columns.push_back(Quantity::domain_share);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
   if (plan.depth != Depth::held) plan.particle_columns.push_back(Quantity::out_of_plane_stretch);
@@ -197,6 +207,8 @@ void list_passes(const Scene& scene, Plan& plan) {
   const bool rigid =
       std::find(plan.field_rigid.begin(), plan.field_rigid.end(), true) != plan.field_rigid.end();
   const bool filtered = plan.order > 1 && !plan.full_mass && !plan.own_filter;
+  if (plan.split_edge > 0)
+    p.push_back("split particles whose domains have become too long, looked for every eighth of a cell");
   p.push_back("sort, when a particle has moved by half a cell");
   p.push_back(plan.force_with_mass ? "project mass, momentum and internal force"
                                    : "project mass and momentum");
@@ -247,6 +259,7 @@ Plan make_plan(const Scene& scene) {
   plan.basis = scene.method.basis;
   plan.heat = scene.heat.active;
   plan_method(scene.method, plan);
+  plan_splitting(scene, plan);
   plan_fields(scene, plan);
   // Rigid bodies move the others even where these share one field.
   const auto acts = [](const auto& law) { return law.scope != LawScope::nowhere; };

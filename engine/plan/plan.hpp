@@ -42,6 +42,8 @@ struct Plan {
   bool displacements = false;     ///< are projected with their slopes: for the jumps of interfaces and cracks
   bool exact_fields = false;      ///< some pair is tied for good, or by springs
   bool geometry = false;          ///< volume gradients and mean positions are projected
+  double split_edge = 0;          ///< cells, of a domain's edges at which its particle is split; 0: none is
+  std::vector<bool> body_splits;  ///< as Scene::bodies; empty: no particle is split
   bool heat = false;              ///< temperatures are conducted
   bool gravity = false;           ///< or an acceleration of some body
   bool force_with_mass =

@@ -193,6 +193,7 @@ void place(const BodySpec& body, std::size_t b, const Vec3& x, double share, con
   for (int d = 0; d < Dim; ++d) {
     const auto k = static_cast<std::size_t>(d);
     particles.column(Quantity::position, d)[p] = x[k];
+    if (particles.has(Quantity::domain_share)) particles.column(Quantity::domain_share, d)[p] = 1;
     if (particles.has(Quantity::reference_position))
       particles.column(Quantity::reference_position, d)[p] = x[k];
     particles.column(Quantity::velocity, d)[p] = velocity_at(body, x)[k];

@@ -105,7 +105,9 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const ContactNeed contact = contact_need(step, scene);
   const double later =
       static_cast<double>(state.nodes.bytes() + state.tiling.bytes() + surfaces + extension) + contact.bytes;
-  const PassingNeed passing = passing_need(scene, static_cast<double>(particles.size()), later);
+  const double made = step.plan().split_edge > 0 ? kSplitAllowance : 0,
+               made_bytes = made * static_cast<double>(particles.bytes() + state.tiling.bytes());
+  const PassingNeed passing = passing_need(scene, (1 + made) * static_cast<double>(particles.size()), later);
   const double program = kProgramBytes + static_cast<double>(step.room_bytes()) +
                          (scene.output.checkpoint.active ? kCheckpointBytes : 0);
   std::string text = fmt::format(
@@ -122,10 +124,13 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   if (surfaces > 0)
     text += below + fmt::format("{} of surfaces and what is near them now,", in_mebibytes(surfaces));
   if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));
+  if (made > 0)
+    text += below + fmt::format("{} should each particle be split once,", in_mebibytes(made_bytes));
   return text + below +
          fmt::format("{} for a while for {}; about {} at the peak", in_mebibytes(passing.bytes),
                      passing.reason,
-                     in_mebibytes(static_cast<double>(particles.bytes()) + later + passing.bytes + program));
+                     in_mebibytes(static_cast<double>(particles.bytes()) + made_bytes + later +
+                                  passing.bytes + program));
 }
 
 /// "2: left, right"; of many the first few.

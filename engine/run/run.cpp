@@ -308,6 +308,7 @@ class Run {
     // A domain's corners reach the nodes around them, which two domains of two cells still share.
     s.most_spacing = facts(scene_.method.basis).convected ? 2 : 1;
     if (s.spacing > 0) s.spacing_body = scene_.bodies[counters_.spacing.body].name;
+    if (step_.plan().split_edge > 0) s.splits = {step_.splits().splits, step_.splits().held};
     s.command = origin_.command;
     s.overrides = origin_.overrides;
     s.scene_warnings = origin_.warnings;

@@ -99,6 +99,8 @@ struct MethodSpec {
   bool extended =
       false;  ///< splines: nodes with too little material near follow those with enough (K24 §3.3)
   double occupation = 0.6;  ///< C_c: a cell has enough that is filled to more than this share
+  bool split = false;  ///< convected domains: particles are halved across edges that have become too long
+  double split_edge = 1.5;  ///< cells, the longest edge
 };
 
 /// A law of kernels/materials, with its parameters.
@@ -338,6 +340,15 @@ inline double density_of(const MaterialSpec& material) {
 /// Is the body made of a rigid material?
 inline bool is_rigid(const Scene& scene, const BodySpec& body) {
   return std::holds_alternative<Rigid>(scene.materials[static_cast<std::size_t>(body.material)].model);
+}
+
+/// Do the particles of a body leave each other by its law?
+inline bool parts(const Scene& scene, const BodySpec& body) {
+  return std::visit(
+      []<class Law>(const Law&) {
+        return requires { Law::kParts; };
+      },
+      scene.materials[static_cast<std::size_t>(body.material)].model);
 }
 
 /// The particles that fill a body.

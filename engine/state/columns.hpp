@@ -10,6 +10,7 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <utility>
 
 namespace mpmfast {
 
@@ -49,6 +50,16 @@ class Column {
       zeroed_ = n + kPadding;
     }
     size_ = n;
+  }
+
+  /// At least n elements: those that were there keep their values, what the others hold is not said. Where it
+  /// must take new memory, it takes a quarter more, since what grows once grows again.
+  void grow(std::size_t n) {
+    if (n + kPadding <= capacity_) return resize_discard(n);
+    Column larger;
+    larger.resize_discard(n, n + n / 4);
+    if (size_ > 0) std::memcpy(static_cast<void*>(larger.data()), data(), size_ * sizeof(T));
+    *this = std::move(larger);
   }
 
  private:

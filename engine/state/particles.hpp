@@ -35,15 +35,17 @@ enum class Quantity {
   initial_deformation,
   temperature_slope,
   thermal_stretch,
-  volume_ratio
+  volume_ratio,
+  domain_share
 };
-inline constexpr int kQuantities = 20;
+inline constexpr int kQuantities = 21;
 
 struct QuantityInfo {
   Quantity quantity;
   std::string_view name, unit;
   int components_2d, components_3d;
   std::string_view reason;  ///< who needs it, for `mpmfast check`
+  bool extensive = false;   ///< the parts of a particle that is split share it
 };
 
 /// The one table of particle columns: allocation, sorting, output and `check` follow it.
@@ -54,8 +56,8 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
      "strain (row-major F in the plane or in space)"},
     {Quantity::kirchhoff_stress, "kirchhoff_stress", "Pa", 4, 6,
      "internal force, output (xx yy zz xy yz xz)"},
-    {Quantity::mass, "mass", "kg", 1, 1, "every scene"},
-    {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force"},
+    {Quantity::mass, "mass", "kg", 1, 1, "every scene", true},
+    {Quantity::initial_volume, "initial_volume", "m^3", 1, 1, "internal force", true},
     {Quantity::wave_speed, "wave_speed", "m/s", 1, 1, "time step"},
     {Quantity::domain_edges, "domain_edges", "m", 4, 9, "CPDI (half-edge vectors, row-major)"},
     {Quantity::reference_position, "reference_position", "m", 2, 3, "displacements"},
@@ -73,6 +75,8 @@ inline constexpr std::array<QuantityInfo, kQuantities> kQuantityTable{{
     {Quantity::temperature_slope, "temperature_slope", "K/m", 2, 3, "heat (its gradient)"},
     {Quantity::thermal_stretch, "thermal_stretch", "-", 1, 1, "thermal expansion (of a length)"},
     {Quantity::volume_ratio, "volume_ratio", "-", 1, 1, "laws that flow (J, by its own rate)"},
+    {Quantity::domain_share, "domain_share", "-", 2, 3,
+     "splitting (size of the undeformed domain over that of the body's)"},
 }};
 
 /// Structure of arrays over all particles of a scene, grouped by the sort (engine/state/tiling.hpp).
@@ -95,6 +99,17 @@ class Particles {
     }
     id_.resize_discard(n);
     body_.resize_discard(n);
+    next_id_ = static_cast<std::uint32_t>(n);
+  }
+
+  /// Makes room for particles up to the n-th behind those that are there, which keep what they have. The
+  /// caller fills in what the new ones are.
+  void grow(std::size_t n) {
+    for (Quantity q : quantities_)
+      for (auto& c : columns_[static_cast<std::size_t>(q)]) c.grow(n);
+    id_.grow(n);
+    body_.grow(n);
+    count_ = n;
   }
 
   /// Forgets the particles from the n-th on; the memory stays.
@@ -115,9 +130,12 @@ class Particles {
     return columns_[static_cast<std::size_t>(q)][static_cast<std::size_t>(k)];
   }
 
-  /// Stable number of a particle, from its seeding.
+  /// Stable number of a particle, from its seeding or from the split that made it.
   Column<std::uint32_t>& id() { return id_; }
   const Column<std::uint32_t>& id() const { return id_; }
+  /// The number of the next particle that comes to be: none had it, not even one that has left.
+  std::uint32_t& next_id() { return next_id_; }
+  std::uint32_t next_id() const { return next_id_; }
   /// Index into Scene::bodies.
   Column<std::uint16_t>& body() { return body_; }
   const Column<std::uint16_t>& body() const { return body_; }
@@ -132,6 +150,12 @@ class Particles {
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j) f(i, j) = column(Quantity::deformation_gradient, Dim * i + j)[p];
     return f;
+  }
+
+  /// Of the undeformed domain along a direction, over that of the body's domains: less than 1 of a particle
+  /// that was split.
+  double domain_share(std::size_t p, int direction) const {
+    return has(Quantity::domain_share) ? column(Quantity::domain_share, direction)[p] : 1;
   }
 
   /// J: carried by its own rate where a law of the scene flows, else det F with the stretch out of the plane.
@@ -158,6 +182,7 @@ class Particles {
 
  private:
   std::size_t count_ = 0;
+  std::uint32_t next_id_ = 0;
   std::vector<Quantity> quantities_;
   std::array<std::vector<Column<double>>, kQuantities> columns_;
   Column<std::uint32_t> id_;

@@ -43,6 +43,7 @@ struct State {
     columns(Quantity::domain_edges, v.edges, Dim * Dim);
     columns(Quantity::reference_position, v.reference_position, Dim);
     columns(Quantity::initial_deformation, v.initial_deformation, Dim * Dim);
+    columns(Quantity::domain_share, v.domain_share, Dim);
     columns(Quantity::velocity_slopes, v.slopes, Dim * Dim);
     columns(Quantity::mass, &v.mass, 1);
     columns(Quantity::initial_volume, &v.volume, 1);

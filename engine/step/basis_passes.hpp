@@ -34,15 +34,11 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   void shape_domains(State<Dim>& state) override {
-    if constexpr (Basis::kConvected) {
-      const ParticleView<Dim> view = state.view();
-      for (std::size_t p = 0; p < state.particles.size(); ++p) {
-        double f[Dim * Dim], edge[Dim * Dim];
-        for (int e = 0; e < Dim * Dim; ++e) f[e] = view.deformation[e][p];
-        Basis::convect(f, state.bodies[state.particles.body()[p]].half_size, state.grid.inverse_cell, edge);
-        for (int e = 0; e < Dim * Dim; ++e) view.edges[e][p] = edge[e];
-      }
-    }
+    for (std::size_t p = 0; p < state.particles.size(); ++p) shape_domain(state, p);
+  }
+
+  void shape_domains(State<Dim>& state, std::span<const std::uint32_t> particles) override {
+    for (const std::uint32_t p : particles) shape_domain(state, p);
   }
 
   void sort(State<Dim>& state) override {
@@ -288,6 +284,17 @@ class BasisPasses final : public Passes<Dim> {
     const ParticleRun<Dim> any{};
     const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
     return chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
+  }
+
+  static void shape_domain([[maybe_unused]] State<Dim>& state, [[maybe_unused]] std::size_t p) {
+    if constexpr (Basis::kConvected) {
+      auto& particles = state.particles;
+      double f[Dim * Dim], edge[Dim * Dim];
+      for (int e = 0; e < Dim * Dim; ++e)
+        f[e] = particles.column(Quantity::deformation_gradient, e)[p] * particles.domain_share(p, e % Dim);
+      Basis::convect(f, state.bodies[particles.body()[p]].half_size, state.grid.inverse_cell, edge);
+      for (int e = 0; e < Dim * Dim; ++e) particles.column(Quantity::domain_edges, e)[p] = edge[e];
+    }
   }
 
   static auto visitor(const State<Dim>& state) {

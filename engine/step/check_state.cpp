@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/errors.hpp"
@@ -30,12 +31,15 @@ std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles) {
 
 template <int Dim>
 void check_particles(const Particles<Dim>& particles, const std::vector<std::uint16_t>& seeded) {
-  std::vector<bool> met(seeded.size());
+  const std::size_t ids = particles.has(Quantity::domain_share) ? particles.next_id() : seeded.size();
+  const std::uint16_t last = seeded.empty() ? 0 : *std::max_element(seeded.begin(), seeded.end());
+  std::vector<bool> met(ids);
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const std::uint32_t id = particles.id()[p];
-    if (id >= seeded.size() || met[id]) refuse_checkpoint(fmt::format("a particle has the id {}", id));
+    if (id >= ids || met[id]) refuse_checkpoint(fmt::format("a particle has the id {}", id));
     met[id] = true;
-    if (particles.body()[p] != seeded[id])
+    const std::uint16_t body = particles.body()[p];
+    if (id < seeded.size() ? body != seeded[id] : body > last)  // what a split made is of any body
       refuse_checkpoint(fmt::format("particle {} is of body {}", id, particles.body()[p]));
   }
   for (const Quantity q : particles.quantities())

@@ -24,7 +24,7 @@ void check_not_negative(std::string_view name, double value);
 template <int Dim>
 std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles);
 
-/// Every particle is one of the scene, once, with the body that it was seeded in; all its columns are finite,
+/// Every particle is one of the scene, once, with the body that it was seeded in, or was made by a split; all its columns are finite,
 /// its mass and volume are not negative.
 /// @param seeded  bodies_by_id of the particles as the scene seeds them
 template <int Dim>

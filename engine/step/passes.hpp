@@ -3,7 +3,9 @@
 /// @file The passes that depend on the basis, as the step calls them: one virtual call a pass, none per
 /// particle.
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "engine/contact/cracks/cracks.hpp"
@@ -22,6 +24,8 @@ class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
   virtual std::size_t room_bytes(int threads) const = 0;
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
+  /// The same, of particles that were split.
+  virtual void shape_domains(State<Dim>& state, std::span<const std::uint32_t> particles) = 0;
   /// First support node of every particle, and the sort that follows from it.
   virtual void sort(State<Dim>& state) = 0;
   /// The nodes that particles reach; valid until the next sort.

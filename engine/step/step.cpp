@@ -29,8 +29,7 @@ Step<Dim>::Step(const Scene& scene)
       rigid_(scene, plan_, seeded(scene)),
       penalty_(scene, plan_, state_),
       heat_(scene, plan_) {
-  // Below a thousand particles a thread, waiting for each other costs more than the work.
-  state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
+  choose_threads();
   passes_->shape_domains(state_);
   state_.nodes.plan(plan_.nodal_columns, plan_.paired);
   sums_.boundary_impulse.assign(scene.boundaries.size(), Vec<Dim>::Zero());
@@ -47,6 +46,11 @@ Step<Dim>::Step(const Scene& scene)
   for (std::size_t p = 0; p < state_.particles.size(); ++p)
     fastest_ = std::max(fastest_, state_.particles.column(Quantity::wave_speed)[p] +
                                       state_.particles.vector(Quantity::velocity, p).norm());
+}
+
+template <int Dim>
+void Step<Dim>::choose_threads() {
+  state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
 }
 
 template <int Dim>
@@ -100,6 +104,7 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 
 template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
+  if (plan_.split_edge > 0) choose_threads();
   Team::gather(state_.threads, [&] { advance_gathered(dt, stresses); });
 }
 
@@ -107,6 +112,7 @@ template <int Dim>
 void Step<Dim>::advance_gathered(double dt, bool stresses) {
   rigid_.begin(state_, dt);
   if (plan_.displacements && state_.step == 0) lead_displacements(dt);
+  split_if_due();
   sort_if_due();
   project();           // N20 Eq. 5
   press_surfaces(dt);  // K24 §3.5, 3.6
@@ -380,7 +386,7 @@ void Step<Dim>::update_particles(double dt) {
   const TileReport report =
       clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
   fastest_ = report.fastest;
-  travelled_ += report.speed * dt;
+  count_path(report.speed * dt);
   cracks_.drift(report.speed * dt);
   if (report.inverted) fail("a volume became zero or negative (J <= 0)");
   lost_ = report.lost;
@@ -391,7 +397,7 @@ void Step<Dim>::move_rigid_end(double dt) {
   if (rigid_.empty()) return;
   const RigidReport report = rigid_.end(state_, dt, lower_, upper_);
   lost_ |= report.lost;
-  travelled_ += report.fastest * dt;
+  count_path(report.fastest * dt);
 }
 
 template class Step<2>;

@@ -17,6 +17,7 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
 #include "engine/state/outflow.hpp"
+#include "engine/state/splitting.hpp"
 #include "engine/state/state.hpp"
 #include "engine/step/clock.hpp"
 #include "engine/step/extension.hpp"
@@ -89,6 +90,7 @@ class Step {
   /// What drives a crack at one of its ends, after a step. The stresses must be those of the moment.
   TipLoad tip_load(int crack, bool end);
   std::uint64_t nodes_peak() const { return nodes_peak_; }
+  const SplitCounters& splits() const { return splits_; }
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
   /// Of it, what springs and bonds between surfaces hold, J.
@@ -102,8 +104,12 @@ class Step {
  private:
   /// What crosses a cell first: waves in particles, and what is told to move, m/s.
   double fastest() const;
+  /// Below a thousand particles a thread, waiting for each other costs more than the work.
+  void choose_threads();
+  void count_path(double way) { travelled_ += way, unlooked_ += way; }
   const State<Dim>& seeded(const Scene& scene);
   void advance_gathered(double dt, bool stresses);
+  void split_if_due();
   void sort_if_due();
   void sort();
   void look_at_cracks(bool sorted);
@@ -165,6 +171,7 @@ class Step {
   double dt_ = 0;         ///< of the last step, s
   double fastest_ = 0;    ///< max_p (c_p + |v_p|), m/s
   double travelled_ = 0;  ///< bound on paths since the last sort, or since all were near their places, m
+  double unlooked_ = 0;   ///< likewise since domains were looked at, m (split_if_due)
   double ramped_ = 1;     ///< share of the body forces in this step
   double body_force_work_ = 0;             ///< of this step, J
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
@@ -173,6 +180,7 @@ class Step {
   bool stresses_wait_ = false;  ///< some stresses are of an earlier F
   bool lost_ = false;           ///< in this step a particle left the box, or is not a number
   std::uint64_t nodes_peak_ = 0;
+  SplitCounters splits_;
 };
 
 extern template class Step<2>;

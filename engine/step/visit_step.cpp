@@ -13,13 +13,23 @@ namespace mpmfast {
 
 namespace {
 
+/// What splits make of a particle, at most.
+template <int Dim>
+constexpr std::uint64_t kMostOfOne = std::uint64_t{1} << (Dim * kMostHalvings);
+
 template <int Dim>
 void visit_particles(Archive& archive, Particles<Dim>& particles) {
-  std::uint64_t n = particles.size();  // fewer than were seeded where some have left
+  std::uint64_t n =
+      particles.size();  // fewer than were seeded where some have left, more where some were split
   archive.number("particles/count", n);
-  if (n > particles.size()) throw FileError("the checkpoint has more particles than its scene");
+  const bool split = particles.has(Quantity::domain_share);
+  const std::uint64_t most = (split ? kMostOfOne<Dim> : 1) * particles.size();
+  if (n > most) throw FileError("the checkpoint has more particles than its scene");
   const auto seeded = archive.reading() ? bodies_by_id(particles) : std::vector<std::uint16_t>();
+  if (n > particles.size()) particles.grow(n);
   particles.keep_first(n);
+  if (split) archive.number("particles/next_id", particles.next_id());
+  if (particles.next_id() > most) refuse_checkpoint("more particles were made than splits can make");
   archive.column("particles/id", particles.id().data(), n);
   archive.column("particles/body", particles.body().data(), n);
   for (const Quantity q : particles.quantities()) {
@@ -178,6 +188,11 @@ void Step<Dim>::visit(Archive& archive) {
   archive.number("step/fastest", fastest_);
   archive.number("step/travelled", travelled_);
   archive.flag("step/sort_due", sort_due_);
+  if (plan_.split_edge > 0) {
+    archive.number("step/unlooked", unlooked_);
+    archive.number("step/splits", splits_.splits);
+    archive.number("step/split_held", splits_.held);
+  }
   archive.number("step/nodes_peak", nodes_peak_);
   if (archive.reading()) {
     check_not_negative("step/time", state_.time);

@@ -164,6 +164,8 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
       for (int e = 0; e < Dim * Dim; ++e) {
         const double scale = g.half_size[e % Dim] * g.inverse_cell;
         edges[e] = load_lanes(c.particles->deformation[e] + begin + k) * scale;
+        if (const double* share = c.particles->domain_share[e % Dim])
+          edges[e] *= load_lanes(share + begin + k);
       }
       out.store_shapes(edges, bits);
     }

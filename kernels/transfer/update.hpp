@@ -133,6 +133,8 @@ inline void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin,
       fetch_further(p.edges, begin + static_cast<std::uint32_t>(k));
       Lanes f[Dim * Dim], edge[Dim * Dim];
       for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
+      if (p.domain_share[0])
+        for (int e = 0; e < Dim * Dim; ++e) f[e] *= load_lanes(p.domain_share[e % Dim] + begin + k);
       Basis::convect(f, c.bodies[body].half_size, c.grid->inverse_cell, edge);
       for (int e = 0; e < Dim * Dim; ++e) store_first(p.edges[e] + begin + k, edge[e], count - k);
     }

@@ -1,5 +1,6 @@
 #include "frame_constants.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -18,11 +19,16 @@ class Sides {
         points_(file.reader().points()),
         volume_(FrameField{"", "", "volume", 0, FrameField::Kind::component}.values(file)),
         ratio_(FrameField{"", "", "deformation_gradient", 0, FrameField::Kind::determinant}.values(file)),
-        across_(FrameField{"", "", "deformation_gradient", 8, FrameField::Kind::component}.values(file)) {}
+        across_(FrameField{"", "", "deformation_gradient", 8, FrameField::Kind::component}.values(file)) {
+    for (std::size_t d = 0; d < 3; ++d)
+      share_[d] = FrameField{"", "", "domain_share", d, FrameField::Kind::component}.values(file);
+  }
 
   std::array<double, 2> of(std::size_t i, std::size_t body) const {
     double size = std::isfinite(ratio_[i]) && ratio_[i] > 0 ? volume_[i] / ratio_[i] : volume_[i];
     if (!(size > 0)) return {0, 0};
+    for (const std::vector<double>& share : share_)
+      if (std::isfinite(share[i])) size /= share[i];  // of what was split, the domain that it was part of
     if (dimension_ == 3) return {std::cbrt(size), 0};
     size /= scene_ ? scene_->thickness : 1;
     // Of a ring, the square that is turned about the axis.
@@ -40,6 +46,7 @@ class Sides {
   const std::optional<Scene>& scene_;
   int dimension_;
   std::vector<double> points_, volume_, ratio_, across_;
+  std::array<std::vector<double>, 3> share_;
 };
 
 template <class T>

@@ -13,7 +13,7 @@ namespace mpmfast {
 namespace {
 
 // Shown by means of their own: who a particle is, and its shape.
-constexpr std::array<std::string_view, 4> kNoFields{"id", "body", "material", "volume"};
+constexpr std::array<std::string_view, 5> kNoFields{"id", "body", "material", "volume", "domain_share"};
 // A page that must leave fields out keeps these.
 constexpr std::array<std::string_view, 5> kFirst{"pressure", "von_mises", "speed", "plastic_strain",
                                                  "temperature"};
@@ -50,9 +50,12 @@ std::vector<double> FrameField::values(const FrameFile& file) const {
   if (found == nullptr || component >= found->components) return out;
   const std::vector<double>& all = file.values(*found);
   const std::size_t n = found->components;
+  const VtuArray* const split = kind == Kind::domain ? file.reader().find("domain_share") : nullptr;
+  const double* const share = split != nullptr ? file.values(*split).data() : nullptr;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double* tuple = all.data() + n * i;
-    if (kind == Kind::component) out[i] = tuple[component];
+    if (kind == Kind::component || kind == Kind::domain) out[i] = tuple[component];
+    if (share != nullptr) out[i] *= share[3 * i + component % 3];
     if (kind == Kind::magnitude) out[i] = std::hypot(tuple[0], tuple[1], tuple[2]);
     if (kind == Kind::determinant) out[i] = determinant(tuple);
   }

@@ -28,7 +28,9 @@ class FrameFile {
 
 /// A scalar of every particle: a component of an array, or what is made of all of them.
 struct FrameField {
-  enum class Kind { component, magnitude, determinant };
+  /// domain: of F, times the share of the body's undeformed domain that the particle's is (of what was
+  /// split).
+  enum class Kind { component, magnitude, determinant, domain };
   std::string name, unit;
   std::string array;
   std::size_t component = 0;

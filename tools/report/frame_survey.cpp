@@ -93,7 +93,7 @@ Places find_places(const VtuReader& file, const FrameSurvey& survey) {
 
 std::array<FrameField, 4> gradient_fields() {
   const auto entry = [](const char* name, std::size_t component) {
-    return FrameField{name, "", "deformation_gradient", component, FrameField::Kind::component};
+    return FrameField{name, "", "deformation_gradient", component, FrameField::Kind::domain};
   };
   return {entry("xx", 0), entry("xy", 1), entry("yx", 3), entry("yy", 4)};
 }

@@ -58,7 +58,7 @@ double reach_of(const State<Dim>& state, std::size_t p, const NodeIndex<Dim>& no
   double edges[Dim * Dim], shape[shape_size<Dim>(E)], ahead = 0;
   for (int e = 0; e < Dim * Dim; ++e)
     edges[e] = particles.column(Quantity::deformation_gradient, e)[p] *
-               (half_size[e % Dim] * state.grid.inverse_cell);
+               (half_size[e % Dim] * state.grid.inverse_cell) * particles.domain_share(p, e % Dim);
   domain_shape<E, Dim>(edges, shape);
   for (int d = 0; d < Dim; ++d)
     ahead += ((particles.column(Quantity::position, d)[p] - state.grid.origin[d]) * state.grid.inverse_cell -

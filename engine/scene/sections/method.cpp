@@ -91,6 +91,32 @@ void describe_extension(Slot& slot, MethodSpec& method) {
     slot.report("splines alone are extended (basis: bspline2 or bspline3)");
 }
 
+/// none, false, true or {edge}.
+void describe_split(Slot& slot, MethodSpec& method) {
+  constexpr const char* kExpected = "none, true or a map {edge}";
+  // Shorter than a cell, and particles would be split as they are seeded; domains of two are scaled down.
+  constexpr Limit kEdge{"from 1 to 2 cells", 1, 2};
+  if (slot.is_word("none", !method.split)) return;
+  if (slot.tells()) slot.offer({Form::Kind::truth});
+  if (slot.reads() && slot.value()->is(Node::Kind::scalar)) {
+    method.split = slot.value()->is_word("true");
+    if (!method.split && !slot.value()->is_word("false"))
+      return slot.complain(std::string("not ") + kExpected, "Write {edge: 1.5}");
+  } else {
+    slot.map(kExpected, [&](Keys& map) {
+      if (map.reads()) method.split = true;
+      map.key("edge", "Edges of domains longer than this are halved, cells.", method.split_edge,
+              Number{Measure::number, kEdge});
+    });
+  }
+  if (!slot.reads() || !method.split || facts(method.basis).convected) return;
+  std::vector<std::string> good;
+  for (const BasisFacts& basis : kBasisFacts)
+    if (basis.convected) good.emplace_back(basis.word);
+  slot.report(fmt::format("only particles whose domains follow the deformation are split (basis: {})",
+                          fmt::join(good, " or ")));
+}
+
 void check_position(Slot& slot, const MethodSpec& method) {
   const bool by_grid = method.position == PositionKind::grid || method.position == PositionKind::grid_end;
   if (method.update == UpdateKind::flip && !by_grid)
@@ -111,6 +137,10 @@ bool describe_method(Keys& top, MethodSpec& method) {
         map.at("extension",
                "bspline2, bspline3: nodes with hardly any of a body near follow those that have enough.",
                [&](Slot& slot) { describe_extension(slot, method); });
+        map.at("split",
+               "lcpdi, qcpdi: a particle whose domain has become too long is split in two, so that the body "
+               "stays whole; true: {edge: 1.5}.",
+               [&](Slot& slot) { describe_split(slot, method); });
         map.at("update", "How particles take their velocity from the grid.",
                [&](Slot& slot) { describe_update(slot, method); });
         map.at("every", "xpic and fmpm: they filter every n-th step, and flip updates those between.",

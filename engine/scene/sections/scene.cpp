@@ -64,6 +64,14 @@ void check_penalty(const Value& top, const Scene& scene) {
     stated.report("penalty contact does not know scenes about an axis yet");
 }
 
+/// What follows surfaces and cracks knows the particles that a body was seeded with.
+void check_split(const Value& top, const Scene& scene) {
+  const Value stated = *top.find("method")->find("split");
+  if (scene.contact.family == ContactFamily::penalty)
+    stated.report("particles of bodies whose surfaces are followed (contact.family: penalty) are not split");
+  if (!scene.cracks.empty()) stated.report("particles of bodies with cracks are not split yet");
+}
+
 /// Springs join two bodies each, whose displacements tell how far they are apart.
 void check_interfaces(const Value& top, const Scene& scene) {
   if (!scene.contact.any([](const SurfaceLaw& law) { return joins(law.acts); })) return;
@@ -96,6 +104,7 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
     check_interfaces(top, scene);
   check_crack(top, scene);
   if (scene.method.extended) check_extension(top, scene);
+  if (scene.method.split) check_split(top, scene);
   check_heat(top, scene, places);
   if (!scene.cracks.empty()) check_cracks(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
