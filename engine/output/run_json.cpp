@@ -97,8 +97,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
     json["outflow"] = {{"particles", summary.outflow->particles},
                        {"kg", summary.outflow->mass},
                        {"J", summary.outflow->energy}};
-  json["warnings"] = summary.scene_warnings;
-  for (const RunWarning& warning : run_warnings(summary)) json["warnings"].push_back(warning.text);
+  json["warnings"] = all_warnings(summary);
   json["checksum"] = summary.checksum;
   // A file name need not be UTF-8: what is not is replaced rather than losing the whole summary.
   const auto replace = nlohmann::ordered_json::error_handler_t::replace;

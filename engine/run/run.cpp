@@ -75,6 +75,20 @@ std::optional<RunOrigin> next_origin(const Scene& scene, const RunOptions& optio
   return origin;
 }
 
+RunSummary::Settings settings_of(const Scene& scene) {
+  const MethodSpec& method = scene.method;
+  RunSummary::Settings out;
+  out.averaged_strain = method.strain == StrainKind::average;
+  out.grid_end = method.position == PositionKind::grid_end;
+  out.filtered = method.update != UpdateKind::flip;
+  out.volume_screen = scene.contact.volume_screen > 0;
+  out.cfl = scene.time.cfl;
+  out.follows_shape = facts(method.basis).convected;
+  for (const BodySpec& body : scene.bodies)
+    if (out.flowing_body.empty() && flows(scene, body)) out.flowing_body = body.name;
+  return out;
+}
+
 std::vector<double> after_first(const std::vector<double>& times) {
   return times.empty() ? times : std::vector<double>(times.begin() + 1, times.end());
 }
@@ -121,9 +135,11 @@ class Run {
              std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(counters_.wall));
     try {
       loop();
+    } catch (RunFailure& failure) {
+      failure.set_warnings(keep_what_there_is(failure.what(), failure.place()));
+      throw;
     } catch (const std::exception& failure) {
-      const auto* physical = dynamic_cast<const RunFailure*>(&failure);
-      keep_what_there_is(failure.what(), physical ? physical->place() : std::nullopt);
+      keep_what_there_is(failure.what(), std::nullopt);
       throw;
     }
     // Before the last row and frame, which a run that went on would not have written; they are written even
@@ -278,17 +294,21 @@ class Run {
 
   /// After a failure: run.json first, then the neighbourhood of the place where it failed, a last frame and
   /// pictures of the half-made step, if they can be made. The history ends with the last whole row.
-  void keep_what_there_is(const std::string& reason, const std::optional<RunFailure::Place>& place) {
+  /// @return the warnings of the run
+  std::vector<std::string> keep_what_there_is(const std::string& reason,
+                                              const std::optional<RunFailure::Place>& place) {
     const auto attempt = [](auto f) {
       try {
         f();
       } catch (const std::exception&) {  // the failure itself is what the user must hear of
       }
     };
-    attempt([&] { summarise("failed", reason); });
+    std::vector<std::string> warnings;
+    attempt([&] { warnings = all_warnings(summarise("failed", reason)); });
     if (place) attempt([&] { write_failed(*place); });
     attempt([&] { write_frame(); });
     attempt([&] { draw("last"); });
+    return warnings;
   }
 
   void write_failed(const RunFailure::Place& place) {
@@ -326,7 +346,7 @@ class Run {
                  c.doubtful,   c.pair_nodes,  c.pair_fallbacks, c.meetings,    c.screened};
     s.contact.points_peak = step_.penalty().pressed_peak();
     s.energy_error = counters_.balance.error();
-    s.averaged_strain = scene_.method.strain == StrainKind::average;
+    s.settings = settings_of(scene_);
     s.spacing = counters_.spacing.cells;
     // A domain's corners reach the nodes around them, which two domains of two cells still share.
     s.most_spacing = facts(scene_.method.basis).convected ? 2 : 1;

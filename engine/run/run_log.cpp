@@ -55,8 +55,9 @@ void RunLog::close(const RunSummary& summary) {
   fmt::print(file_, "{}{}{} at step {}, {:.6g} s, after {:.2f} s\n", summary.status,
              summary.reason.empty() ? "" : ": ", summary.reason, summary.steps, summary.time, summary.wall);
   for (const auto& [pass, seconds] : summary.seconds)
-    fmt::print(file_, "  {:<18}{:>10.3f} s {:>6.1f} %\n", pass, seconds,
-               summary.wall > 0 ? 100 * seconds / summary.wall : 0);
+    if (seconds > 0)  // it ran
+      fmt::print(file_, "  {:<18}{:>10.3f} s {:>6.1f} %\n", pass, seconds,
+                 summary.wall > 0 ? 100 * seconds / summary.wall : 0);
   for (const Counted& counted : warnings_)
     fmt::print(file_, "warning in {} of {} rows, last: {}\n", counted.rows, rows_, counted.warning.text);
   fmt::print(file_, "checksum {}\n", summary.checksum);
