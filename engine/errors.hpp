@@ -6,6 +6,8 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace mpmfast {
 
@@ -23,8 +25,12 @@ class RunFailure : public std::runtime_error {
   explicit RunFailure(const std::string& what, std::optional<Place> place = std::nullopt)
       : std::runtime_error(what), place_(place) {}
   const std::optional<Place>& place() const { return place_; }
+  /// What the run had given reason to doubt until then: the likeliest cause first, each with a remedy.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  void set_warnings(std::vector<std::string> warnings) { warnings_ = std::move(warnings); }
 
  private:
+  std::vector<std::string> warnings_;
   std::optional<Place> place_;
 };
 

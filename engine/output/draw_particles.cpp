@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/output/cover.hpp"
+#include "engine/output/drawn.hpp"
 #include "engine/output/output.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
@@ -39,24 +40,36 @@ PictureText picture_text(const Scene& scene, const std::string& label, double ti
           ""};
 }
 
-/// The longest subtitle with a note that pictures of the field can have: as many digits as there may be.
-std::string longest_subtitle(const FieldValues& field) {
-  const std::string value = "-8.888 M" + field.unit;
-  return fmt::format("{} at 888.8 ms, values from {} to {}", field.label, value, value);
-}
-
 std::string value_text(double value, const std::string& si_unit) {
   const DisplayUnit unit = display_unit(std::abs(value), si_unit);
   return fmt::format("{:.4g} {}", value / unit.in_si + 0.0, unit.name);  // no -0
 }
 
-/// The colour of every particle, and the bar that explains it.
+/// Of a field that has one value.
+std::string everywhere_text(const std::string& value) { return fmt::format(": {} everywhere", value); }
+
+/// As many digits as there may be.
+PictureText longest_text(const Scene& scene, const FieldValues& field, bool has_bar) {
+  const bool prefixed = display_unit(1e6, field.unit).in_si != 1;
+  const std::string value = (prefixed ? "-8.888 M" : "-8.888e+88 ") + field.unit;
+  PictureText text{scene.title, field.label + " at 888.8 ms", ""};
+  if (has_bar)
+    text.note = fmt::format("values from {} to {}", value, value);
+  else if (!field.names)
+    text.subtitle += everywhere_text(value);
+  return text;
+}
+
+/// The colour of every particle, and the labels that explain it.
 struct Colouring {
-  Colouring(const FieldValues& field, const Framing& framing)
-      : by_body(field.names),
-        scale(framing.values.value_or(Range{})),
-        value(&field.value),
-        longest(has_bar() ? longest_subtitle(field) : "") {}
+  Colouring(const FieldValues& field, const Framing& framing, const Scene& scene)
+      : by_body(field.names), scale(framing.values.value_or(Range{})), value(&field.value) {
+    labels.longest = longest_text(scene, field, has_bar());
+    labels.length = length_unit(scene);
+    if (scene.dimension() == 2) labels.axes = scene.space == Space::axisymmetric ? "rz" : "xy";
+    if (has_bar()) labels.bar = scale.range();
+    labels.bar_unit = field.unit;
+  }
   Colour operator()(std::size_t p) const {
     return by_body ? body_colour(static_cast<std::size_t>((*value)[p])) : scale((*value)[p]);
   }
@@ -64,37 +77,8 @@ struct Colouring {
   bool by_body;
   ColourScale scale;
   const std::vector<double>* value;
-  std::string longest;
+  Labels labels;
 };
-
-/// Columns j: half-edge vectors of a particle's domain, m.
-template <int Dim>
-Mat<Dim> half_edges(const Particles<Dim>& particles, const Scene& scene, std::size_t p) {
-  Mat<Dim> edges = Mat<Dim>::Identity();
-  if (particles.has(Quantity::domain_edges)) {
-    for (int i = 0; i < Dim; ++i)
-      for (int j = 0; j < Dim; ++j) edges(i, j) = particles.column(Quantity::domain_edges, Dim * i + j)[p];
-    return edges;
-  }
-  if (particles.has(Quantity::deformation_gradient)) edges = particles.deformation_gradient(p);
-  // The particle does not know its undeformed shape: its share of a cell, or of the width of a ring.
-  double volume =
-      particles.has(Quantity::initial_volume) ? particles.column(Quantity::initial_volume)[p] : 0.0;
-  if (scene.space == Space::axisymmetric)  // of a ring, to the square that is turned
-    volume *= particles.column(Quantity::out_of_plane_stretch)[p] /
-              (kFullTurn * particles.column(Quantity::position, 0)[p]);
-  const double size = 0.5 * (Dim == 2 ? std::sqrt(volume / scene.thickness) : std::cbrt(volume));
-  const auto& per_cell = scene.bodies[particles.body()[p]].particles_per_cell;
-  double mean = 1;
-  for (std::size_t d = 0; d < Dim; ++d) mean *= per_cell[d];
-  mean = Dim == 2 ? std::sqrt(mean) : std::cbrt(mean);
-  double share = 1;
-  for (int d = 0; d < Dim; ++d) share *= particles.domain_share(p, d);
-  const double whole = size / (Dim == 2 ? std::sqrt(share) : std::cbrt(share));
-  for (int d = 0; d < Dim; ++d)
-    edges.col(d) *= whole * particles.domain_share(p, d) * mean / per_cell[static_cast<std::size_t>(d)];
-  return edges;
-}
 
 using Corners = std::array<PixelPoint, 4>;  ///< m, though, until they are placed
 
@@ -110,57 +94,77 @@ Corners parallelogram(const Vec<2>& centre, const Mat<2>& edges) {
 
 /// @param beyond  how far it reaches beyond its edges, m
 Corners shape_of(const Particles<2>& particles, const Scene& scene, std::size_t p, double beyond = 0) {
-  Mat<2> edges = half_edges(particles, scene, p);
+  Mat<2> edges = drawn_half_edges(particles, scene, p);
   for (int d = 0; d < 2; ++d) edges.col(d) *= 1 + beyond / edges.col(d).norm();
   return parallelogram(particles.vector(Quantity::position, p), edges);
 }
 
-std::array<Extent, 3> extents_of(const Particles<2>& particles, const Scene& scene) {
+void include(std::array<Extent, 3>& box, const Particles<2>& particles, const Scene& scene, std::size_t p) {
+  for (const auto& corner : shape_of(particles, scene, p)) {
+    box[0].include(corner.x);
+    box[1].include(corner.y);
+  }
+}
+
+void include(std::array<Extent, 3>& box, const Particles<3>& particles, const Scene& scene, std::size_t p) {
+  const Vec<3> centre = particles.vector(Quantity::position, p);
+  const double radius = drawn_radius(particles, scene, p);
+  if (!centre.allFinite() || !std::isfinite(radius)) return;
+  for (int d = 0; d < 3; ++d)
+    for (double side : {-radius, radius}) box[static_cast<std::size_t>(d)].include(centre[d] + side);
+}
+
+/// Of the particles in and about the grid; of all where none is there.
+template <int Dim>
+std::array<Extent, 3> extents_of(const Particles<Dim>& particles, const Scene& scene) {
+  const Viewed viewed(scene);
   std::array<Extent, 3> box;
   for (std::size_t p = 0; p < particles.size(); ++p)
-    for (const auto& corner : shape_of(particles, scene, p)) {
-      box[0].include(corner.x);
-      box[1].include(corner.y);
-    }
+    if (viewed.holds(particles.vector(Quantity::position, p).data())) include(box, particles, scene, p);
+  if (box[0].range()) return box;
+  for (std::size_t p = 0; p < particles.size(); ++p) include(box, particles, scene, p);
   return box;
 }
 
-/// Of a ball with the particle's volume, m.
-double radius_of(const Particles<3>& particles, const Scene& scene, std::size_t p) {
-  return std::cbrt(std::abs(half_edges(particles, scene, p).determinant()));
-}
-
-std::array<Extent, 3> extents_of(const Particles<3>& particles, const Scene& scene) {
-  std::array<Extent, 3> box;
-  for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec<3> centre = particles.vector(Quantity::position, p);
-    const double radius = radius_of(particles, scene, p);
-    if (!centre.allFinite() || !std::isfinite(radius)) continue;
-    for (int d = 0; d < 3; ++d)
-      for (double side : {-radius, radius}) box[static_cast<std::size_t>(d)].include(centre[d] + side);
+/// Widened by so much of the longest side in all.
+constexpr double kWider = 0.05;
+template <std::size_t Axes>
+std::array<Range, Axes> frame_of(const Framing& framing, const Scene& scene) {
+  std::array<Range, Axes> box;
+  double longest = 0;
+  for (std::size_t d = 0; d < Axes; ++d) {
+    box[d] = box_range(framing, scene, d);
+    longest = std::max(longest, box[d].width());
   }
+  for (Range& side : box) side = {side.lower - 0.5 * kWider * longest, side.upper + 0.5 * kWider * longest};
   return box;
 }
 
-/// Within a box.
-void draw_lines(Picture& picture, const Polylines& lines, const Range& x, const Range& y) {
+/// Also not a place that is no number.
+template <int Dim, std::size_t Axes>
+bool is_within(const std::array<Range, Axes>& frame, const Vec<Dim>& x) {
+  for (std::size_t d = 0; d < Axes; ++d) {
+    const double at = x[static_cast<int>(d)];
+    if (!(at >= frame[d].lower && at <= frame[d].upper)) return false;
+  }
+  return true;
+}
+
+/// Within the frame.
+void draw_lines(Picture& picture, const Polylines& lines, const std::array<Range, 2>& frame) {
   constexpr Colour kDark{20, 20, 20};
-  const auto holds = [&](const Vec<2>& at) {
-    return at[0] >= x.lower && at[0] <= x.upper && at[1] >= y.lower && at[1] <= y.upper;
-  };
   for (const auto& points : lines)
     for (std::size_t k = 1; k < points.size(); ++k)
-      if (holds(points[k - 1]) && holds(points[k]))
+      if (is_within(frame, points[k - 1]) && is_within(frame, points[k]))
         picture.canvas().line(picture.at(points[k - 1][0], points[k - 1][1]),
                               picture.at(points[k][0], points[k][1]), 1.2, kDark);
 }
 
 Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring& colour,
               const Framing& framing, PictureFormat format, const Polylines& lines) {
-  const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1);
-  const double margin = 0.02 * std::max(x.width(), y.width());
-  const auto wider = [&](Range r) { return Range{r.lower - margin, r.upper + margin}; };
-  Picture picture(wider(x), wider(y), colour.has_bar(), colour.longest, format);
+  const auto [x, y] = frame_of<2>(framing, scene);
+  const std::array<Range, 2> frame{x, y};
+  Picture picture(x, y, colour.labels, format);
   std::vector<std::uint32_t> order = order_by_id(particles);
   double beyond = 0;
   if (format != PictureFormat::png) {
@@ -170,12 +174,13 @@ Picture paint(const Particles<2>& particles, const Scene& scene, const Colouring
                      [&](std::uint32_t a, std::uint32_t b) { return colour(a) < colour(b); });
   }
   for (const std::uint32_t p : order) {
+    if (!is_within(frame, particles.vector(Quantity::position, p))) continue;
     Corners corners = shape_of(particles, scene, p, beyond);
     for (auto& corner : corners) corner = picture.at(corner.x, corner.y);
     picture.canvas().fill_convex(corners, colour(p));
   }
-  draw_lines(picture, lines, wider(x), wider(y));
-  picture.draw_axes(length_unit(scene), scene.space == Space::axisymmetric ? "rz" : "xy");
+  draw_lines(picture, lines, frame);
+  picture.draw_axes();
   return picture;
 }
 
@@ -189,10 +194,9 @@ void draw_ball(Picture& picture, PixelPoint centre, double radius, Colour colour
 
 Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring& colour,
               const Framing& framing, PictureFormat format, const Polylines&) {
-  const Range x = box_range(framing, scene, 0), y = box_range(framing, scene, 1),
-              z = box_range(framing, scene, 2);
-  const ViewBox view({x.lower, y.lower, z.lower}, {x.upper, y.upper, z.upper});
-  Picture picture(view.across(), view.up(), colour.has_bar(), colour.longest, format);
+  const std::array<Range, 3> frame = frame_of<3>(framing, scene);
+  const ViewBox view(frame, colour.labels.length);
+  Picture picture(view.across(), view.up(), colour.labels, format);
   view.draw_edges(picture);
   struct Ball {
     double depth;  ///< towards the eye
@@ -203,9 +207,9 @@ Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring
   std::vector<Ball> balls;
   balls.reserve(particles.size());
   for (const std::uint32_t p : order_by_id(particles)) {
-    const Vec<3> view_of = to_view(particles.vector(Quantity::position, p));
-    const double radius = 1.15 * picture.pixels_per_metre() * radius_of(particles, scene, p);
-    if (!view_of.allFinite() || !std::isfinite(radius)) continue;
+    const Vec<3> x = particles.vector(Quantity::position, p), view_of = to_view(x);
+    const double radius = 1.15 * picture.pixels_per_metre() * drawn_radius(particles, scene, p);
+    if (!is_within(frame, x) || !std::isfinite(radius)) continue;
     const PixelPoint at = picture.at(view_of[0], view_of[1]);
     balls.push_back(
         {view_of[2], p, static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(radius)});
@@ -220,7 +224,7 @@ Picture paint(const Particles<3>& particles, const Scene& scene, const Colouring
   std::for_each(shown.rbegin(), shown.rend(), [&](const Ball& ball) {
     draw_ball(picture, ball.centre(), ball.radius, colour(ball.particle));
   });
-  view.draw_labels(picture, length_unit(scene));
+  view.draw_labels(picture);
   picture.draw_frame();
   return picture;
 }
@@ -267,14 +271,14 @@ template <int Dim>
 Canvas paint_particles(const Particles<Dim>& particles, const Scene& scene, const std::string& field,
                        double time, const Framing& framing, PictureFormat format, const Polylines& lines) {
   const FieldValues values = field_values(particles, scene, field);
-  const Colouring colour(values, framing);
+  const Colouring colour(values, framing, scene);
   Picture picture = paint(particles, scene, colour, framing, format, lines);
   PictureText text = picture_text(scene, values.label, time);
   if (colour.has_bar()) {
-    picture.draw_colour_bar(colour.scale, values.unit);
+    picture.draw_colour_bar(colour.scale);
     text.note = beyond_text(values, *framing.values);
   } else if (!colour.by_body && framing.values)
-    text.subtitle += fmt::format(": {} everywhere", value_text(framing.values->lower, values.unit));
+    text.subtitle += everywhere_text(value_text(framing.values->lower, values.unit));
   picture.write_titles(text);
   return std::move(picture.canvas());  // of the size of many pictures: no copy
 }

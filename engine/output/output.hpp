@@ -80,6 +80,10 @@ struct HistoryRow {
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
+/// Do the particles of a body leave each other by its law, as grains and fluids do? F then tells nothing of
+/// neighbours.
+bool flows(const Scene& scene, const BodySpec& body);
+
 /// How far apart neighbouring particles of one body were at most, as their F tells.
 struct Spacing {
   double cells = 0;
@@ -212,7 +216,17 @@ struct RunSummary {
     std::uint64_t points_peak = 0;                     ///< of surfaces that press, with penalty contact
   } contact;
   double energy_error = 0;
-  bool averaged_strain = false;    ///< method.strain: average
+  /// What of the scene decides which remedies are left.
+  struct Settings {
+    bool averaged_strain = false;  ///< method.strain: average
+    bool grid_end = true;          ///< method.position
+    bool filtered = false;         ///< method.update: another one than flip
+    bool volume_screen = false;    ///< contact.volume_screen drops nodes
+    double cfl = 0.5;              ///< time.cfl
+    bool follows_shape = false;    ///< method.basis: domains follow F
+    bool splits = false;           ///< particles whose domains grow long are split
+    std::string flowing_body;      ///< the first whose law flows
+  } settings;
   double spacing = 0;              ///< cells; the widest of the history's rows
   double most_spacing = 1;         ///< cells that the basis bridges
   std::uint64_t third_cracks = 0;  ///< times that a node was seen behind a third crack
@@ -251,6 +265,8 @@ struct RunWarning {
   std::string text;
 };
 std::vector<RunWarning> run_warnings(const RunSummary& summary);
+/// Those of the scene and then those of the figures; of a run that failed the likeliest cause first.
+std::vector<std::string> all_warnings(const RunSummary& summary);
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
 

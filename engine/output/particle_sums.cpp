@@ -1,5 +1,6 @@
 #include "engine/output/output.hpp"
 #include "engine/output/particle_access.hpp"
+#include "kernels/materials/at_rest.hpp"
 
 namespace mpmfast {
 namespace {
@@ -78,13 +79,23 @@ void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, His
   row.mean_stress = all.mean_stress();
 }
 
+bool flows(const Scene& scene, const BodySpec& body) {
+  if (is_rigid(scene, body)) return false;
+  return std::visit(
+      []<class Law>(const Law& law) {
+        return requires { Law::kParts; }
+        || shear_at_rest(law) == 0;
+      },
+      scene.materials[static_cast<std::size_t>(body.material)].model);
+}
+
 template <int Dim>
 Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene) {
   Spacing widest;
   if (!particles.has(Quantity::deformation_gradient)) return widest;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const BodySpec& body = scene.bodies[particles.body()[p]];
-    if (is_rigid(scene, body) || parts(scene, body)) continue;
+    if (is_rigid(scene, body) || flows(scene, body)) continue;
     const Mat<Dim> f = particles.deformation_gradient(p);
     for (int d = 0; d < Dim; ++d) {
       const double cells = f.col(d).norm() * particles.domain_share(p, d) /

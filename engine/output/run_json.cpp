@@ -99,8 +99,7 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
                        {"kg", summary.outflow->mass},
                        {"J", summary.outflow->energy}};
   if (summary.splits) json["splits"] = {{"count", summary.splits->splits}, {"held", summary.splits->held}};
-  json["warnings"] = summary.scene_warnings;
-  for (const RunWarning& warning : run_warnings(summary)) json["warnings"].push_back(warning.text);
+  json["warnings"] = all_warnings(summary);
   if (!summary.history.hash.empty())
     json["history"] = {{"rows", summary.history.rows}, {"hash", summary.history.hash}};
   json["checksum"] = summary.checksum;

@@ -20,13 +20,28 @@ std::string percent(double share) {
   return std::abs(value) < 99.5 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
-const char* cure_of_drift(const RunSummary& summary) {
-  if (summary.energy_error > 0)
-    return "noise grows; a smaller time.cfl, or method.position: grid_end, may help";
-  if (summary.averaged_strain)
+/// None of them is what the scene has already.
+std::string cure_of_growth(const RunSummary::Settings& settings) {
+  std::string ways = fmt::format("a time.cfl below {:g}", settings.cfl);
+  if (!settings.filtered && !settings.grid_end) ways += ", or method.position: grid_end,";
+  if (!settings.filtered && settings.grid_end) ways += ", or method.update: xpic(5),";
+  return "noise grows; " + ways + " may help";
+}
+
+/// What keeps a body whole, given what the scene does for it already.
+const char* cure_of_parting(const RunSummary::Settings& settings) {
+  if (!settings.follows_shape) return "method: {basis: lcpdi, split: {edge: 1.5}} keeps a solid whole";
+  if (!settings.splits) return "method: {split: {edge: 1.5}} keeps a solid whole";
+  return "smaller cells, or more particles_per_cell, keep it whole for longer";
+}
+
+std::string cure_of_drift(const RunSummary& summary) {
+  if (summary.energy_error > 0) return cure_of_growth(summary.settings);
+  if (summary.settings.averaged_strain)
     return "the averaged strain takes energy from bodies of few cells that vibrate, bounce or spin: set "
            "method.strain: average+; if it still drifts, smaller cells";
-  return "the method took it; smaller cells, or another method.update, may help";
+  if (summary.settings.filtered) return "the method took it; smaller cells, or method.update: flip, may help";
+  return "the method took it; smaller cells may help";
 }
 
 }  // namespace
@@ -57,8 +72,9 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
     out.push_back(
         {"screens",
          fmt::format("{} % of the nodes where bodies meet were left without contact (usual: below {:g} %) by "
-                     "contact.volume_screen or contact.mass_screen",
-                     percent(part), 100 * kMostScreened)});
+                     "{}: a smaller value leaves fewer",
+                     percent(part), 100 * kMostScreened,
+                     summary.settings.volume_screen ? "contact.volume_screen" : "contact.mass_screen")});
   if (summary.third_cracks > 0)
     out.push_back(
         {"cracks", fmt::format("{} times a particle saw a node behind a third crack, which does not part "
@@ -69,11 +85,9 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
         {"spacing",
          fmt::format(
              "particles of body '{}' came {:.3g} cells apart, and the basis bridges {:g}: a body parts there "
-             "without a law of fracture; more particles_per_cell{} keep it whole for longer",
+             "without a law of fracture; {}",
              summary.spacing_body, summary.spacing, summary.most_spacing,
-             summary.most_spacing <= 1 ? " or a CPDI basis"
-             : summary.splits          ? ""
-                                       : " or method.split")});
+             cure_of_parting(summary.settings))});
   if (summary.splits && summary.splits->held > 0)
     out.push_back(
         {"splits",
@@ -85,6 +99,47 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
     out.push_back({"energy", fmt::format("the energy balance drifted by {}{} % (history.csv shows when): {}",
                                          summary.energy_error > 0 ? "+" : "", percent(summary.energy_error),
                                          cure_of_drift(summary))});
+  return out;
+}
+
+namespace {
+
+/// Cause before effect: a body that parts, then normals and pairs that were not found; energy drifts as a
+/// result of either.
+int rank_as_cause(const RunWarning& warning) {
+  if (warning.about == "spacing") return 0;
+  return warning.about == "energy" ? 2 : 1;
+}
+
+std::string flow_warning(const RunSummary& summary) {
+  return fmt::format(
+      "body '{}' flows, and the domains of the basis follow F, which says nothing of neighbours after flow; "
+      "method.basis: ugimp, or bspline2, keeps them as they were seeded",
+      summary.settings.flowing_body);
+}
+
+}  // namespace
+
+std::vector<std::string> all_warnings(const RunSummary& summary) {
+  std::vector<RunWarning> figures = run_warnings(summary);
+  std::vector<std::string> out;
+  const auto add = [&](int first, int last) {
+    for (const RunWarning& warning : figures)
+      if (rank_as_cause(warning) >= first && rank_as_cause(warning) <= last) out.push_back(warning.text);
+  };
+  const auto add_scene = [&] {
+    out.insert(out.end(), summary.scene_warnings.begin(), summary.scene_warnings.end());
+  };
+  if (summary.status != "failed") {
+    add_scene();
+    for (const RunWarning& warning : figures) out.push_back(warning.text);
+    return out;
+  }
+  if (summary.settings.follows_shape && !summary.settings.flowing_body.empty())
+    out.push_back(flow_warning(summary));
+  add(0, 0);
+  add_scene();
+  add(1, 2);
   return out;
 }
 

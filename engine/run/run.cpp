@@ -36,6 +36,21 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+RunSummary::Settings settings_of(const Scene& scene) {
+  const MethodSpec& method = scene.method;
+  RunSummary::Settings out;
+  out.averaged_strain = method.strain == StrainKind::average;
+  out.grid_end = method.position == PositionKind::grid_end;
+  out.filtered = method.update != UpdateKind::flip;
+  out.volume_screen = scene.contact.volume_screen > 0;
+  out.cfl = scene.time.cfl;
+  out.follows_shape = facts(method.basis).convected;
+  out.splits = method.split;
+  for (const BodySpec& body : scene.bodies)
+    if (out.flowing_body.empty() && flows(scene, body)) out.flowing_body = body.name;
+  return out;
+}
+
 std::vector<double> after_first(const std::vector<double>& times) {
   return times.empty() ? times : std::vector<double>(times.begin() + 1, times.end());
 }
@@ -81,6 +96,9 @@ class Run {
     try {
       if (limits_changed_) save();  // a kill before the next checkpoint must not bring the old ones back
       loop();
+    } catch (RunFailure& failure) {
+      failure.set_warnings(keep_what_there_is(failure));
+      throw;
     } catch (const std::exception& failure) {
       keep_what_there_is(failure);
       throw;
@@ -253,7 +271,8 @@ class Run {
 
   /// After a failure: run.json first, then the neighbourhood of the place where it failed, a last frame and
   /// pictures of the half-made step, if they can be made. The history ends with the last whole row.
-  void keep_what_there_is(const std::exception& failure) {
+  /// @return the warnings of the run
+  std::vector<std::string> keep_what_there_is(const std::exception& failure) {
     const auto* physical = dynamic_cast<const RunFailure*>(&failure);
     failed_by_ = physical ? "physics" : dynamic_cast<const FileError*>(&failure) ? "files" : "program";
     const auto attempt = [](auto f) {
@@ -262,10 +281,12 @@ class Run {
       } catch (const std::exception&) {  // the failure itself is what the user must hear of
       }
     };
-    attempt([&] { summarise("failed", failure.what()); });
+    std::vector<std::string> warnings;
+    attempt([&] { warnings = all_warnings(summarise("failed", failure.what())); });
     if (physical && physical->place()) attempt([&] { write_failed(*physical->place()); });
     attempt([&] { write_frame(); });
     attempt([&] { draw("last"); });
+    return warnings;
   }
 
   void write_failed(const RunFailure::Place& place) {
@@ -303,7 +324,7 @@ class Run {
                  c.doubtful,   c.pair_nodes,  c.pair_fallbacks, c.meetings,    c.screened};
     s.contact.points_peak = step_.penalty().pressed_peak();
     s.energy_error = counters_.balance.error();
-    s.averaged_strain = scene_.method.strain == StrainKind::average;
+    s.settings = settings_of(scene_);
     s.spacing = counters_.spacing.cells;
     // A domain's corners reach the nodes around them, which two domains of two cells still share.
     s.most_spacing = facts(scene_.method.basis).convected ? 2 : 1;

@@ -58,8 +58,9 @@ void RunLog::close(const RunSummary& summary) {
              summary.reason.empty() ? "" : ": ", printable(summary.reason), summary.steps, summary.time,
              summary.wall);
   for (const auto& [pass, seconds] : summary.seconds)
-    fmt::print(file_, "  {:<18}{:>10.3f} s {:>6.1f} %\n", pass, seconds,
-               summary.wall > 0 ? 100 * seconds / summary.wall : 0);
+    if (seconds > 0)  // it ran
+      fmt::print(file_, "  {:<18}{:>10.3f} s {:>6.1f} %\n", pass, seconds,
+                 summary.wall > 0 ? 100 * seconds / summary.wall : 0);
   for (const Counted& counted : warnings_)
     fmt::print(file_, "warning in {} of {} rows, last: {}\n", counted.rows, rows_,
                printable(counted.warning.text));

@@ -36,6 +36,11 @@ std::string not_finite(const Particles<Dim>& particles, std::size_t p) {
   return names;
 }
 
+/// Nothing where the scene has said so.
+const char* other_ways_to_leave(const GridSpec& grid) {
+  return grid.leaving == LeavingKind::stop ? " (grid.leaving says what else may become of it)" : "";
+}
+
 /// The particle of the least value, of equal ones that with the smallest id; `none` where no value is below
 /// `bound`.
 template <int Dim, class Value>
@@ -102,8 +107,8 @@ void Step<Dim>::fail(const char* otherwise) const {
     return inside ? kNever : static_cast<double>(particles.id()[p]);
   };
   if (const std::size_t p = least(particles, kNever, id_outside); p != none)
-    fail_at(p, fmt::format("it left the grid at {:.4g} m/s (grid.leaving says what else may become of it)",
-                           particles.vector(Quantity::velocity, p).norm()));
+    fail_at(p, fmt::format("it left the grid at {:.4g} m/s{}", particles.vector(Quantity::velocity, p).norm(),
+                           other_ways_to_leave(scene_->grid)));
   if (!particles.has(Quantity::domain_edges) || particles.size() == 0)
     throw RunFailure(fmt::format("step {}, time {:.9g} s: {}", state_.step, state_.time, otherwise));
   std::size_t widest = least(particles, kNever, [&](std::size_t p) {

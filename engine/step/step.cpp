@@ -138,7 +138,7 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
-  clock_.time(Pass::contact_geometry, [&] { contact_.drift(state_, dt); });
+  if (plan_.contact) clock_.time(Pass::contact_geometry, [&] { contact_.drift(state_, dt); });
   move_rigid_end(dt);
   if (cracks_.active()) cracks_.move(state_, dt);
   let_leave();

@@ -132,7 +132,10 @@ def check_words(browser, folder):
     for word in [f"{run_json['particles']:,} particles", run_json["cpu"], run_json["checksum"], "Energy balance"]:
         check(word in text, f"{folder.name}: '{word}' is missing")
     rows = browser.find_elements(By.CSS_SELECTOR, "#passes tr")
-    check(len(rows) == len(run_json["seconds"]), f"{folder.name}: {len(rows)} rows of passes")
+    ran = [name for name, seconds in run_json["seconds"].items() if seconds > 0]
+    check([row.text.split("\n")[0].startswith(name.replace("_", " ")) for row, name in zip(rows, ran)].count(True) == len(rows) == len(ran),
+          f"{folder.name}: the passes that ran are {ran}, {len(rows)} are shown")
+    check(len(ran) < len(run_json["seconds"]), f"{folder.name}: no pass of this scene is left out")
     error = browser.execute_script("return readHistory().then(h => energyBalance(h).at(-1))")
     check(abs(error - run_json["energy_error"]) < 1e-6, f"{folder.name}: an energy error of {error}, not {run_json['energy_error']}")
     browser.find_element(By.CSS_SELECTOR, "#scene summary").click()

@@ -206,6 +206,34 @@ check_failed_run() {
   rm -rf fallen
 }
 
+# A strip is drawn out until its grips leave the grid: the console says why, before where to look.
+check_failed_run_says_why() {
+  cat >drawn.yaml <<'END'
+space: plane_strain
+grid: {size: [24 mm, 6 mm], cell: 1 mm}
+time: {end: 4 ms}
+materials:
+  rubber: {model: logarithmic_neo_hookean, density: 1000 kg/m^3, young: 1 MPa, poisson: 0.3}
+  grip: {model: rigid}
+bodies:
+  - {name: strip, box: {from: [9 mm, 2 mm], to: [15 mm, 4 mm]}, material: rubber}
+  - {name: l, box: {from: [7 mm, 1 mm], to: [9 mm, 5 mm]}, material: grip, velocity: [-4 m/s, 0]}
+  - {name: r, box: {from: [15 mm, 1 mm], to: [17 mm, 5 mm]}, material: grip, velocity: [4 m/s, 0]}
+contact: {law: perfect}
+output: {frames: 0, history: 20, picture: none}
+END
+  run 3 run drawn.yaml --out drawn --progress none
+  says err "warning          particles of body 'strip' came "
+  says err 'split: {edge: 1.5}'
+  [[ $(grep -n '^warning' err | head -n 1) == 2:* ]] || fail 'what failed is not followed by the cause that is likely'
+  run 0 run drawn.yaml --out drawn --steps 20 --force --progress none
+  says out 'strain_force '
+  says out 'contact_resolve '
+  ! grep -qE '^ +(heat|xpic|extension|surfaces) ' out drawn/run.log || fail 'a pass that did not run is listed'
+  grep -q '"heat": 0.0' drawn/run.json || fail 'run.json lacks a pass that did not run'
+  rm -rf drawn drawn.yaml
+}
+
 # Streams that are closed, full or that nobody reads end the program with an exit code, never by abort(), and a study
 # not at all.
 check_streams() {
@@ -727,6 +755,7 @@ check_overrides
 check_output_folder
 check_force
 check_failed_run
+check_failed_run_says_why
 check_streams
 check_special_files
 check_quoting

@@ -218,6 +218,90 @@ TEST_CASE("a run warns of what its figures give reason to doubt, and of nothing 
   CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"].size() == 6);
 }
 
+TEST_CASE("a remedy is nothing that the scene has already") {
+  const auto text = [](const RunSummary& summary) {
+    const auto warnings = run_warnings(summary);
+    REQUIRE(warnings.size() == 1);
+    return warnings[0].text;
+  };
+  const auto has = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos;
+  };
+  RunSummary grows;
+  grows.energy_error = 0.5;
+  grows.settings.cfl = 0.3;
+  CHECK_FALSE(has(text(grows), "grid_end"));  // the default
+  CHECK(has(text(grows), "a time.cfl below 0.3"));
+  CHECK(has(text(grows), "xpic(5)"));
+  grows.settings.grid_end = false;
+  CHECK(has(text(grows), "method.position: grid_end"));
+  grows.settings.filtered = true;  // apic cannot take it
+  CHECK_FALSE(has(text(grows), "grid_end"));
+  CHECK_FALSE(has(text(grows), "xpic"));
+  RunSummary shrinks;
+  shrinks.energy_error = -0.5;
+  CHECK_FALSE(has(text(shrinks), "update"));
+  CHECK_FALSE(has(text(shrinks), "average+"));
+  shrinks.settings.filtered = true;
+  CHECK(has(text(shrinks), "method.update: flip"));
+  shrinks.settings.averaged_strain = true;
+  CHECK(has(text(shrinks), "method.strain: average+"));
+  RunSummary screened;
+  screened.contact.meetings = screened.contact.screened = 100000;
+  CHECK_FALSE(has(text(screened), "volume_screen"));
+  screened.settings.volume_screen = true;
+  CHECK_FALSE(has(text(screened), "mass_screen"));
+  RunSummary parts;
+  parts.spacing = 3;
+  CHECK(has(text(parts), "basis: lcpdi, split: {edge: 1.5}"));
+  parts.settings.follows_shape = true;
+  CHECK_FALSE(has(text(parts), "lcpdi"));
+  CHECK(has(text(parts), "method: {split: {edge: 1.5}}"));
+  parts.settings.splits = true;
+  CHECK_FALSE(has(text(parts), "split"));
+  CHECK(has(text(parts), "smaller cells"));
+}
+
+TEST_CASE("a run that failed names causes before what follows from them") {
+  RunSummary summary;
+  summary.scene_warnings = {"warning of the scene"};
+  summary.contact.regressions = summary.contact.unconverged = 100000;
+  summary.spacing = 3;
+  summary.energy_error = 0.5;
+  const auto order = [&](std::vector<std::string> parts) {
+    const std::vector<std::string> all = all_warnings(summary);
+    REQUIRE(all.size() == parts.size());
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      CHECK_MESSAGE(all[k].find(parts[k]) != std::string::npos, all[k]);
+  };
+  order({"of the scene", "did not converge", "a body parts there", "energy balance"});
+  summary.status = "failed";
+  order({"a body parts there", "of the scene", "did not converge", "energy balance"});
+  summary.settings.flowing_body = "sand";
+  order({"a body parts there", "of the scene", "did not converge", "energy balance"});
+  summary.settings.follows_shape = true;
+  order({"body 'sand' flows", "a body parts there", "of the scene", "did not converge", "energy balance"});
+  const TemporaryFolder folder;
+  write_run_json(folder.path(), summary);
+  CHECK(nlohmann::json::parse(read_text(folder.path() / "run.json"))["warnings"] == all_warnings(summary));
+}
+
+TEST_CASE("grains and fluids leave each other by their law, solids and rigid bodies do not") {
+  Scene scene = small_scene(Space::plane_strain);
+  const auto flows_as = [&](const MaterialModel& model) {
+    scene.materials[0].model = model;
+    return flows(scene, scene.bodies[0]);
+  };
+  CHECK_FALSE(flows_as(NeoHookean{1000, 1e6, 1e5}));
+  CHECK_FALSE(flows_as(LinearElastic{1000, 1e6, 0.3}));
+  CHECK_FALSE(flows_as(Rigid{}));
+  CHECK(flows_as(DruckerPrager{}));
+  MieGruneisen water;
+  CHECK(flows_as(water));
+  water.shear = 1e9;
+  CHECK_FALSE(flows_as(water));
+}
+
 TEST_CASE("what a warning calls usual is where it begins") {
   using Contact = RunSummary::Contact;
   struct Share {

@@ -21,6 +21,7 @@ output: {frames: 2, history: 10}
 
 struct Failed {
   std::string message;
+  std::vector<std::string> warnings;
   nlohmann::json summary;
   History history;
   bool pictures = false;
@@ -35,6 +36,7 @@ Failed run_to_failure(const Scene& scene, const Folder& folder = {}) {
     run_scene(scene, options);
   } catch (const RunFailure& failure) {
     failed.message = failure.what();
+    failed.warnings = failure.warnings();
   }
   std::ifstream file(options.folder / "run.json");
   failed.summary = nlohmann::json::parse(file);
@@ -59,6 +61,39 @@ TEST_CASE("a particle that leaves the grid ends the run with step, time, particl
   CHECK(failed.summary["energy_error"].is_number());
   CHECK(failed.summary.contains("scene_hash"));
   CHECK(failed.pictures);
+}
+
+TEST_CASE("a way out that the scene has taken already is not named") {
+  CHECK(run_to_failure(scene_from(kThrown)).message.find("grid.leaving") != std::string::npos);
+  const Failed failed =
+      run_to_failure(scene_from(kThrown, {{"grid.leaving", "wall"}, {"boundaries", "{right: free}"}}));
+  CHECK(failed.message.find("left the grid") != std::string::npos);
+  CHECK(failed.message.find("grid.leaving") == std::string::npos);
+}
+
+/// A strip between two grips that draw it out until they leave the grid.
+const char* const kDrawn = R"(
+space: plane_strain
+grid: {size: [24 mm, 6 mm], cell: 1 mm}
+time: {end: 4 ms}
+materials:
+  rubber: {model: logarithmic_neo_hookean, density: 1000 kg/m^3, young: 1 MPa, poisson: 0.3}
+  grip: {model: rigid}
+bodies:
+  - {name: strip, box: {from: [9 mm, 2 mm], to: [15 mm, 4 mm]}, material: rubber}
+  - {name: l, box: {from: [7 mm, 1 mm], to: [9 mm, 5 mm]}, material: grip, velocity: [-4 m/s, 0]}
+  - {name: r, box: {from: [15 mm, 1 mm], to: [17 mm, 5 mm]}, material: grip, velocity: [4 m/s, 0]}
+contact: {law: perfect}
+output: {frames: 0, history: 20}
+)";
+
+TEST_CASE("a failure carries the warnings of its run, that of a body which parts before all") {
+  const Failed failed = run_to_failure(scene_from(kDrawn));
+  REQUIRE(failed.message.find("left the grid") != std::string::npos);
+  REQUIRE_FALSE(failed.warnings.empty());
+  CHECK(failed.warnings[0].find("particles of body 'strip' came ") == 0);
+  CHECK(failed.warnings[0].find("split: {edge: 1.5}") != std::string::npos);
+  CHECK(failed.summary["warnings"] == failed.warnings);
 }
 
 TEST_CASE("failed.vtu holds the particles within four cells of the one that failed, and it") {

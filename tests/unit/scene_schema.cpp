@@ -9,6 +9,7 @@
 
 #include "engine/scene/catalogue.hpp"
 #include "engine/scene/keys/known.hpp"
+#include "engine/scene/schema/known_keys.hpp"
 #include "engine/scene/schema/write_schema.hpp"
 #include "engine/scene/text/problems.hpp"
 #include "engine/scene/text/tree.hpp"
@@ -229,6 +230,23 @@ TEST_CASE("every key of the reader is in the schema and on the page") {
       const bool on_page = holds(page, "`" + key + "`") || holds(page, "." + key + "`");
       CHECK(on_page);
     }
+  }
+}
+
+TEST_CASE("a key that every body may have stands beside the shapes, one of a bitmap beside the bitmap") {
+  const std::string page = write_reference();
+  const std::size_t beside_shape = page.find("Beside the shape:"), beside_bitmap = page.find("Beside a `bitmap`:");
+  REQUIRE(beside_bitmap < page.size());
+  const std::string every = page.substr(beside_shape, beside_bitmap - beside_shape);
+  const std::string bitmap = page.substr(beside_bitmap, page.find("\n## ", beside_bitmap) - beside_bitmap);
+  for (const KnownKey& key : all_keys("bodies[]")) {
+    const auto& shapes = known_at("bodies[]").one_of;
+    if (std::any_of(shapes.begin(), shapes.end(), [&](const auto& group) { return group[0] == key.name; }))
+      continue;
+    CAPTURE(key.name);
+    const std::string row = "\n| `" + key.name + "` |";
+    CHECK(holds(every, row) == (key.condition != "bitmap"));
+    CHECK(holds(bitmap, row) == (key.condition == "bitmap"));
   }
 }
 

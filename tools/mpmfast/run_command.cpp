@@ -27,6 +27,7 @@ void print_passes(const RunSummary& summary) {
   for (const auto& [pass, seconds] : summary.seconds) width = std::max(width, pass.size());
   say("seconds by pass\n");
   for (const auto& [pass, seconds] : summary.seconds) {
+    if (seconds == 0) continue;  // it did not run
     const double share = summary.wall > 0 ? 100 * seconds / summary.wall : 0;
     say("  {:<{}}  {:9.3f} s  {:5.1f} %\n", pass, width, seconds, share);
   }
@@ -129,6 +130,7 @@ int run_and_report(const CommandLine& line, RunOptions& options,
   } catch (const RunFailure& failure) {
     display.finish();
     complain("mpmfast: the run failed: {}\n", failure.what());
+    for (const std::string& warning : failure.warnings()) complain("warning          {}\n", warning);
     print_remains(options.folder);
     return kExitRunFailed;
   } catch (...) {

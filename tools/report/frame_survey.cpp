@@ -35,7 +35,7 @@ void look_at(const FrameFile& file, const std::filesystem::path& path, std::size
   Polylines cracks = read_lines(file.reader(), path);
   const std::size_t stride = file.size() * frames / kSample + 1;
   merge(survey.ids, shown_ids(file.reader(), survey.particle_stride));
-  const std::vector<double> points = file.reader().points();
+  const std::vector<double> points = shown_points(file.reader(), survey.viewed);
   for (std::size_t d = 0; d < 3; ++d) {
     std::vector<double> x(file.size());
     for (std::size_t i = 0; i < x.size(); ++i) x[i] = points[3 * i + d];
@@ -62,9 +62,10 @@ void Extent::include(const std::vector<double>& values, std::size_t stride) {
 
 FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t particle_stride, int dimension,
                           const std::string& picture, const std::set<std::uint32_t>& rigid,
-                          std::vector<std::string>& notices) {
+                          const std::optional<Viewed>& viewed, std::vector<std::string>& notices) {
   FrameSurvey survey;
   survey.particle_stride = particle_stride;
+  survey.viewed = viewed;
   for (const SeriesFrame& frame : frames) {
     try {
       const FrameFile file(frame.file);
@@ -77,6 +78,15 @@ FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t pa
     }
   }
   return survey;
+}
+
+std::vector<double> shown_points(const VtuReader& file, const std::optional<Viewed>& viewed) {
+  std::vector<double> points = file.points();
+  for (std::size_t i = 0; viewed && i < points.size(); i += 3)
+    if (!viewed->holds(&points[i]))
+      std::fill_n(points.begin() + static_cast<std::ptrdiff_t>(i), 3,
+                  std::numeric_limits<double>::quiet_NaN());
+  return points;
 }
 
 Places find_places(const VtuReader& file, const FrameSurvey& survey) {

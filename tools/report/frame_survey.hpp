@@ -7,9 +7,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "engine/output/drawn.hpp"
 #include "engine/output/lines.hpp"
 #include "engine/output/read_vtu.hpp"
 #include "frame_fields.hpp"
@@ -30,7 +32,8 @@ struct FrameSurvey {
   std::vector<std::uint32_t> ids;   ///< of all particles that are ever shown, ascending
   std::vector<FrameField> fields;
   std::vector<Extent> extents;     ///< of the fields
-  std::array<Extent, 3> box;       ///< m, of the particles' centres
+  std::array<Extent, 3> box;       ///< m, of the centres of particles that are shown
+  std::optional<Viewed> viewed;    ///< nothing: all of space is shown
   std::array<Extent, 4> gradient;  ///< F in the plane: xx xy yx yy
   std::vector<Polylines> cracks;   ///< of each of the frames
   std::size_t particle_stride = 1;
@@ -38,9 +41,13 @@ struct FrameSurvey {
 
 /// Of every `particle_stride`-th particle by its id. A frame that cannot be read is left out and named in
 /// `notices`.
+/// @param viewed  particles beyond it have no place on the page
 FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t particle_stride, int dimension,
                           const std::string& picture, const std::set<std::uint32_t>& rigid,
-                          std::vector<std::string>& notices);
+                          const std::optional<Viewed>& viewed, std::vector<std::string>& notices);
+
+/// The places of a file's particles, three numbers each; NaN where a particle is not shown.
+std::vector<double> shown_points(const VtuReader& file, const std::optional<Viewed>& viewed);
 
 /// Where the particles of a file that are shown lie: in the file, and in the survey's ids.
 struct Places {

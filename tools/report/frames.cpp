@@ -8,8 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/errors.hpp"
+#include "engine/output/drawn.hpp"
 #include "frame_constants.hpp"
 #include "frame_survey.hpp"
+#include "kernels/basis/facts.hpp"
 #include "pack.hpp"
 
 namespace mpmfast {
@@ -120,11 +122,18 @@ void FramePacker::read_frame(std::size_t frame) {
   const FrameFile file(survey_.frames[frame].file);
   const Places places = find_places(file.reader(), survey_);
   note_constants(file, places, scene_, dimension_, constants_);
-  for (FrameColumn* column : all_columns()) {
-    const std::vector<double> values = column->field.values(file);
+  const auto put = [&](FrameColumn& column, const auto& value) {
     for (std::size_t k = 0; k < places.in_file.size(); ++k)
-      column->values[frame * width_ + places.in_page[k]] = column->levels.nearest(values[places.in_file[k]]);
-  }
+      column.values[frame * width_ + places.in_page[k]] = column.levels.nearest(value(places.in_file[k]));
+  };
+  const std::vector<double> points = shown_points(file.reader(), survey_.viewed);
+  for (FrameColumn& column : places_)
+    put(column, [&](std::size_t i) { return points[3 * i + column.field.component]; });
+  for (auto* columns : {&gradient_, &fields_})
+    for (FrameColumn& column : *columns) {
+      const std::vector<double> values = column.field.values(file);
+      put(column, [&](std::size_t i) { return values[i]; });
+    }
 }
 
 /// The points without which a line is off by more than so much, m.
@@ -197,6 +206,10 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
     return true;
   };
   Json json{{"dimension", dimension_}, {"count", width_}};
+  if (scene_) {  // how large domains are drawn
+    json["largest"] = largest_half_diagonal(*scene_);
+    json["follows_shape"] = facts(scene_->method.basis).convected;
+  }
   std::vector<double> times;
   for (const SeriesFrame& frame : survey_.frames) times.push_back(frame.time);
   json["times"] = times;
@@ -256,6 +269,22 @@ std::size_t particles_of(const std::vector<SeriesFrame>& frames) {
   return 0;
 }
 
+/// The grid and what is about it, where the scene is known and particles are there.
+std::optional<Viewed> viewed_of(const std::vector<SeriesFrame>& frames, const std::optional<Scene>& scene) {
+  if (!scene) return std::nullopt;
+  const Viewed viewed(*scene);
+  for (const SeriesFrame& frame : frames) {
+    try {
+      const std::vector<double> points = VtuReader(frame.file).points();
+      for (std::size_t i = 0; i < points.size(); i += 3)
+        if (viewed.holds(&points[i])) return viewed;
+    } catch (const FileError&) {
+      // survey_frames says so
+    }
+  }
+  return std::nullopt;
+}
+
 std::set<std::uint32_t> rigid_bodies(const std::optional<Scene>& scene) {
   std::set<std::uint32_t> out;
   for (std::uint32_t b = 0; scene && b < scene->bodies.size(); ++b)
@@ -281,10 +310,12 @@ Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int 
   std::size_t frame_stride = particles / particle_stride * all.size() / limits.values + 1;
   const std::string picture = scene ? scene->output.picture : "pressure";
   const std::set<std::uint32_t> rigid = rigid_bodies(scene);
+  const std::optional<Viewed> viewed = viewed_of(all, scene);
   for (;; frame_stride *= 2) {
     std::vector<std::string> own;
     const std::vector<SeriesFrame> chosen = thinned(all, frame_stride);
-    FrameSurvey survey = survey_frames(chosen, particle_stride, dimension, picture, rigid, own);
+    FrameSurvey survey =
+        survey_frames(chosen, particle_stride, dimension, picture, rigid, viewed, own);
     if (survey.frames.empty()) {
       notices.insert(notices.end(), own.begin(), own.end());
       notices.push_back("No particle file could be read, so there is no view of the particles.");

@@ -251,14 +251,20 @@ MapReader::MapReader(const Value& value, const std::string& expected)
   if (!valid_) value_.complain("not " + expected);
 }
 
+bool MapReader::lacks(const std::string& key) {
+  if (!lacking_.empty()) conditional_.push_back({key, lacking_});
+  return !lacking_.empty();
+}
+
 std::optional<Value> MapReader::find(const std::string& key) {
+  if (lacks(key)) return std::nullopt;
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return value_.find(key);
 }
 
 std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {
   auto found = find(key);
-  if (!found && valid_) {
+  if (!found && valid_ && lacking_.empty()) {
     value_.problems().add(value_.node().place, join(value_.path(), key),
                           fmt::format("missing ({})", expected));
   }
@@ -281,17 +287,24 @@ int MapReader::one_of(const KeyGroups& groups) {
   return touched == 1 ? chosen : -1;
 }
 
+void MapReader::refuse(const Key& key, const Node& value) {
+  Problems& problems = value_.problems();
+  const std::string path = join(value_.path(), key.text);
+  for (const Conditional& other : conditional_)
+    if (other.key == key.text)
+      return problems.add(key.place, path, fmt::format("needs '{}' beside it", other.condition), "");
+  const std::string meant = hint_for(key.text, known_, problems);
+  problems.add(key.place, path,
+               meant.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key",
+               meant.empty() ? hint_for_key(key, value, known_) : meant);
+}
+
 void MapReader::finish() {
   if (!valid_) return;
-  for (const Key& key : value_.node().keys) {
-    if (std::find(known_.begin(), known_.end(), key.text) != known_.end()) continue;
-    const std::string meant = hint_for(key.text, known_, value_.problems());
-    const Node& node = value_.node().items[static_cast<std::size_t>(&key - value_.node().keys.data())];
-    value_.problems().add(
-        key.place, join(value_.path(), key.text),
-        meant.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key",
-        meant.empty() ? hint_for_key(key, node, known_) : meant);
-  }
+  const std::vector<Key>& keys = value_.node().keys;
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    if (std::find(known_.begin(), known_.end(), keys[k].text) == known_.end())
+      refuse(keys[k], value_.node().items[k]);
 }
 
 }  // namespace mpmfast

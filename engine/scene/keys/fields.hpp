@@ -121,13 +121,27 @@ class MapReader {
   /// Which of these groups of keys is there, whole, and none of the other keys; −1 when it is not so.
   int one_of(const KeyGroups& groups);
 
+  /// What is asked for until `end_lacking` needs this first, such as "at: surface", which is not there:
+  /// nothing is found, and finish() names it for a key that is there all the same.
+  void begin_lacking(const std::string& condition) { lacking_ = condition; }
+  void end_lacking() { lacking_.clear(); }
+
   /// Reports every key that nobody asked for.
   void finish();
 
  private:
   Value value_;
   bool valid_;
+  /// A key, and what it needs first.
+  struct Conditional {
+    std::string key, condition;
+  };
+  bool lacks(const std::string& key);
+  void refuse(const Key& key, const Node& value);
+
   std::vector<std::string> known_;
+  std::string lacking_;  ///< empty: nothing
+  std::vector<Conditional> conditional_;
 };
 
 }  // namespace mpmfast

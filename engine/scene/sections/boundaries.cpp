@@ -94,11 +94,23 @@ class Boundaries {
             "Where the wall acts: on the nodes at and beyond its plane, on its plane, which is exact for a "
             "body that stands against it, or on the surface of what reaches it.",
             wall.place, kWallPlaces);
-    map.under("at=surface", wall.place == WallPlace::surface && !wall.held, [&] {
+    describe_friction(map, wall);
+    return true;
+  }
+
+  /// On the surface alone; anywhere else it is answered with that.
+  void describe_friction(Keys& map, WallSpec& wall) const {
+    const bool there = wall.place == WallPlace::surface;
+    if (there && wall.held)
+      map.check("friction", [](Slot& slot) {
+        slot.report("a wall that is held lets nothing slide", "Friction is for wall: sliding");
+      });
+    if (map.reads() && !there) map.reader().begin_lacking("at: surface");
+    map.under("at=surface", map.reads() || (there && !wall.held), [&] {
       map.key("friction", "Coulomb's coefficient of the wall on what touches it.", wall.friction,
               Number{Measure::number, kNotNegative});
     });
-    return true;
+    if (map.reads()) map.reader().end_lacking();
   }
 
   /// Where the piston moves along the face's axis: inwards when the scene does not say. Written: upwards.

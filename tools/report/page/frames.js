@@ -1,5 +1,7 @@
 // The frames of a run: where particles are and of what shape, and the fields, unpacked when they are chosen.
 
+const WIDER = 0.05;
+
 class Frames {
   static async read(described) {
     const frames = new Frames();
@@ -33,7 +35,7 @@ class Frames {
     return lines;
   }
 
-  // Half of the edges of a domain, m: F by its undeformed sides, row by row.
+  // Half of the edges of a domain, m: F by its undeformed sides, row by row; as large as the pictures draw it.
   halfEdges(frame, particle, out) {
     const x = this.sideX[particle] / 2, y = this.sideY[particle] / 2;
     out[0] = x; out[1] = 0; out[2] = 0; out[3] = y;
@@ -44,27 +46,56 @@ class Frames {
     out[1] = f[1].value(f[1].levels[at]) * y;
     out[2] = f[2].value(f[2].levels[at]) * x;
     out[3] = f[3].value(f[3].levels[at]) * y;
+    this.limit(out, x, y);
   }
 
-  // Of all particles, in all frames or in one, with half a particle around.
+  // Half-diagonals beyond the largest: of domains that follow F they are cut, others are drawn as they were seeded.
+  limit(out, x, y) {
+    const most = this.largest;
+    if (!(most > 0)) return;
+    const sx = out[0] + out[1], sy = out[2] + out[3], dx = out[0] - out[1], dy = out[2] - out[3];
+    const sum = Math.hypot(sx, sy), difference = Math.hypot(dx, dy);
+    if (sum <= most && difference <= most) return;
+    if (!this.follows_shape) {
+      out[0] = x; out[1] = 0; out[2] = 0; out[3] = y;
+      return;
+    }
+    const s = Math.min(1, most / sum) / 2, d = Math.min(1, most / difference) / 2;
+    out[0] = s * sx + d * dx; out[1] = s * sx - d * dx;
+    out[2] = s * sy + d * dy; out[3] = s * sy - d * dy;
+  }
+
+  // How far a particle reaches along an axis, m.
+  reach(axis, frame, particle, edges) {
+    if (this.dimension === 3) return this.sideX[particle] / 2;
+    this.halfEdges(frame, particle, edges);
+    return Math.abs(edges[2 * axis]) + Math.abs(edges[2 * axis + 1]);
+  }
+
+  // Of all particles, in all frames or in one, with their domains; wider by so much of its longest side, as in the pictures.
   boundingBox(frame) {
-    const [from, to] = frame === undefined ? [0, this.axes[0].levels.length] : [frame * this.count, (frame + 1) * this.count];
-    const lower = [], upper = [];
+    const [first, last] = frame === undefined ? [0, this.times.length - 1] : [frame, frame];
+    const lower = [], upper = [], edges = new Float64Array(4);
     let side = 0;
     for (const x of this.sideX) side = Math.max(side, x);
-    for (const column of this.axes) {
+    const furthest = Math.max(this.largest ?? Infinity, side);  // nobody reaches further
+    for (let axis = 0; axis < this.axes.length; ++axis) {
       let least = Infinity, most = -Infinity;
-      for (let i = from; i < to; ++i) {
-        const level = column.levels[i];
-        if (level === column.none) continue;
-        if (level < least) least = level;
-        if (level > most) most = level;
-      }
+      for (let f = first; f <= last; ++f)
+        for (let i = 0; i < this.count; ++i) {
+          const x = this.place(axis, f, i);
+          if (!(x - furthest < least || x + furthest > most)) continue;
+          const reach = this.reach(axis, f, i, edges);
+          least = Math.min(least, x - reach);
+          most = Math.max(most, x + reach);
+        }
       if (!(least <= most)) { least = 0; most = 1; }
-      lower.push(column.value(least) - side / 2);
-      upper.push(column.value(most) + side / 2);
+      lower.push(least);
+      upper.push(most);
     }
     for (let d = 0; d < lower.length; ++d) if (!(upper[d] > lower[d])) { lower[d] -= 0.5; upper[d] += 0.5; }
+    const margin = WIDER / 2 * Math.max(...lower.map((x, d) => upper[d] - x));
+    for (let d = 0; d < lower.length; ++d) { lower[d] -= margin; upper[d] += margin; }
     return [lower, upper];
   }
 

@@ -1,6 +1,8 @@
 // Particles in the plane, drawn as their deformed domains by filling spans of pixels: crisp at any zoom, without gaps
 // between neighbours, quick for 100,000 of them, and the particle under the pointer is known from its pixel.
 
+const LEFT = 62;  // pixels of the page, for usual numbers beside the box
+
 class PlaneView {
   constructor(box, frames) {
     this.frames = frames;
@@ -9,6 +11,7 @@ class PlaneView {
     this.raster = document.createElement('canvas');
     this.centre = [0, 0];
     this.scale = 1;  // pixels of the page a metre
+    this.left = LEFT;
     this.whole = frames.box;
     this.pointer = null;
     this.listen();
@@ -17,14 +20,26 @@ class PlaneView {
     new ResizeObserver(() => { if (first) this.fit(); first = false; this.draw(); }).observe(this.canvas);
   }
 
-  plot() { return {left: 62, top: 26, right: this.canvas.clientWidth - 12, bottom: this.canvas.clientHeight - 42}; }
+  // The box within its labels, of which those of its left may be wide.
+  plot() {
+    return {left: this.left, top: 26, right: this.canvas.clientWidth - 20, bottom: this.canvas.clientHeight - 42};
+  }
 
   // To all frames, or to the one that is shown.
   fit(box = this.whole) {
-    const p = this.plot(), [[x0, y0], [x1, y1]] = box;
+    const [[x0, y0], [x1, y1]] = box;
     this.centre = [(x0 + x1) / 2, (y0 + y1) / 2];
-    this.scale = 0.96 * Math.min((p.right - p.left) / (x1 - x0), (p.bottom - p.top) / (y1 - y0));
+    this.left = LEFT;
+    for (let k = 0; k < 2; ++k) {  // the numbers of the axes follow from the scale, and the room beside them
+      this.fill(x1 - x0, y1 - y0);
+      this.makeRoom(this.canvas.getContext('2d'));
+    }
     this.draw();
+  }
+
+  fill(width, height) {
+    const p = this.plot();
+    this.scale = Math.min((p.right - p.left) / width, (p.bottom - p.top) / height);
   }
 
   toPage(x, y) {
@@ -45,7 +60,9 @@ class PlaneView {
 
   draw() {
     if (!this.colours || this.canvas.clientWidth === 0) return;
-    const {context: c, width, height, ratio} = fitCanvas(this.canvas), p = this.plot();
+    const {context: c, width, height, ratio} = fitCanvas(this.canvas);
+    this.makeRoom(c);
+    const p = this.plot();
     c.clearRect(0, 0, width, height);
     c.fillStyle = themeColour('canvas');
     c.fillRect(p.left, p.top, p.right - p.left, p.bottom - p.top);
@@ -169,9 +186,24 @@ class PlaneView {
     }
   }
 
-  drawAxes(c, p) {
+  // The ticks of the axes that are shown, and the unit of lengths.
+  ticks(p) {
     const [x0, y1] = this.fromPage(p.left, p.top), [x1, y0] = this.fromPage(p.right, p.bottom);
     const unit = displayUnit(Math.max(Math.abs(x0), Math.abs(x1), Math.abs(y0), Math.abs(y1)), 'm');
+    return {unit, across: roundTicks(x0 / unit.size, x1 / unit.size, (p.right - p.left) / 95),
+      up: roundTicks(y0 / unit.size, y1 / unit.size, (p.bottom - p.top) / 60)};
+  }
+
+  // As wide a left margin as the numbers and the name of the axis need; never a narrower one, or a drag would shake it.
+  makeRoom(c) {
+    c.font = '12px ' + getComputedStyle(document.body).fontFamily;
+    const {unit, up} = this.ticks(this.plot());
+    const texts = [`y (${unit.name})`, ...up.at.map(tick => tickLabel(tick, up.spacing))];
+    this.left = Math.max(this.left, 13 + Math.ceil(Math.max(...texts.map(text => c.measureText(text).width))));
+  }
+
+  drawAxes(c, p) {
+    const {unit, across, up} = this.ticks(p);
     c.strokeStyle = themeColour('line');
     c.lineWidth = 1;
     c.strokeRect(p.left - 0.5, p.top - 0.5, p.right - p.left + 1, p.bottom - p.top + 1);
@@ -180,16 +212,15 @@ class PlaneView {
     c.font = '12px ' + getComputedStyle(document.body).fontFamily;
     c.textAlign = 'center';
     c.textBaseline = 'top';
-    const across = roundTicks(x0 / unit.size, x1 / unit.size, (p.right - p.left) / 95);
     for (const tick of across.at) {
       const px = Math.round(this.toPage(tick * unit.size, 0)[0]) + 0.5;
       c.beginPath(); c.moveTo(px, p.bottom); c.lineTo(px, p.bottom + 5); c.stroke();
-      c.fillText(tickLabel(tick, across.spacing), px, p.bottom + 8);
+      const text = tickLabel(tick, across.spacing), half = c.measureText(text).width / 2;
+      c.fillText(text, Math.min(px, this.canvas.clientWidth - half - 1), p.bottom + 8);
     }
     c.textAlign = 'right';
     c.fillText(`${report.axisymmetric ? 'r' : 'x'} (${unit.name})`, p.right, p.bottom + 25);
     c.textBaseline = 'middle';
-    const up = roundTicks(y0 / unit.size, y1 / unit.size, (p.bottom - p.top) / 60);
     for (const tick of up.at) {
       const py = Math.round(this.toPage(0, tick * unit.size)[1]) + 0.5;
       c.beginPath(); c.moveTo(p.left - 5, py); c.lineTo(p.left, py); c.stroke();

@@ -64,7 +64,7 @@ class SpaceView {
     const [lower, upper] = frames.box;
     this.middle = lower.map((x, d) => (x + upper[d]) / 2);
     this.unit = Math.hypot(...lower.map((x, d) => upper[d] - x)) / 2 || 1;
-    this.half = lower.map((x, d) => (upper[d] - x) / 2 / this.unit);
+    this.half = lower.map((x, d) => (upper[d] - x) / 2 / this.unit);  // of the box around them
     this.places = new Float32Array(3 * frames.count);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffers.radius);
     gl.bufferData(gl.ARRAY_BUFFER, Float32Array.from(frames.sideX, side => 1.15 * side / 2 / this.unit), gl.STATIC_DRAW);

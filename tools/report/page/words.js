@@ -72,7 +72,7 @@ function contactCard() {
 }
 
 function passesCard() {
-  const passes = Object.entries(report.run?.seconds ?? {});
+  const passes = Object.entries(report.run?.seconds ?? {}).filter(([, seconds]) => seconds > 0);  // those that ran
   if (passes.length === 0) return null;
   const wall = report.run.wall_s, most = Math.max(...passes.map(([, seconds]) => seconds));
   const table = element('table', {class: 'facts passes', id: 'passes'});
