@@ -224,7 +224,7 @@ using Owners = std::set<std::pair<int, int>>;
 /// As overlap_of, up to so many pairs of owners: no bin looks on when it knows them, and more and more bins
 /// are looked at together. What lies at one place by the thousand is not compared with all the others.
 FirstOverlaps first_of(const std::vector<ParticleDomain>& domains, std::size_t most, int threads) {
-  constexpr std::size_t kFewest = 8, kMost = std::size_t{1} << 16;  // bins at a time
+  constexpr std::size_t kFewest = 1, kMost = std::size_t{1} << 16;  // bins at a time
   const Bins bins(domains);
   std::vector<Overlap> of_bin;
   std::vector<Owners> owners_in;

@@ -130,15 +130,16 @@ void Step<Dim>::fail_collapsed(double dt, double share) const {
   const auto& particles = state_.particles;
   const auto speed = [&](std::size_t p) { return particles.vector(Quantity::velocity, p).norm(); };
   const double* wave_speed = particles.column(Quantity::wave_speed);
-  const std::string what = fmt::format("the time step collapsed to {:.3g} s, {:.2g} of the first", dt, share);
+  const std::string what =
+      share < 1 ? fmt::format("the time step collapsed to {:.3g} s, {:.2g} of the first", dt, share)
+                : fmt::format("steps of {:.3g} s never reach the end", dt);
   const std::size_t p = least(particles, std::numeric_limits<double>::infinity(),
                               [&](std::size_t q) { return -(wave_speed[q] + speed(q)); });
   if (p == particles.size())
     throw RunFailure(fmt::format("step {}, time {:.9g} s: {}", state_.step, state_.time, what));
-  fail_at(p,
-          fmt::format("{} (time.collapse): its waves run at {:.4g} m/s, it moves at {:.4g} m/s, J = {:.3g}",
-                      what, wave_speed[p], speed(p),
-                      particles.has(Quantity::deformation_gradient) ? particles.volume_ratio(p) : 1.0));
+  fail_at(p, fmt::format("{}{}: its waves run at {:.4g} m/s, it moves at {:.4g} m/s, J = {:.3g}", what,
+                         share < 1 ? " (time.collapse)" : "", wave_speed[p], speed(p),
+                         particles.has(Quantity::deformation_gradient) ? particles.volume_ratio(p) : 1.0));
 }
 
 template <int Dim>

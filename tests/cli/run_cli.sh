@@ -157,7 +157,7 @@ check_force_and_links() {
   rm -rf here/particles here/history.csv
   ln -s ../there/particles here/particles
   ln -s ../there/history.csv here/history.csv
-  ln -s ../there/picture_first_body.png here/picture_first_body.png
+  ln -sf ../there/picture_first_body.png here/picture_first_body.png
   run 0 run scene.yaml --steps 2 --out here --force --progress none
   [[ ! -L here/particles && -e here/particles/000000.vtu && ! -L here/history.csv ]] ||
     fail '--force left links in the folder'
