@@ -27,6 +27,12 @@ Descriptor Descriptor::open(const std::filesystem::path& path, bool writing) {
   return file;
 }
 
+Descriptor Descriptor::open_folder(const std::filesystem::path& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (fd < 0) throw_file_error("read", path);
+  return Descriptor(fd);
+}
+
 Descriptor Descriptor::create(const std::filesystem::path& path) {
   const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, kUsual);
   if (fd < 0) throw_file_error("write", path);

@@ -14,6 +14,7 @@ namespace mpmfast {
 class Descriptor {
  public:
   static Descriptor open(const std::filesystem::path& path, bool writing = false);
+  static Descriptor open_folder(const std::filesystem::path& path);
   static Descriptor create(const std::filesystem::path& path);  ///< or empties what is there
   /// Makes the file where there is none, and leaves what it holds.
   static Descriptor open_or_create(const std::filesystem::path& path);

@@ -5,7 +5,7 @@
 namespace mpmfast {
 
 FolderLock::FolderLock(const std::filesystem::path& folder, FolderWriter writer)
-    : folder_(Descriptor::open(folder)) {
+    : folder_(Descriptor::open_folder(folder)) {
   if (!folder_.claim())
     throw FileError(folder.string() + (writer == FolderWriter::run ? " belongs to a run that goes on now"
                                                                    : " belongs to a study that goes on now"));
