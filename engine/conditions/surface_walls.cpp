@@ -184,38 +184,6 @@ double SurfaceWalls<Dim>::rubbing_work(const State<Dim>& state, const Column& co
   return -gain;
 }
 
-/// The share of what straightens the velocities as a step begins that particles take (BoundaryBooks).
-template <int Dim>
-void SurfaceWalls<Dim>::take(const State<Dim>& state, const Column& column, const Change& start,
-                             BoundaryBooks<Dim>& books) const {
-  const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-  if (!wall.moves) return;
-  const double *mass = state.nodes.column(Nodal::mass),
-               *momentum = state.nodes.column(Nodal::momentum, wall.axis);
-  for (std::size_t k = 0; k < kRows; ++k)
-    if (const int slot = column.slot[k]; start.row[k] != 0)
-      books.taken.push_back(
-          {slot, Vec<Dim>::Unit(wall.axis), share_ * start.row[k], momentum[slot] / mass[slot], wall.speed});
-}
-
-/// Of a column that forces bring to the wall the first strain of the step is not held: material moves with v_s,
-/// then with the target.
-template <int Dim>
-void SurfaceWalls<Dim>::take_touch(const State<Dim>& state, const Column& column, const Change& both,
-                                   BoundaryBooks<Dim>& books) const {
-  const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-  const double *mass = state.nodes.column(Nodal::mass),
-               *momentum = state.nodes.column(Nodal::momentum, wall.axis);
-  const Change start = of_momentum(state, column, column.target, wall.axis);
-  for (std::size_t k = 0; k < kRows; ++k) {
-    const int slot = column.slot[k];
-    if (slot < 0 || !(mass[slot] > 0)) continue;
-    const double v = momentum[slot] / mass[slot];
-    books.taken.push_back({slot, Vec<Dim>::Unit(wall.axis), start.row[k], v, wall.speed});
-    books.work += (both.row[k] - start.row[k]) * (0.5 * (v + column.target) - wall.speed);
-  }
-}
-
 /// Impulses that the particles take too.
 template <int Dim>
 void SurfaceWalls<Dim>::push(State<Dim>& state, double dt, Column& column, const Change& change,

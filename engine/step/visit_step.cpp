@@ -216,7 +216,10 @@ void Step<Dim>::visit(Archive& archive) {
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
   penalty_.forget_tiles();
-  if (cracks_.active()) cracks_.mark(state_, passes_->supports(state_));
+  // Where particles lie in other windows than their tiles', nothing may count on these: the next step sorts.
+  const bool placed = passes_->near_home(state_, 0);
+  sort_due_ |= !placed;
+  if (cracks_.active() && placed) cracks_.mark(state_, passes_->supports(state_));
 }
 
 template void Contact<2>::visit_fits(Archive&);

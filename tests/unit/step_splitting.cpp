@@ -109,15 +109,15 @@ method: {basis: lcpdi}
 std::string drawn(const std::string& more = "") {
   return R"(
 space: plane_strain
-grid: {size: [36 mm, 26 mm], cell: 1 mm}
+grid: {size: [36 mm, 56 mm], cell: 1 mm}
 time: {end: 0.6 ms}
 materials:
   rubber: {model: logarithmic_neo_hookean, density: 1000 kg/m^3, young: 1 MPa, poisson: 0.3}
   grip: {model: rigid}
 bodies:
-  - {name: strip, box: {from: [14 mm, 3 mm], to: [22 mm, 23 mm]}, material: rubber, particles_per_cell: [1, 20]}
-  - {name: l, box: {from: [12 mm, 2 mm], to: [14 mm, 24 mm]}, material: grip, velocity: [-20 m/s, 0]}
-  - {name: r, box: {from: [22 mm, 2 mm], to: [24 mm, 24 mm]}, material: grip, velocity: [20 m/s, 0]}
+  - {name: strip, box: {from: [14 mm, 3 mm], to: [22 mm, 53 mm]}, material: rubber, particles_per_cell: [1, 8]}
+  - {name: l, box: {from: [12 mm, 2 mm], to: [14 mm, 54 mm]}, material: grip, velocity: [-20 m/s, 0]}
+  - {name: r, box: {from: [22 mm, 2 mm], to: [24 mm, 54 mm]}, material: grip, velocity: [20 m/s, 0]}
 contact: {law: perfect}
 method: {basis: lcpdi, split: {edge: 1.25}}
 output: {frames: 4, history: 20, picture: stress_xx}

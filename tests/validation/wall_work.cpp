@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "tests/support.hpp"
@@ -26,7 +27,8 @@ contact: none
 boundaries:
   bottom: wall
   top: wall
-  )" + left + "\n";
+  )" + left +
+         "\n";
 }
 
 /// 0.1 m/s times the sine of two periods.
@@ -47,9 +49,10 @@ std::string shaken_bar(const std::string& at) {
   return bar("left: {piston: " + sine() + ", position: 1.2 m, at: " + at + "}");
 }
 
-/// The bar pushed by a wall, until the first wave is on its way back: what rests on a wall is never pulled.
+/// The bar pushed by a wall, for less time than a wave needs to come back: a wall `at: surface` never pulls.
 std::string pushed_bar(const std::string& at) {
-  return bar("left: {piston: {times: [0 s, 0.1 s], values: [0 m/s, 0.2 m/s]}, position: 1.2 m, at: " + at + "}");
+  return bar("left: {piston: {times: [0 s, 0.1 s], values: [0 m/s, 0.2 m/s]}, position: 1.2 m, at: " + at +
+             "}");
 }
 
 double energy_of(Step<2>& step) { return kinetic_energy(step.state().particles) + step.stored_energy(); }
@@ -70,18 +73,20 @@ double imbalance(const std::string& yaml, const std::vector<Override>& overrides
 }
 
 // The stress of `average+` is that at half a step. It leaves up to (ωΔt)²/4 of the work, ω = 2π/kPeriod:
-// 0.024 % at CFL 0.5.
-TEST_CASE("a bar has the work of what shakes it, by any condition, in every basis, with long and short steps") {
+// 0.024 % at CFL 0.5. Measured 0.001 % at CFL 0.1 and 0.023 to 0.032 % at CFL 0.5.
+TEST_CASE(
+    "a bar has the work of what shakes it, by any condition, in every basis, with long and short steps") {
   for (const char* at : {"box", "nodes", "plane"})
     for (const char* basis : bases())
       for (const char* cfl : {"0.1", "0.5"}) {
         CAPTURE(std::string(at));
         CAPTURE(std::string(basis));
         CAPTURE(std::string(cfl));
-        const double off = imbalance(shaken_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}}); MESSAGE(std::string(at), " ", std::string(basis), " ", std::string(cfl), " ", off);CHECK(off<5e-4);
+        CHECK(imbalance(shaken_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}}) < 5e-4);
       }
 }
 
+// Measured 0.0005 and 0.012 %.
 TEST_CASE("a bar has the work of the piston that pushes it, wherever the piston acts") {
   for (const char* at : {"nodes", "plane", "surface"})
     for (const char* basis : bases())
@@ -89,11 +94,13 @@ TEST_CASE("a bar has the work of the piston that pushes it, wherever the piston 
         CAPTURE(std::string(at));
         CAPTURE(std::string(basis));
         CAPTURE(std::string(cfl));
-        const double off = imbalance(pushed_bar(at), {{"method.basis", basis}, {"time.cfl", cfl}, {"time.end", "0.19 s"}}); MESSAGE(std::string(at), " ", std::string(basis), " ", std::string(cfl), " ", off); CHECK(off < 5e-4);
+        CHECK(imbalance(pushed_bar(at),
+                        {{"method.basis", basis}, {"time.cfl", cfl}, {"time.end", "0.19 s"}}) < 5e-4);
       }
 }
 
-/// ½ Σ m v_s², J: the motion of the bar that quadratic splines see as a step begins. All is uniform across it.
+/// ½ Σ m v_s², J: the motion of the bar that quadratic splines see as a step begins. All is uniform across
+/// it.
 double seen_by_grid(const Particles<2>& particles) {
   constexpr int kRows = 40;
   std::array<double, kRows> mass{}, momentum{};
@@ -130,7 +137,9 @@ double left_on_grid(const State<2>& state) {
 // PIC, APIC and the filters lose motion as it goes to the grid and back, so the balance of particles cannot
 // close. Measured is what the grid gains in each step, between the two transfers, and what is stored: that is
 // the work, whatever the transfers lose. (`average`: its strains take the velocities of the grid alone.)
-TEST_CASE("the work of what shakes a bar is what the grid gains and what is stored, whatever the update loses") {
+// Measured 0.001 to 0.002 % at CFL 0.1 and 0.024 % at CFL 0.5.
+TEST_CASE(
+    "the work of what shakes a bar is what the grid gains and what is stored, whatever the update loses") {
   for (const char* update : {"flip", "pic", "apic", "xpic(2)", "xpic(5)", "fmpm(5)"})
     for (const char* cfl : {"0.1", "0.5"}) {
       CAPTURE(std::string(update));
@@ -149,7 +158,6 @@ TEST_CASE("the work of what shakes a bar is what the grid gains and what is stor
         drift = std::max(drift, std::abs(gained + step.stored_energy() - work));
         most = std::max({most, energy_of(step), std::abs(work)});
       }
-      MESSAGE(update, " ", cfl, " ", drift / most);
       CHECK(drift < 5e-4 * most);
     }
 }
