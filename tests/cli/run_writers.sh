@@ -42,7 +42,7 @@ check_runs() {
     six '0 4' run scene.yaml --out taken --force
     same_history whole taken
   done
-  [[ $refused -gt $rounds ]] || fail "only $refused of six times $rounds runs met another"
+  [[ $refused -gt $((rounds / 5)) ]] || fail "only $refused of six times $rounds runs met another"
   # Without --force, one alone can begin.
   for ((round = 0; round < rounds / 10; ++round)); do
     rm -rf fresh
@@ -88,20 +88,20 @@ check_studies() {
     [[ $(cut -d, -f1,2,3 both/study.csv) == "$(cut -d, -f1,2,3 studied/study.csv)" ]] || fail 'both has another table'
   done
   grep -q 'belongs to a study that goes on now' err?
-  [[ $refused -gt $rounds ]] || fail "only $refused of six times $rounds studies met another"
+  [[ $refused -gt $((rounds / 5)) ]] || fail "only $refused of six times $rounds studies met another"
 }
 
 cat >scene.yaml <<'SCENE'
 title: one particle in each of four cells
 space: plane_strain
 grid: {size: [4 mm, 4 mm], cell: 1 mm}
-time: {end: 20 us}
+time: {end: 2 us}
 materials: {steel: {model: linear_elastic, density: 7.85 g/cm^3, young: 210 GPa, poisson: 0.3}}
 bodies:
   - {name: block, box: {from: [1 mm, 1 mm], to: [3 mm, 3 mm]}, material: steel, velocity: [0, -1 m/s], particles_per_cell: 1}
-output: {frames: 1, history: 20, picture: none}
+output: {frames: 1, history: 4, checkpoint: none, picture: none}
 SCENE
-sed 's/end: 20 us/end: 10 s/; s/, -1 m.s/, 0/; s/picture: none/picture: body/' scene.yaml >long.yaml
+sed 's/end: 2 us/end: 10 s/; s/, -1 m.s/, 0/; s/checkpoint: none, picture: none/picture: body/' scene.yaml >long.yaml
 cat >study.yaml <<'STUDY'
 scene: scene.yaml
 variants: [{name: a}, {name: b, set: {time.cfl: 0.3}}]
