@@ -93,18 +93,44 @@ TEST_CASE("each two of three bodies at a node have the normal and the separation
 }
 
 TEST_CASE("no two entries of a list have the same name") {
-  for (const char* fields : {"lump", "pairs", "simultaneous"}) {
-    CAPTURE(std::string(fields));
-    const Met met(kLeft + kSliver + kBehind, std::string("normal: linear_regression, fields: ") + fields);
-    std::set<std::uint64_t> keys;
-    std::size_t entries = 0;
-    for (const auto& node : met.list().nodes)
-      for (int e = node.entry_begin; e < node.entry_end; ++e, ++entries)
-        keys.insert(entry_key(met.step.state(), met.list(), node, met.entry(e)));
-    CHECK(std::any_of(met.list().nodes.begin(), met.list().nodes.end(),
-                      [](const auto& node) { return Met::fields(node) == 3; }));
-    CHECK(keys.size() == entries);
+  for (const char* fields : {"lump", "pairs", "simultaneous"})
+    for (const std::string& bodies : {kLeft + kSliver + kBehind, kFloor + kLeft + kRight,
+                                      kLeft + kFloor + kRight, kLeft + kRight + kFloor}) {
+      CAPTURE(std::string(fields));
+      CAPTURE(bodies);
+      const Met met(bodies, std::string("normal: linear_regression, fields: ") + fields);
+      std::set<std::uint64_t> keys;
+      std::size_t entries = 0;
+      for (const auto& node : met.list().nodes)
+        for (int e = node.entry_begin; e < node.entry_end; ++e, ++entries)
+          keys.insert(entry_key(met.step.state(), met.list(), node, met.entry(e)));
+      CHECK(std::any_of(met.list().nodes.begin(), met.list().nodes.end(),
+                        [](const auto& node) { return Met::fields(node) == 3; }));
+      CHECK(keys.size() == entries);
+    }
+}
+
+TEST_CASE("a name tells nodes, fields and partners apart, a rigid first field and a lump too, and cracks") {
+  const Met met(kFloor + kLeft + kRight, "normal: linear_regression, fields: simultaneous");
+  std::set<std::uint64_t> keys;
+  std::size_t names = 0;
+  const auto name = [&](const auto& node, const ContactEntry<2>& entry) {
+    keys.insert(entry_key(met.step.state(), met.list(), node, entry));
+    ++names;
+  };
+  for (const auto& node : met.list().nodes) {
+    ContactEntry<2> entry;
+    for (entry.a = 0; entry.a < Met::fields(node); ++entry.a)
+      for (entry.b = -1; entry.b < Met::fields(node); ++entry.b)
+        if (entry.b != entry.a) name(node, entry);
+    for (entry.crack = 0; entry.crack < 3; ++entry.crack)
+      for (const bool beyond : {false, true}) {
+        entry.beyond = beyond;
+        name(node, entry);
+      }
   }
+  CHECK(names > 50);
+  CHECK(keys.size() == names);
 }
 
 TEST_CASE("the sides of a crack keep their name, whichever fields they are") {

@@ -144,15 +144,18 @@ TEST_CASE("what drives a crack is the same for whoever flies along, also where p
 }
 
 /// A slanted crack in a block that a wall bears, all turned by quarters; bodies fall downwards.
-TipLoad borne(int quarters) {
+/// @param mirrored  left and right change places, before it is turned
+TipLoad borne(int quarters, const std::string& space = "plane_strain", bool mirrored = false) {
   constexpr double kFall = 9e4;  // m/s²
   const Point down[] = {{0, -kFall}, {kFall, 0}, {0, kFall}, {-kFall, 0}};
   const char* walls[] = {"bottom: {wall: sliding, position: 4 mm}", "right: {wall: sliding, position: 24 mm}",
                          "top: {wall: sliding, position: 24 mm}", "left: {wall: sliding, position: 4 mm}"};
+  const auto at = [&](double x, double y) { return turned({mirrored ? 2 * kMiddle - x : x, y}, quarters); };
   const Scene scene = scene_from(
-      block(turned({8, kMiddle - 2}, quarters), turned({18, kMiddle + 3}, quarters),
+      block(at(8, kMiddle - 2), at(18, kMiddle + 3),
             "gravity: " + pair(down[quarters], "m/s^2") + "\nboundaries: {" + walls[quarters] + "}\n",
-            "law: frictionless"));
+            "law: frictionless"),
+      {{"space", space}});
   Step<2> step(scene);
   while (step.state().time < 100e-6) step.advance(step.stable_dt());
   return step.tip_load(0, true);
@@ -167,6 +170,78 @@ TEST_CASE("what drives a crack in a body that bears its weight is the same when 
     CHECK(load.release == doctest::Approx(upright.release).epsilon(1e-6).scale(0));
     CHECK(load.opening == doctest::Approx(upright.opening).epsilon(1e-6).scale(std::abs(upright.sliding)));
     CHECK(load.sliding == doctest::Approx(upright.sliding).epsilon(1e-6).scale(0));
+  }
+}
+
+/// Left and right of a crack change places in a mirror: it opens as much and slides the other way.
+TEST_CASE("in a mirror a crack is driven as much, and K_II has the other sign, in plane strain and stress") {
+  for (const char* space : {"plane_strain", "plane_stress"}) {
+    CAPTURE(std::string(space));
+    const TipLoad load = borne(0, space), mirrored = borne(0, space, true);
+    REQUIRE(load.release > 10);
+    REQUIRE(std::abs(load.sliding) > 0);
+    CHECK(mirrored.release == doctest::Approx(load.release).epsilon(1e-6).scale(0));
+    CHECK(mirrored.opening == doctest::Approx(load.opening).epsilon(1e-6).scale(std::abs(load.sliding)));
+    CHECK(mirrored.sliding == doctest::Approx(-load.sliding).epsilon(1e-6).scale(0));
+    CHECK(mirrored.across[0] ==
+          doctest::Approx(-load.across[0]).epsilon(1e-6).scale(std::abs(load.across[1])));
+    CHECK(mirrored.across[1] ==
+          doctest::Approx(load.across[1]).epsilon(1e-6).scale(std::abs(load.across[0])));
+    CHECK(mirrored.ahead[0] == doctest::Approx(-load.ahead[0]).epsilon(1e-6));
+    CHECK(mirrored.ahead[1] == doctest::Approx(load.ahead[1]).epsilon(1e-6));
+  }
+}
+
+/// Of `block`: E = 50 MPa, ν = 0.3.
+double plane_modulus_in(const std::string& space) { return space == "plane_stress" ? 50e6 : 50e6 / 0.91; }
+
+TEST_CASE("K^2 is J times Young's modulus in plane stress, and times that over 1 - nu^2 in plane strain") {
+  for (const char* space : {"plane_strain", "plane_stress"})
+    for (const char* model : {"linear_elastic", "neo_hookean", "logarithmic_neo_hookean"}) {
+      CAPTURE(std::string(space));
+      CAPTURE(std::string(model));
+      const Scene scene = scene_from(block({0, kMiddle}, {14, kMiddle}, "", "law: frictionless"),
+                                     {{"space", space}, {"materials.soft.model", model}});
+      Step<2> step(scene);
+      open(step);
+      while (step.state().time < 50e-6) step.advance(step.stable_dt());
+      const TipLoad load = step.tip_load(0, true);
+      CHECK(load.modulus == doctest::Approx(plane_modulus_in(space)).epsilon(1e-9));
+      REQUIRE(load.release > 1);
+      CHECK(load.opening > 0);
+      CHECK(load.opening * load.opening + load.sliding * load.sliding ==
+            doctest::Approx(plane_modulus_in(space) * load.release).epsilon(1e-9));
+    }
+}
+
+/// Viktorov: c_R = c_s (0.87 + 1.12 ν)/(1 + ν), in plane stress with ν/(1 + ν) for ν.
+TEST_CASE("an end that rests is asked again when a wave along its sides has gone a piece, in either plane") {
+  for (const std::string space : {"plane_strain", "plane_stress"}) {
+    CAPTURE(space);
+    const Scene scene =
+        scene_from(block({8, kMiddle}, {14, kMiddle}, "",
+                         "law: frictionless, growth: {toughness: 10 J/m^2, advance: 0.5, zone: 8}"),
+                   {{"space", space}});
+    // New sides soften over so many cells: E′ G/σ².
+    CHECK(std::get<Cohesive>(scene.cracks[0].law.acts).normal_strength ==
+          doctest::Approx(std::sqrt(plane_modulus_in(space) * 10 / 8e-3)).epsilon(1e-9));
+    Step<2> step(scene);
+    Cracks<2> cracks(scene, step.plan());
+    TipLoad rests;
+    rests.ahead = {1, 0};
+    rests.modulus = plane_modulus_in(space);
+    const double poisson = space == "plane_stress" ? 0.3 / 1.3 : 0.3,
+                 wave = std::sqrt(50e6 / 2.6 / 1200) * (0.87 + 1.12 * poisson) / (1 + poisson);
+    for (const double time : {0.0, 1.0}) {
+      step.state().time = time;
+      CHECK(cracks.growth_due(time));
+      cracks.grow(step.state(), [&](int, bool) { return rests; });
+      for (const CrackEnd& end : cracks.lines()[0].ends)
+        CHECK(end.due - time == doctest::Approx(0.5e-3 / wave).epsilon(1e-9));
+      CHECK_FALSE(cracks.growth_due(time + 0.499e-3 / wave));
+      CHECK(cracks.growth_due(time + 0.501e-3 / wave));
+    }
+    CHECK(cracks.lines()[0].length() == doctest::Approx(6e-3).epsilon(1e-9));
   }
 }
 

@@ -137,6 +137,60 @@ TEST_CASE("a step of two stiffnesses gains the work of its pull, however near to
   }
 }
 
+TEST_CASE("a jump that starts at zero has the spring of the side that it goes to, and nothing of the other") {
+  for (const bool alone : {true, false})
+    for (const auto& [tension, compression] :
+         {std::pair{100.0, 1.0}, {1.0, 100.0}, {4.0, 0.0}, {0.0, 4.0}, {4.0, 4.0}})
+      for (const double way : {-1.0, 1.0})
+        for (const auto& [rate, pull] : {std::pair{1.0, 0.0}, {0.0, 1.0}, {0.3, 2.0}, {1e-6, 1e-9}}) {
+          CAPTURE(tension);
+          CAPTURE(way);
+          const JumpStart start{0, way * rate, way * pull};
+          const double own = rate_after_spring(way > 0 ? tension : compression, 1, 0.1, start, alone);
+          CHECK(rate_after_springs(tension, compression, 1, 0.1, start, alone) ==
+                doctest::Approx(own).epsilon(1e-13).scale(0));
+        }
+}
+
+TEST_CASE("springs do to what closes what the same springs, swapped, do to what opens") {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> share(-1, 1);
+  double worst = 0;
+  for (int trial = 0; trial < 50000; ++trial) {
+    const double compression = trial % 3 == 0 ? 0 : 4, tension = 4 * std::pow(10, 2 * share(random)),
+                 rate = share(random), pull = 2 * share(random), jump = share(random);
+    // Of a jump that starts at zero, and whose rate and pull are of two signs, nobody knows the side.
+    const JumpStart one = trial % 5 == 0 ? JumpStart{0, rate, std::copysign(pull, rate)}
+                                         : JumpStart{trial % 7 == 0 ? 0.01 * jump : jump, rate, pull};
+    const JumpStart other{-one.jump, -one.rate, -one.opening};
+    for (const bool alone : {true, false})
+      worst = std::max(worst, std::abs(rate_after_springs(tension, compression, 1, 1, one, alone) +
+                                       rate_after_springs(compression, tension, 1, 1, other, alone)));
+  }
+  CHECK(worst < 1e-10);
+}
+
+TEST_CASE("two fields move along each axis by its own spring, whichever is called the first") {
+  const Springs springs{3, 7, 2};
+  for (const bool alone : {true, false})
+    for (const double open : {-0.4, -0.01, 0.01, 0.4}) {
+      CAPTURE(open);
+      const Vec<3> jump(open, 0.2, -0.3), rate(0.5, -0.7, 0.1), pull(-1, 0.4, 0.6);
+      const PairStart<3> pair{0.8, Vec<3>::UnitX(), jump, rate, pull};
+      const Vec<3> end = rate_after(springs, pair, 0.3, alone);
+      for (int d = 0; d < 3; ++d) {
+        const JumpStart start{jump[d], rate[d], pull[d]};
+        const double by_axis = d == 0 ? rate_after_springs(3, 7, 0.8, 0.3, start, alone)
+                                      : rate_after_spring(2, 0.8, 0.3, start, alone);
+        CHECK(end[d] == doctest::Approx(by_axis).epsilon(1e-13).scale(1));
+      }
+      const PairStart<3> swapped{0.8, -pair.normal, -jump, -rate, -pull};
+      CHECK((rate_after(springs, swapped, 0.3, alone) + end).norm() < 1e-13);
+      const Vec<3> reached = pair.jump_with(end, 0.3);
+      CHECK((reached - jump - 0.15 * (rate + end)).norm() < 1e-15);
+    }
+}
+
 TEST_CASE("surfaces that springs leave free in tension part with the speed they came with") {
   Oscillator o{0.0, 50.0, 1.0, 0.1, 0.3, -1.0};
   while (!(o.jump > 0 && o.rate > 0)) o.step();

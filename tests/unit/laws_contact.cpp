@@ -172,6 +172,69 @@ TEST_CASE("a bond holds up to its ellipse of tension and shear, within reach, an
   CHECK((change(-n + 0.81 * t, -0.1) - (-n + 0.3 * t)).norm() < 1e-15);
 }
 
+TEST_CASE("what is not said of a node is nothing: no mass, and no area for a film or a bond") {
+  const Sliding bare{1, 2};
+  CHECK(bare.reduced == 0);
+  CHECK(bare.area_time == 0);
+  const Vec<2> n = Vec<2>::Unit(0), t = Vec<2>::Unit(1), stick = -n + 3 * t;
+  CHECK(resolve_pair<2>(stick, n, -0.1, Viscous{7, 1}, 0.4) == -n);
+  const Adhesion bond{0.25, 2, 4, 0.01};
+  CHECK(resolve_pair<2>(stick, n, -0.1, bond, 0.4) == resolve_pair<2>(stick, n, -0.1, Coulomb{0.25}, 0.4));
+  CHECK(resolve_pair<2>(n, n, -0.1, bond, 0.4) == Vec<2>::Zero());
+  // A film stops at once what has no mass.
+  Sliding massless{1, 3};
+  massless.area_time = 0.02;
+  CHECK(Viscous{7, 1}(massless) == doctest::Approx(3).epsilon(1e-15));
+}
+
+// Powers of two: both sides of each bound are the same number.
+TEST_CASE("at their bounds themselves surfaces rest and bonds hold, but nothing has reach or touches") {
+  CHECK(Coulomb{0.25, 0.5}({4, 2}) == kSticks);
+  CHECK(VelocityFriction{0.25, 0.5, 1}({4, 2, 1}) == kSticks);
+  const Adhesion bond{0.25, 2, 4, 0.5, 0.25};  // reach 1/8 m
+  const Vec<2> n = Vec<2>::Unit(0), t = Vec<2>::Unit(1);
+  const auto change = [&](const Vec<2>& stick, double separation) {  // tension up to 1, shear up to 2
+    return resolve_pair<2>(stick, n, separation, bond, 1, 0.5);
+  };
+  for (const double side : {-1.0, 1.0}) {
+    CHECK(change(2 * side * t, 0) == 2 * side * t);
+    CHECK(change(-n + 2.25 * side * t, -0.125) == -n + 2.25 * side * t);
+    CHECK(resolve_pair<2>(side * t, n, -0.125, Stick{}) == Vec<2>::Zero());
+    CHECK(resolve_pair<2>(side * n, side * -n, 0, Stick{}) == Vec<2>::Zero());
+  }
+  CHECK(change(n, 0) == n);
+  CHECK(change(n, 0.12) == n);
+  CHECK(change(n, 0.125) == Vec<2>::Zero());
+}
+
+TEST_CASE_TEMPLATE("a pair in a mirror does what the pair does, mirrored, by each law", D, TwoD, ThreeD) {
+  constexpr int Dim = D::value;
+  const auto check = []<class Law>(const Law& law) {
+    Draw draw(6);
+    for (int k = 0; k < 200; ++k) {
+      const Vec<Dim> n = random_direction<Dim>(draw),
+                     stick = uniform(draw, 0.1, 3) * random_direction<Dim>(draw);
+      for (const double separation : {-0.1, 0.005})
+        for (int d = 0; d < Dim; ++d) {
+          const auto mirrored = [d](Vec<Dim> x) {
+            x[d] = -x[d];
+            return x;
+          };
+          const Vec<Dim> change = resolve_pair<Dim>(stick, n, separation, law, 0.7, 0.3),
+                         other = resolve_pair<Dim>(mirrored(stick), mirrored(n), separation, law, 0.7, 0.3);
+          CHECK((other - mirrored(change)).norm() < 1e-14 * stick.norm());
+        }
+    }
+  };
+  check(Coulomb{0.3, 0.5});
+  check(Frictionless{});
+  check(Stick{});
+  check(Perfect{});
+  check(VelocityFriction{0.1, 0.6, 0.5});
+  check(Viscous{3, 1});
+  check(Adhesion{0.2, 1, 2, 0.01, 1});
+}
+
 TEST_CASE("every law has a word of its own and says what it is") {
   std::set<std::string> words;
   const auto check = [&]<class Law>(const Law&) {

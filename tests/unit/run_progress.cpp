@@ -37,5 +37,27 @@ output: {frames: 0, picture: none, checkpoint: none}
   CHECK(p.energy_error == 0);
 }
 
+TEST_CASE("the seconds of a run by pass and of its output are no more than all that it took") {
+  const Outcome outcome = run(scene_from(R"(
+space: plane_strain
+grid: {size: [8 mm, 8 mm], cell: 1 mm}
+time: {end: 50 us}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: a, box: {from: [2 mm, 2 mm], to: [6 mm, 6 mm]}, material: m, velocity: [3 m/s, -2 m/s]}]
+output: {frames: 2, checkpoint: none}
+)"));
+  REQUIRE(outcome.failure.empty());
+  double sum = 0, output = -1;
+  for (const auto& [pass, seconds] : outcome.summary.seconds) {
+    CAPTURE(pass);
+    CHECK(seconds >= 0);
+    sum += seconds;
+    if (pass == "output") output = seconds;
+  }
+  CHECK(output > 0);
+  CHECK(sum > output);
+  CHECK(sum <= outcome.summary.wall);
+}
+
 }  // namespace
 }  // namespace mpmfast

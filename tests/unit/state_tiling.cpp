@@ -2,7 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "tests/support.hpp"
 
@@ -180,6 +186,87 @@ TEST_CASE("many tiles lie in strips of whole rows, of which those of a colour sh
   flat(apart, false);  // between the rows of one field are those of the other
   check_many<3>("3d", "origin: [-10 mm, -10 mm, -10 mm], size: [80 mm, 80 mm, 80 mm]",
                 "[-5 mm, -5 mm, -5 mm]", "[43 mm, 47 mm, 45 mm]", "[60 mm, 60 mm, 60 mm]", apart, true);
+}
+
+/// Two fields whose supports begin at each node from two tiles below the first node of a domain to where they
+/// reach two tiles beyond its last.
+template <int Dim>
+void check_border(const std::array<int, 3>& nodes) {
+  constexpr int kLowest = 1 - 2 * kTileSide;
+  std::array<std::size_t, 3> count{1, 1, 1};
+  for (std::size_t d = 0; d < Dim; ++d)
+    count[d] = static_cast<std::size_t>((nodes[d] - 1) / kTileSide * kTileSide + 2 * kTileSide - kLowest + 1);
+  const std::size_t n = 2 * count[0] * count[1] * count[2];
+  const std::vector<int> field_of_body{0, 1};
+  Tiling<Dim> tiling;
+  Particles<Dim> particles;
+  std::vector<NodeIndex<Dim>> begins(n);
+  tiling.set_domain(nodes);
+  tiling.start_keys(n, field_of_body);
+  particles.allocate(n, {Quantity::position});
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t rest = i / 2;
+    for (int d = 0; d < Dim; rest /= count[static_cast<std::size_t>(d++)])
+      begins[i][d] = kLowest + static_cast<int>(rest % count[static_cast<std::size_t>(d)]);
+    particles.id()[i] = static_cast<std::uint32_t>(i);
+    particles.body()[i] = static_cast<std::uint16_t>(i % 2);
+    tiling.set_key(i, begins[i], static_cast<int>(i % 2), static_cast<int>(i % 2), false);
+  }
+  tiling.build(particles, field_of_body);
+  std::size_t sorted = 0;
+  for (const auto& tile : tiling.tiles) {
+    for (int r = tile.run_begin; r < tile.run_end; ++r) {
+      const auto& run = tiling.runs[static_cast<std::size_t>(r)];
+      for (std::uint32_t p = run.begin; p < run.end; ++p, ++sorted) {
+        REQUIRE(particles.body()[p] == tile.field);
+        for (int d = 0; d < Dim; ++d) {
+          const int from = begins[particles.id()[p]][d] - tile.window[d];
+          REQUIRE(from >= 1);
+          REQUIRE(from <= kTileSide);
+        }
+      }
+    }
+    for (int c = 0; c < kCorners<Dim>; ++c) {
+      NodeIndex<Dim> node;
+      for (int d = 0; d < Dim; ++d) node[d] = tile.window[d] + kTileSide * (c >> d & 1);
+      REQUIRE(tiling.slot(node, tile.field) == tile.slot[c]);
+    }
+  }
+  CHECK(sorted == n);
+  std::map<std::array<int, 3>, int> at;
+  const auto key = [](const NodeIndex<Dim>& node) {
+    std::array<int, 3> out{};
+    for (int d = 0; d < Dim; ++d) out[static_cast<std::size_t>(d)] = node[d];
+    return out;
+  };
+  for (std::size_t s = 0; s < tiling.stacks.size(); ++s) {
+    const auto& stack = tiling.stacks[s];
+    REQUIRE(stack.end - stack.begin == 2);
+    at[key(stack.first_node)] = static_cast<int>(s);
+    for (int t = stack.begin; t < stack.end; ++t)
+      for (int local = 0; local < kTileNodes<Dim>; ++local)
+        REQUIRE(
+            tiling.slot(tiling.node(stack, local), tiling.node_tiles[static_cast<std::size_t>(t)].field) ==
+            t * kTileNodes<Dim> + local);
+  }
+  REQUIRE(at.size() == tiling.stacks.size());
+  for (const auto& stack : tiling.stacks)
+    for (int k = 0; k < power(3, Dim); ++k) {
+      NodeIndex<Dim> beside = stack.first_node;
+      for (int d = 0, digits = k; d < Dim; ++d, digits /= 3) beside[d] += kTileSide * (digits % 3 - 1);
+      const auto found = at.find(key(beside));
+      REQUIRE(stack.neighbour[k] == (found == at.end() ? -1 : found->second));
+    }
+  // Beyond are no nodes.
+  for (const int outside : {kLowest - 2, 1000})
+    CHECK(tiling.slot(NodeIndex<Dim>::Constant(outside), 0) == -1);
+}
+
+TEST_CASE("supports up to two tiles beyond a domain have tiles, slots and neighbours of their own") {
+  check_border<2>({5, 8, 0});
+  check_border<2>({7, 4, 0});
+  check_border<2>({9, 6, 0});
+  check_border<3>({5, 6, 8});
 }
 
 TEST_CASE("bodies of different fields that lie in one row of tiles are neighbours among the particles") {

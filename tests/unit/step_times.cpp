@@ -1,5 +1,10 @@
-// How long steps are, and what a push between two of them does.
+// How long steps are, what a push between two of them does, and how long they take.
 
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "engine/step/clock.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -45,6 +50,51 @@ TEST_CASE("a push between two steps does the work that the particles gain") {
     step.add_velocity(axis, change);
     CHECK(step.sums().body_force_work - work == doctest::Approx(kinetic() - before).epsilon(1e-12));
   }
+}
+
+double of_pass(const PassClock& clock, Pass pass) { return clock.seconds()[static_cast<std::size_t>(pass)]; }
+
+TEST_CASE("a clock adds what time has passed to the pass that took it, also where that failed") {
+  PassClock clock;
+  const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
+  clock.time(Pass::heat, wait);
+  const double once = of_pass(clock, Pass::heat);
+  CHECK(once >= 2e-3);
+  const int seven = clock.time(Pass::heat, [&] {
+    wait();
+    return 7;
+  });
+  CHECK(seven == 7);
+  CHECK(of_pass(clock, Pass::heat) >= once + 2e-3);
+  CHECK_THROWS_AS(clock.time(Pass::sort,
+                             [&] {
+                               wait();
+                               throw std::runtime_error("in a pass");
+                             }),
+                  std::runtime_error);
+  CHECK(of_pass(clock, Pass::sort) >= 2e-3);
+  for (std::size_t k = 0; k < kPassNames.size(); ++k)
+    if (k != static_cast<std::size_t>(Pass::heat) && k != static_cast<std::size_t>(Pass::sort))
+      CHECK(clock.seconds()[k] == 0);
+}
+
+TEST_CASE("passes take no longer than the steps, and those that a scene lacks take no time") {
+  const Scene scene = scene_from(kBlock, {{"method", "{update: flip}"}});
+  Step<2> step(scene);
+  const auto start = std::chrono::steady_clock::now();
+  advance(step, 20);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  double sum = 0;
+  for (const double seconds : step.clock().seconds()) {
+    CHECK(seconds >= 0);
+    sum += seconds;
+  }
+  CHECK(sum <= wall);
+  for (const Pass pass : {Pass::sort, Pass::project, Pass::strain_force, Pass::nodes, Pass::update})
+    CHECK(of_pass(step.clock(), pass) > 0);
+  for (const Pass pass :
+       {Pass::extension, Pass::surfaces, Pass::contact_nodes, Pass::contact_resolve, Pass::xpic, Pass::heat})
+    CHECK(of_pass(step.clock(), pass) == 0);
 }
 
 }  // namespace
