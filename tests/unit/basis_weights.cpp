@@ -551,7 +551,7 @@ TEST_CASE_TEMPLATE("CPDI: edges follow F until the domain is too long or too thi
     if (found.squaredNorm() < 0.99 * kMostHalfDiagonal * kMostHalfDiagonal)
       CHECK((found * found.transpose() - free * free.transpose()).norm() < 1e-9);
   }
-  CHECK(kept > 20);
+  CHECK(kept > 10);
   CHECK(bounded > 20);
 }
 

@@ -18,7 +18,7 @@ struct Sample {
   std::uint64_t whole = ~std::uint64_t{0};
   int number = -7;
   bool flag = true;
-  std::vector<double> reals{0.1, std::numeric_limits<double>::quiet_NaN(), 5e-324};
+  std::vector<double> reals{0.1, -std::numeric_limits<double>::infinity(), 5e-324};
   std::vector<std::uint16_t> shorts = std::vector<std::uint16_t>(5000, 3);
   std::vector<std::uint32_t> nothing;
   std::string text = "a \"name\", with é";

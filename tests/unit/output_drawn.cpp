@@ -65,7 +65,9 @@ Particles<3> one_ball(double f) {
 }
 
 Canvas picture_of(const Particles<3>& particles) {
-  return paint_particles(particles, small_scene(Space::three_dimensional), "body", 0, Framing{});
+  Scene scene = small_scene(Space::three_dimensional);
+  scene.grid.cell = 1;  // domains are drawn no longer than a cell
+  return paint_particles(particles, scene, "body", 0, Framing{});
 }
 
 }  // namespace

@@ -204,9 +204,10 @@ TEST_CASE("what the colours do not reach has a line of its own in a narrow pictu
         found += png.at(x, row) == std::array<int, 3>{30, 30, 30} ? 1 : 0;
     return found;
   };
-  const Scene scene = small_scene(Space::plane_strain);
+  Scene scene = small_scene(Space::plane_strain);
   Particles<2> particles = lattice(20);
   const auto draw = [&](double height) {
+    scene.grid.size[1] *= height;  // pictures show what lies in the grid
     for (std::size_t p = 0; p < particles.size(); ++p) {
       particles.column(Quantity::position, 1)[p] *= height;
       particles.column(Quantity::deformation_gradient, 3)[p] = height;

@@ -87,6 +87,7 @@ std::vector<std::string> small_scenes() {
           plain + "gravity: {acceleration: [0, 1 m/s^2]}\ncontact: {}\nboundaries: {left: {piston: 1 m/s}}\n",
           plain + "contact: {" + bond + "}\n",
           replaced(plain, "method: {}", "method: {basis: bspline2, extension: {}}"),
+          replaced(plain, "method: {}", "method: {basis: lcpdi, split: {}}"),
           replaced(plain, "material: b}", "material: b, rotation: {about: [0, 0]}}"),
           two + "contact: {pairs: [{between: [one, two], " + bond + "}]}\n",
           plain + "contact: {" + joint + "}\n",

@@ -13,7 +13,7 @@ TEST_CASE("a text in a script is one quoted word, whatever it holds") {
   CHECK(gnuplot_text("a\nb\tc\x7f") == "\"a b c \"");
   CHECK(gnuplot_text("\"; system 'x'; \"") == "\"\\042; system 'x'; \\042\"");
   CHECK(gnuplot_text("`x` @y \\") == "\"\\140x\\140 \\100y \\134\"");
-  CHECK(gnuplot_text("$0 {12 \\061 }") == "\"\\044\\060 \\17312 \\134\\060\\066\\061 \\175\"");
+  CHECK(gnuplot_text("$0 {12 \\061 }") == "\"\\044\\060 \\173\\061\\062 \\134\\060\\066\\061 \\175\"");
   CHECK(gnuplot_text("é") == "\"é\"");
   CHECK(gnuplot_tic("50 % of %s") == "\"50 %% of %%s\"");
 }

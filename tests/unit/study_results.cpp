@@ -355,11 +355,11 @@ TEST_CASE("with panels each case has its own error, its own front and panel, and
                    0) == 0);
   write_report(study, runs, results, folder.path());
   const std::string script = output_test::read_text(folder.path() / "study.gp");
-  for (const char* title : {"set title 'slow'", "set title 'fast'", "set title 'bare'"})
+  for (const char* title : {"set title \"slow\"", "set title \"fast\"", "set title \"bare\""})
     CHECK(script.find(title) != std::string::npos);
   CHECK(script.find("$front_1 << EOD\n10 5\nEOD\n") != std::string::npos);
-  CHECK(script.find("title 'a'") != std::string::npos);
-  CHECK(script.find("title 'slow'", script.find("unset logscale")) == std::string::npos);  // has its panel
+  CHECK(script.find("title \"a\"") != std::string::npos);
+  CHECK(script.find("title \"slow\"", script.find("unset logscale")) == std::string::npos);  // has its panel
 }
 
 TEST_CASE("a chart of curves shows its window and names a run by what differs") {
@@ -376,7 +376,7 @@ TEST_CASE("a chart of curves shows its window and names a run by what differs") 
   std::ifstream file(folder.path() / "speed.gp");
   const std::string script{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   CHECK(script.find("$curve0 << EOD\n1e-05 6\nEOD\n") != std::string::npos);  // the row at 0 s is outside
-  CHECK(script.find("title 'a'") != std::string::npos);
-  CHECK(script.find("set xlabel 'time (s)'\nset ylabel '2 * block.vy'") != std::string::npos);
+  CHECK(script.find("title \"a\"") != std::string::npos);
+  CHECK(script.find("set xlabel \"time (s)\"\nset ylabel \"2 * block.vy\"") != std::string::npos);
   CHECK(script.find("$curve1") == std::string::npos);
 }

@@ -36,7 +36,9 @@ void visit_points(Archive& archive, const std::string& what, std::vector<Vec<Dim
 }
 
 void visit_end(Archive& archive, const std::string& of, CrackEnd& end) {
+  const bool may_grow = end.grows;  // of the scene, where a file is read
   archive.flag(of + "/grows", end.grows);
+  require(archive, !end.grows || may_grow, of + "/grows");
   archive.number(of + "/due", end.due);
   archive.number(of + "/straight", end.straight);
   archive.number(of + "/grown", end.grown);
