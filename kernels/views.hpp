@@ -13,7 +13,7 @@ template <int Dim>
 struct StateView {
   double *dissipated, *internal_energy, *plastic_strain, *temperature;
   double* elastic_strain[kSymmetric<Dim>];
-  double* volume_ratio;  ///< J; null where every law is elastic
+  double* volume_ratio;               ///< J; null where every law is elastic
   double* thermal_stretch = nullptr;  ///< θ, of a length by heat since the start: laws see F/θ
 };
 

@@ -24,8 +24,8 @@ void check_not_negative(std::string_view name, double value);
 template <int Dim>
 std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles);
 
-/// Every particle is one of the scene, once, with the body that it was seeded in, or was made by a split; all its columns are finite,
-/// its mass and volume are not negative.
+/// Every particle is one of the scene, once, with the body that it was seeded in, or was made by a split; all
+/// its columns are finite, its mass and volume are not negative.
 /// @param seeded  bodies_by_id of the particles as the scene seeds them
 template <int Dim>
 void check_particles(const Particles<Dim>& particles, const std::vector<std::uint16_t>& seeded);

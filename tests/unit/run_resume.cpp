@@ -351,7 +351,8 @@ TEST_CASE("a checkpoint beside another scene, another history or none is refused
   CHECK(holds(refused("history.csv", "step" + history), "history.csv is not that of"));
   std::string edited = text_of(folder / "run" / "history.csv");
   const std::size_t row = edited.find('\n', edited.find('\n') + 1) + 1;
-  edited[edited.find(',', row) + 1] ^= 1;  // a digit of the second row; the last one came after the checkpoint
+  edited[edited.find(',', row) + 1] ^=
+      1;  // a digit of the second row; the last one came after the checkpoint
   CHECK(holds(refused("history.csv", edited), "history.csv is not that of"));
   // The same steps of the same bodies, which another run made.
   RunOptions other = into(folder / "other");

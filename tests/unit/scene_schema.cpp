@@ -236,7 +236,8 @@ TEST_CASE("every key of the reader is in the schema and on the page") {
 
 TEST_CASE("a key that every body may have stands beside the shapes, one of a bitmap beside the bitmap") {
   const std::string page = write_reference();
-  const std::size_t beside_shape = page.find("Beside the shape:"), beside_bitmap = page.find("Beside a `bitmap`:");
+  const std::size_t beside_shape = page.find("Beside the shape:"),
+                    beside_bitmap = page.find("Beside a `bitmap`:");
   REQUIRE(beside_bitmap < page.size());
   const std::string every = page.substr(beside_shape, beside_bitmap - beside_shape);
   const std::string bitmap = page.substr(beside_bitmap, page.find("\n## ", beside_bitmap) - beside_bitmap);

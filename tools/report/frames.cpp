@@ -314,8 +314,7 @@ Json pack_frames(const fs::path& folder, const std::optional<Scene>& scene, int 
   for (;; frame_stride *= 2) {
     std::vector<std::string> own;
     const std::vector<SeriesFrame> chosen = thinned(all, frame_stride);
-    FrameSurvey survey =
-        survey_frames(chosen, particle_stride, dimension, picture, rigid, viewed, own);
+    FrameSurvey survey = survey_frames(chosen, particle_stride, dimension, picture, rigid, viewed, own);
     if (survey.frames.empty()) {
       notices.insert(notices.end(), own.begin(), own.end());
       notices.push_back("No particle file could be read, so there is no view of the particles.");
