@@ -59,6 +59,9 @@ void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>
     const Vec<Dim> x = state.particles.vector(Quantity::position, p);
     if (!((x.array() >= lower.array() - cell).all() && (x.array() <= upper.array() + cell).all()))
       refuse_checkpoint(fmt::format("particle {} lies outside of the grid", state.particles.id()[p]));
+    for (int e = 0; state.particles.has(Quantity::domain_edges) && e < Dim * Dim; ++e)
+      if (std::abs(state.particles.column(Quantity::domain_edges, e)[p]) > cell)
+        refuse_checkpoint(fmt::format("the domain of particle {} is too large", state.particles.id()[p]));
   }
   std::size_t placed = 0;
   for (const auto& tile : state.tiling.tiles)

@@ -30,8 +30,9 @@ std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles);
 template <int Dim>
 void check_particles(const Particles<Dim>& particles, const std::vector<std::uint16_t>& seeded);
 
-/// Every particle lies within the box, and in a tile with others of its body. Whether its place is that of
-/// the tile is seen by the step, which sorts anew where a support leaves its window.
+/// Every particle lies within the box, its domain is no longer than domains may be
+/// (kernels/basis/domain_limit.hpp), and it is in a tile with others of its body. Whether its place is that
+/// of the tile is seen by the step, which sorts anew where a support leaves its window.
 /// @param lower, upper  m, of the box that particles must stay in
 template <int Dim>
 void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper);
