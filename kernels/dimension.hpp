@@ -34,6 +34,14 @@ inline constexpr int kWindowNodes = power(kWindowSide, Dim);
 template <int Dim>
 inline constexpr int kCorners = power(2, Dim);
 
+/// Nodes farther from the origin than this are nowhere: indices near them are sums that do not overflow.
+inline constexpr double kFarthestNode = 1 << 30;
+
+/// The whole number x as a node of an axis. What is too large, or no number, is a node that is nowhere.
+constexpr int node_at(double x) {
+  return static_cast<int>(x > -kFarthestNode ? (x < kFarthestNode ? x : kFarthestNode) : -kFarthestNode);
+}
+
 constexpr int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 }  // namespace mpmfast

@@ -3,7 +3,6 @@
 #include <omp.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <numeric>
 #include <utility>
@@ -28,9 +27,8 @@ template <int Dim>
 std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile, int field, int fields) const {
   std::int64_t index = 0;
   for (int d = Dim - 1; d >= 0; --d) {
-    const int at = tile[d] + kMargin, span = span_[static_cast<std::size_t>(d)];
-    assert(at >= 0 && at < span);
-    index = index * span + std::clamp(at, 0, span - 1);
+    const int span = span_[static_cast<std::size_t>(d)];
+    index = index * span + std::clamp(tile[d] + kMargin, 0, span - 1);  // what was thrown far lies on the rim
     if (d == Dim - 1) index = index * fields + field;
   }
   return index;

@@ -136,7 +136,7 @@ struct CpdiBasis {
       double extent = 0;
       for (int j = 0; j < Dim; ++j) extent += std::abs(g.edge[Dim * d + j][k]);
       const double lowest = (g.position[d][k] - g.origin[d] - extent) * g.inverse_cell - Corner::kLead;
-      node[d] = static_cast<int>(std::floor(lowest + kEdge));
+      node[d] = node_at(std::floor(lowest + kEdge));
     }
     return node;
   }

@@ -150,8 +150,7 @@ struct SeparableBasis {
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
     NodeIndex<Dim> node;
     for (int d = 0; d < Dim; ++d)
-      node[d] =
-          static_cast<int>(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
+      node[d] = node_at(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
     return node;
   }
 

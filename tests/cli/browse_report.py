@@ -4,6 +4,7 @@
 usage: browse_report.py MPMFAST SOURCE_DIR [SCREENSHOTS]    exit 77 where Chromium, Selenium or VTK is missing
 """
 import json
+import math
 import pathlib
 import re
 import subprocess
@@ -143,6 +144,24 @@ def check_words(browser, folder):
           f"{folder.name}: the scene is not the one that was run")
 
 
+LIMITED = """
+const {frames} = player, edges = [50, 0.5, 0, 1], before = frames.follows_shape;
+frames.follows_shape = arguments[0];
+frames.limit(edges, 2, 3);
+frames.follows_shape = before;
+return [...edges, frames.largest];
+"""
+
+
+def check_limits(browser, name):
+    """A domain that is stretched far is drawn as it was seeded, or with half-diagonals of a cell where domains follow F."""
+    check(browser.execute_script(LIMITED, False)[:4] == [2, 0, 0, 3], f"{name}: a long domain is not drawn as it was seeded")
+    a, b, c, d, largest = browser.execute_script(LIMITED, True)
+    check(abs(largest - 0.5e-3) < 1e-12, f"{name}: the largest domain is {largest} m")
+    for diagonal in [(a + b, c + d), (a - b, c - d)]:
+        check(abs(math.hypot(*diagonal) / largest - 1) < 1e-9, f"{name}: a half-diagonal of {diagonal}")
+
+
 def check_plane(browser, program, folder, shots):
     out = run(program, folder, "plane", PLANE)
     open_page(browser, out)
@@ -155,6 +174,7 @@ def check_plane(browser, program, folder, shots):
     check_bodies(browser, "plane", "#picture canvas")
     check_key(browser, "plane")
     check_cracks(browser, "plane", "#picture canvas")
+    check_limits(browser, "plane")
     check_hover(browser, out, "pressure", 4, lambda arrays: arrays["pressure"], names)
     check_hover(browser, out, "stress_xy", 6, lambda arrays: arrays["stress"][:, 3], names)
     check_charts(browser, "plane", "J/m")

@@ -5,6 +5,7 @@
 
 #include "tests/unit/output_fixture.hpp"
 #include "tools/report/frame_fields.hpp"
+#include "tools/report/frame_survey.hpp"
 #include "tools/report/frames.hpp"
 
 using namespace output_test;
@@ -97,6 +98,31 @@ TEST_CASE("a page has the cracks of each frame, without points that change nothi
     CHECK(std::abs(place(1, axis) - corner[static_cast<int>(axis)]) <= 1.001 * half_step);
     CHECK(std::abs(place(2, axis) - to[static_cast<int>(axis)]) <= 1.001 * half_step);
   }
+}
+
+TEST_CASE("a particle that was thrown out of the grid takes no room on a page, and has no place") {
+  const TemporaryFolder folder;
+  const Scene scene = small_scene(Space::plane_strain);
+  Particles<2> particles = particles_in_order<2>(ascending(kParticles));
+  ParticleSeries<2> series(folder.path(), scene);
+  series.append(particles, 0);
+  particles.column(Quantity::position, 0)[3] = 1e9;
+  series.append(particles, 1);
+  const PackedRun run = pack(folder.path(), scene, {10'000'000});
+  CHECK(run.json["places"][0]["spacing"].get<double>() < 1e-4);
+  CHECK(run.json["largest"] == doctest::Approx(largest_half_diagonal(scene)));
+  CHECK(run.json["follows_shape"] == false);
+  const VtuReader file(folder.path() / "particles/000001.vtu");
+  const std::vector<double> points = shown_points(file, Viewed(scene));
+  const auto id = file.read<std::uint32_t>("id");
+  for (std::size_t i = 0; i < id.size(); ++i)
+    for (std::size_t d = 0; d < 3; ++d) CHECK(std::isnan(points[3 * i + d]) == (id[i] == 3));
+  // Without a scene nobody knows the grid.
+  Chunks chunks;
+  std::vector<std::string> notices;
+  const auto json = pack_frames(folder.path(), std::nullopt, 2, {10'000'000}, chunks, notices);
+  CHECK(json["places"][0]["spacing"].get<double>() > 1);
+  CHECK_FALSE(json.contains("largest"));
 }
 
 TEST_CASE("rigid bodies have a speed on a page, and no stress") {

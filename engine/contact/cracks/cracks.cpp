@@ -141,7 +141,7 @@ bool Cracks<Dim>::velocity_at(const State<Dim>& state, int crack, int side, cons
   Vec<Dim> share;
   for (int d = 0; d < Dim; ++d) {
     const double cells = (x[d] - state.grid.origin[d]) * state.grid.inverse_cell;
-    low[d] = static_cast<int>(std::floor(cells));
+    low[d] = node_at(std::floor(cells));
     share[d] = cells - low[d];
   }
   double weight = 0;

@@ -68,7 +68,7 @@ struct GridReader {
     double seen = 0;
     for (int d = 0; d < Dim; ++d) {
       const double cells = (x[d] - state->grid.origin[d]) * state->grid.inverse_cell;
-      low[d] = static_cast<int>(std::floor(cells));
+      low[d] = node_at(std::floor(cells));
       share[d] = cells - low[d];
     }
     for (int corner = 0; corner < kCorners<Dim>; ++corner) {

@@ -78,7 +78,7 @@ bool Penalty<Dim>::find_near(const State<Dim>& state) {
 template <int Dim>
 NodeIndex<Dim> Penalty<Dim>::cell_of(const Vec<Dim>& x) const {
   NodeIndex<Dim> cell;
-  for (int d = 0; d < Dim; ++d) cell[d] = static_cast<int>(std::floor(x[d] / side_));
+  for (int d = 0; d < Dim; ++d) cell[d] = node_at(std::floor(x[d] / side_));
   return cell;
 }
 
