@@ -30,7 +30,7 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) 
   speed_.assign(n, 0);
   row_.assign(n, 0);
   cut_.assign(n, 1);
-  books_.force.assign(n, Vec<Dim>::Zero());
+  ledger_.force.assign(n, Vec<Dim>::Zero());
   for (std::size_t b = 0; b < n; ++b) {
     const double largest_speed = largest(speed_table(scene.boundaries[b]));
     fastest_ = std::max(fastest_, largest_speed);
@@ -52,7 +52,7 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) 
 template <int Dim>
 void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
   const auto& grid = scene_->grid;
-  books_.open();
+  ledger_.open();
   for (std::size_t b = 0; b < scene_->boundaries.size(); ++b) {
     const auto& table = speed_table(scene_->boundaries[b]);
     speed_[b] = mean_over(table, t, dt);
@@ -255,7 +255,7 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
 template <int Dim>
 void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
   if (velocities == Nodal::re_extrapolated)
-    books_.settle(
+    ledger_.settle(
         [&](const auto& taken) { return state.nodes.vector(velocities, taken.slot).dot(taken.direction); });
   for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
     const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
@@ -271,7 +271,7 @@ void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
         const double mass = state.nodes.column(Nodal::mass)[slot];
         state.nodes.set(velocities, slot, state.nodes.vector(velocities, slot) + (impulse / mass) * e);
       });
-  walls_.impose_velocity(state, velocities, books_);
+  walls_.impose_velocity(state, velocities, ledger_);
 }
 
 /// On row k, at s_k = k − ξ cells from the plane, the velocity becomes u + g s_k; the slope with the least
@@ -319,8 +319,8 @@ template <int Dim>
 void Conditions<Dim>::book(int component, double impulse, double dt) {
   const Component& c = components_[static_cast<std::size_t>(component)];
   const auto b = static_cast<std::size_t>(c.boundary);
-  books_.force[b] += (impulse / dt) * c.direction;
-  if (c.moving) books_.work += impulse * speed_[b];
+  ledger_.force[b] += (impulse / dt) * c.direction;
+  if (c.moving) ledger_.work += impulse * speed_[b];
 }
 
 /// Calls change(mass, slot, direction, speed) for every constrained component; it returns the reaction along
@@ -343,18 +343,18 @@ void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
     auto& reaction = reactions_[n];
     if (reaction == std::array<double, Dim>{}) continue;
     const Combination& c = combinations_[static_cast<std::size_t>(nodes_[n].combination)];
-    for (int k = 0; k < c.count; ++k) books_.work += reaction[at(k)] * c.speed[k] * dt;
+    for (int k = 0; k < c.count; ++k) ledger_.work += reaction[at(k)] * c.speed[k] * dt;
     // Each boundary pushes along its own direction only: R = Σ λ_k n_k with n_k = Σ_j share_kj e_j, from the
     // last on.
     for (int k = c.count - 1; k >= 0; --k) {
       const double push = reaction[at(k)] / c.share(k, k);
-      books_.force[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
+      ledger_.force[static_cast<std::size_t>(c.boundary[k])] += push * c.pushing[k];
       for (int j = 0; j < k; ++j) reaction[at(j)] -= push * c.share(k, j);
     }
   }
 }
 
-/// What the particles take of v_s at nodes and planes that move (BoundaryBooks): the share s of m (u − v_s).
+/// What the particles take of v_s at nodes and planes that move (BoundaryLedger): the share s of m (u − v_s).
 template <int Dim>
 void Conditions<Dim>::take_shares(const State<Dim>& state, double share) {
   const double* mass = state.nodes.column(Nodal::mass);
@@ -366,14 +366,14 @@ void Conditions<Dim>::take_shares(const State<Dim>& state, double share) {
     for (int k = 0; mass[slot] > 0 && k < c.count; ++k) {
       if (!c.moves[k]) continue;
       const double v = start(slot).dot(c.direction[k]);
-      books_.taken.push_back({slot, c.direction[k], share * mass[slot] * (c.speed[k] - v), v, c.speed[k]});
+      ledger_.taken.push_back({slot, c.direction[k], share * mass[slot] * (c.speed[k] - v), v, c.speed[k]});
     }
   }
   apply_cuts(state, start, [&](int component, int slot, const Vec<Dim>& e, double impulse) {
     const Component& c = components_[static_cast<std::size_t>(component)];
     const auto b = static_cast<std::size_t>(c.boundary);
     if (c.moving && moves_[b])
-      books_.taken.push_back({slot, e, share * impulse, start(slot).dot(e), speed_[b]});
+      ledger_.taken.push_back({slot, e, share * impulse, start(slot).dot(e), speed_[b]});
   });
 }
 
@@ -410,7 +410,7 @@ void Conditions<Dim>::react(State<Dim>& state, double dt, double share) {
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
     book(component, impulse, dt);
   });
-  walls_.react(state, dt, books_);
+  walls_.react(state, dt, ledger_);
 }
 
 template <int Dim>
@@ -430,10 +430,10 @@ void Conditions<Dim>::enforce(State<Dim>& state, double dt) {
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
     book(component, impulse, dt);
   });
-  walls_.enforce(state, dt, books_);
+  walls_.enforce(state, dt, ledger_);
   if (gives_back_) return;
   // v′ without what the particles' weights smooth: v_s + a Δt.
-  books_.settle([&](const auto& taken) {
+  ledger_.settle([&](const auto& taken) {
     const double mass = state.nodes.column(Nodal::mass)[taken.slot];
     return taken.start + dt / mass * state.nodes.vector(Nodal::force, taken.slot).dot(taken.direction);
   });

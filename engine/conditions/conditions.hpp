@@ -82,11 +82,11 @@ class Conditions {
   }
 
   /// Force of each boundary on the material in this step, N.
-  const std::vector<Vec<Dim>>& force() const { return books_.force; }
+  const std::vector<Vec<Dim>>& force() const { return ledger_.force; }
   /// Work that the boundaries did on the material in this step, J.
-  double work() const { return books_.work; }
+  double work() const { return ledger_.work; }
   /// Work that friction at the boundaries took in this step, J.
-  double friction_work() const { return books_.friction_work; }
+  double friction_work() const { return ledger_.friction_work; }
   /// Largest prescribed speed ever, m/s.
   double fastest() const { return fastest_; }
   bool empty() const { return scene_->boundaries.empty(); }
@@ -101,7 +101,7 @@ class Conditions {
     bool moves[Dim];        ///< at some time
     Mat<Dim> share;         ///< prescribed directions by orthonormal ones, lower triangle
     Vec<Dim> pushing[Dim];  ///< the prescribed directions
-    int boundary[Dim];      ///< which boundary a direction's reaction is booked on
+    int boundary[Dim];      ///< which boundary a direction's reaction is entered for
   };
   /// One prescribed component: v·n = u on the nodes of a boundary.
   struct Component {
@@ -148,7 +148,7 @@ class Conditions {
   bool gives_back_ = false;    ///< in this step particles keep their velocities and give back v′
   std::vector<int> row_;       ///< by wall: first (upper) or last (lower) row of nodes at or beyond it
   std::vector<double> cut_;    ///< by wall: cells from the last row inside to the plane; 1: it lies on a row
-  BoundaryBooks<Dim> books_;
+  BoundaryLedger<Dim> ledger_;
   double fastest_ = 0;
   bool stale_ = true;
   SurfaceWalls<Dim> walls_;

@@ -153,13 +153,14 @@ void SurfaceWalls<Dim>::straighten_velocity(State<Dim>& state, Nodal velocities,
 }
 
 template <int Dim>
-void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities, BoundaryBooks<Dim>& books) {
+void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities, BoundaryLedger<Dim>& ledger) {
   for (const Column& column : columns_) {
     if (!column.touches) continue;
     straighten_velocity(state, velocities, column, column.target,
                         walls_[static_cast<std::size_t>(column.wall)].axis);
     for_each_sideways(column, [&](int d, Rubbed& rubbed) {
-      if (velocities == Nodal::re_extrapolated) books.friction_work += rubbing_work(state, column, d, rubbed);
+      if (velocities == Nodal::re_extrapolated)
+        ledger.friction_work += rubbing_work(state, column, d, rubbed);
       if (column.stuck) straighten_velocity(state, velocities, column, 0, d);
     });
   }
@@ -187,13 +188,13 @@ double SurfaceWalls<Dim>::rubbing_work(const State<Dim>& state, const Column& co
 /// Impulses that the particles take too.
 template <int Dim>
 void SurfaceWalls<Dim>::push(State<Dim>& state, double dt, Column& column, const Change& change,
-                             double factor, BoundaryBooks<Dim>& books) const {
+                             double factor, BoundaryLedger<Dim>& ledger) const {
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
   add(state, Nodal::force, column, wall.axis, change, factor / dt);
   const double impulse = factor * change.sum;
   column.pushed -= wall.out * impulse;
-  books.force[static_cast<std::size_t>(wall.boundary)][wall.axis] += impulse / dt;
-  books.work += impulse * wall.speed;
+  ledger.force[static_cast<std::size_t>(wall.boundary)][wall.axis] += impulse / dt;
+  ledger.work += impulse * wall.speed;
 }
 
 /// What sticks keeps its slip in its particles, as pairs do: no force, but the grid does not see it.
@@ -207,7 +208,7 @@ void SurfaceWalls<Dim>::hold_slip(State<Dim>& state, const Column& column) {
 }
 
 template <int Dim>
-void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& books) {
+void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger) {
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
     if (!(column.gap < kFar * state.grid.cell)) continue;
@@ -219,8 +220,8 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
       });
       if (!(-wall.out * both.sum > 0)) continue;
       column.touches = true;
-      if (wall.moves) take_touch(state, column, both, books);
-      push(state, dt, column, both, 1, books);
+      if (wall.moves) take_touch(state, column, both, ledger);
+      push(state, dt, column, both, 1, ledger);
       continue;
     }
     if (column.stuck) hold_slip(state, column);
@@ -229,10 +230,10 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
         straighten(state, column, 0, [&](int slot, double mass) { return dt * force[slot] / mass; });
     const double by_force = -wall.out * forced.sum, by_start = -wall.out * start.sum;
     if (by_force + share_ * by_start > 0) {
-      push(state, dt, column, forced, 1, books);
-      take(state, column, start, books);
-      if (wall.moves) books.work += forced.sum * (column.target - wall.speed);
-      push(state, dt, column, start, share_, books);
+      push(state, dt, column, forced, 1, ledger);
+      take(state, column, start, ledger);
+      if (wall.moves) ledger.work += forced.sum * (column.target - wall.speed);
+      push(state, dt, column, start, share_, ledger);
       add(state, Nodal::momentum, column, wall.axis, start, 1 - share_);
     } else if (by_force + by_start > 0) {  // it comes in while the forces pull: the grid alone is held
       add(state, Nodal::momentum, column, wall.axis, start, 1);
@@ -245,7 +246,7 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryBooks<Dim>& 
 }
 
 template <int Dim>
-void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryBooks<Dim>& books) {
+void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger) {
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
     if (!(column.gap < kFar * state.grid.cell)) continue;
@@ -255,34 +256,34 @@ void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryBooks<Dim>
     // The step as a whole pushes, at most until nothing is left of what it pushed.
     const double factor = column.pushed + inwards >= 0 ? 1 : -column.pushed / inwards;
     column.touches = factor == 1;
-    push(state, dt, column, change, factor, books);
+    push(state, dt, column, change, factor, ledger);
     add(state, Nodal::momentum, column, wall.axis, change, factor);
   }
   for (Column& column : columns_)
     if (column.touches)
-      rub(state, dt, column, books);
+      rub(state, dt, column, ledger);
     else
-      let_go(state, dt, column, books);
+      let_go(state, dt, column, ledger);
 }
 
 /// What has stuck and parts: the grid was held before the forces, and what those do since is not strained.
 template <int Dim>
 void SurfaceWalls<Dim>::let_go(const State<Dim>& state, double dt, Column& column,
-                               BoundaryBooks<Dim>& books) {
+                               BoundaryLedger<Dim>& ledger) {
   const double* mass = state.nodes.column(Nodal::mass);
   if (column.stuck && whole_)
     for_each_sideways(column, [&](int d, const Rubbed& rubbed) {
       const double* force = state.nodes.column(Nodal::force, d);
       for (std::size_t k = 0; k < kRows; ++k)
         if (const int slot = column.slot[k]; slot >= 0 && mass[slot] > 0)
-          books.friction_work += 0.5 * rubbed.first[k] * dt * force[slot] / mass[slot];
+          ledger.friction_work += 0.5 * rubbed.first[k] * dt * force[slot] / mass[slot];
     });
   column.stuck = false;
 }
 
 /// Coulomb: the impulse that stops the slip at the plane, at most μ times the one along the normal.
 template <int Dim>
-void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books) {
+void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger) {
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
   Change stick[Dim];
   double squared = 0;
@@ -308,10 +309,10 @@ void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, Bounda
     }
     add(state, Nodal::momentum, column, d, stick[d], factor);
     add(state, Nodal::force, column, d, stick[d], factor / dt);
-    books.force[static_cast<std::size_t>(wall.boundary)][d] += factor * stick[d].sum / dt;
+    ledger.force[static_cast<std::size_t>(wall.boundary)][d] += factor * stick[d].sum / dt;
     for (std::size_t k = 0; !whole_ && k < kRows; ++k)
       if (stick[d].row[k] != 0)
-        books.friction_work -= rubbed.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
+        ledger.friction_work -= rubbed.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
   });
   column.stuck = sticks && holds_ && column.sideways != 0;
 }

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "engine/conditions/boundary_books.hpp"
+#include "engine/conditions/boundary_ledger.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
 #include "engine/state/state.hpp"
@@ -61,11 +61,11 @@ class SurfaceWalls {
   unsigned held_axes(int slot) const { return held_.empty() ? 0 : held_[static_cast<std::size_t>(slot)]; }
   /// Puts nodal velocities on the lines of the columns that touch: `velocity`, before forces, or
   /// `re_extrapolated`, after them, with what friction takes of both.
-  void impose_velocity(State<Dim>& state, Nodal velocities, BoundaryBooks<Dim>& books);
+  void impose_velocity(State<Dim>& state, Nodal velocities, BoundaryLedger<Dim>& ledger);
   /// Before the momentum update: reactions to the forces.
-  void react(State<Dim>& state, double dt, BoundaryBooks<Dim>& books);
+  void react(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger);
   /// After the second contact correction: what it pushes into walls, and friction.
-  void enforce(State<Dim>& state, double dt, BoundaryBooks<Dim>& books);
+  void enforce(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger);
 
  private:
   static constexpr int kAcross = kWindowNodes<Dim> / kWindowSide;
@@ -140,14 +140,14 @@ class SurfaceWalls {
   void add(State<Dim>& state, Nodal q, const Column& column, int axis, const Change& change,
            double factor) const;
   void take(const State<Dim>& state, const Column& column, const Change& start,
-            BoundaryBooks<Dim>& books) const;
+            BoundaryLedger<Dim>& ledger) const;
   void take_touch(const State<Dim>& state, const Column& column, const Change& both,
-                  BoundaryBooks<Dim>& books) const;
+                  BoundaryLedger<Dim>& ledger) const;
   void push(State<Dim>& state, double dt, Column& column, const Change& change, double factor,
-            BoundaryBooks<Dim>& books) const;
+            BoundaryLedger<Dim>& ledger) const;
   void hold_slip(State<Dim>& state, const Column& column);
-  void rub(State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books);
-  void let_go(const State<Dim>& state, double dt, Column& column, BoundaryBooks<Dim>& books);
+  void rub(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
+  void let_go(const State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
   double rubbing_work(const State<Dim>& state, const Column& column, int axis, const Rubbed& rubbed) const;
   /// Calls f(axis, Rubbed) for every axis along which the wall may rub the column.
   template <class F>
