@@ -85,12 +85,21 @@ def check_switches():
 
 def check_seed():
     """The command, twice; another seed gives others."""
-    def listed(seed):
-        return subprocess.run([sys.executable, ROOT / "tools/mutate", "--list", "--seed", str(seed), "--count", "20",
+    def listed(*seeds):
+        return subprocess.run([sys.executable, ROOT / "tools/mutate", "--list", "--seed", *map(str, seeds), "--count", "20",
                                "--under", "kernels/contact"], check=True, capture_output=True, text=True).stdout
     check(listed(7) == listed(7), "a seed does not give the same mutants twice")
     check(listed(7) != listed(8), "two seeds give the same mutants")
     check(len(listed(7).splitlines()) == 20, "not as many as were asked for")
+    check(listed(7, 8).startswith(listed(7)), "a second seed changes what the first one gives")
+    check(len(listed(7, 8).splitlines()) == 40, "not as many of each seed as were asked for")
+
+
+def check_first_of_each():
+    """Of each seed as many as are asked for, whatever did not compile; all that were asked for by their line."""
+    change = places.Change("sign", 0, 1, "a", "b")
+    mutants = [choose.Mutant(n, "a.hpp", 1, change, seed) for n, seed in enumerate([None, 5, 5, 5, 6, 6], 1) if n != 2]
+    check([m.number for m in choose.first_of_each(mutants, 1)] == [1, 3, 5], "not the first of each seed")
 
 
 def check_kept():
@@ -123,6 +132,7 @@ check_switches()
 check_kept()
 check_reasons()
 check_seed()
+check_first_of_each()
 for failure in failures:
     print("FAILED:", failure)
 sys.exit(1 if failures else 0)

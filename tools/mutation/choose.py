@@ -19,6 +19,7 @@ class Mutant:
     file: str
     line: int
     change: places.Change
+    seed: int | None = None  # None: asked for by its line
 
 
 def code_lines(code):
@@ -76,24 +77,35 @@ def ranked(file, code, seed):
     return found
 
 
-def choose(root, seed, count, under=ROOMS, first=()):
-    """The first mutants of a seed, behind those that are asked for. Files are taken in proportion to their lines of code;
-    no two mutants overlap, so that all fit into one build."""
-    waiting, codes = [], {}
-    for file in files_below(root, under):
-        codes[file] = pathlib.Path(root, file).read_text()
-        waiting += [(rank, file, change) for rank, change in ranked(file, codes[file], seed)]
+def choose(root, seeds, count, under=ROOMS, first=()):
+    """The first `count` mutants of each seed, behind those that are asked for. Files are taken in proportion to their lines of
+    code; no two mutants overlap, so that all fit into one build."""
+    codes = {file: pathlib.Path(root, file).read_text() for file in files_below(root, under)}
     chosen, taken = list(first), {}
     for m in first:
         taken.setdefault(m.file, []).append((m.change.begin, m.change.end))
-    for _, file, change in sorted(waiting, key=lambda w: w[:2]):
-        if len(chosen) >= count:
-            break
-        if any(change.begin < end and begin < change.end for begin, end in taken.get(file, ())):
-            continue
-        taken.setdefault(file, []).append((change.begin, change.end))
-        chosen.append(Mutant(len(chosen) + 1, file, codes[file].count("\n", 0, change.begin) + 1, change))
+    for seed in seeds:
+        waiting, found = [], 0
+        for file, code in codes.items():
+            waiting += [(rank, file, change) for rank, change in ranked(file, code, seed)]
+        for _, file, change in sorted(waiting, key=lambda w: w[:2]):
+            if found >= count:
+                break
+            if any(change.begin < end and begin < change.end for begin, end in taken.get(file, ())):
+                continue
+            taken.setdefault(file, []).append((change.begin, change.end))
+            line = codes[file].count("\n", 0, change.begin) + 1
+            chosen.append(Mutant(len(chosen) + 1, file, line, change, seed))
+            found += 1
     return chosen
+
+
+def first_of_each(mutants, count):
+    """Those that are asked for, and the first `count` of each seed."""
+    found = {}
+    for m in mutants:
+        found.setdefault(m.seed, []).append(m)
+    return [m for seed, group in found.items() for m in (group if seed is None else group[:count])]
 
 
 def room_of(file):

@@ -19,8 +19,8 @@ def arguments(words):
     """What is asked for."""
     parser = argparse.ArgumentParser(prog="tools/mutate", description="Changes the sources of kernels/ and engine/ in one "
                                      "place at a time, as a slip would, and counts how many of these mutants the tests notice.")
-    parser.add_argument("--seed", type=int, default=1, help="which mutants (default 1)")
-    parser.add_argument("--count", type=int, default=300, help="how many that compile (default 300)")
+    parser.add_argument("--seed", type=int, nargs="+", default=[1], help="which mutants (default 1); several go into one build")
+    parser.add_argument("--count", type=int, default=300, help="how many of each seed that compile (default 300)")
     parser.add_argument("--under", nargs="+", default=list(choose.ROOMS), metavar="PATH", help="folders or files to change")
     parser.add_argument("--also", nargs="+", default=[], metavar="FILE:LINE", help="first of all a mutant of each of these lines")
     parser.add_argument("--list", action="store_true", help="print the mutants that would be tried, and stop")
@@ -58,20 +58,21 @@ def main(words):
         write(out / "state.json", state)
     suite = Suite(tree, out, asked.jobs, asked.tests)
     mutants = tree.build([as_mutant(m) for m in state["mutants"]], suite.targets(), say, keep)
+    asked_for = choose.first_of_each(mutants, asked.count)
     state["tests"] = suite.record(state["tests"], say)
     write(out / "state.json", state)
-    trial.try_all(mutants[:asked.count], state, suite, asked, say, lambda: write(out / "state.json", state))
+    trial.try_all(asked_for, state, suite, asked, say, lambda: write(out / "state.json", state))
     state["seconds"] += time.monotonic() - began
     write(out / "state.json", state)
-    text = page.page(ROOT, mutants[:asked.count], state, asked)
+    text = page.page(ROOT, asked_for, state, asked)
     for path in filter(None, (out / "mutants.md", asked.page)):
         path.write_text(text)
-    print(page.summary(mutants[:asked.count], state, page.Reasons(ROOT)))
+    print(page.summary(asked_for, state, page.Reasons(ROOT)))
     return 0
 
 
 def draw(asked, count):
-    """The mutants that are asked for, and those of the seed."""
+    """The mutants that are asked for, and those of the seeds."""
     return choose.choose(ROOT, asked.seed, count, asked.under, choose.at_places(ROOT, asked.also))
 
 
@@ -99,12 +100,12 @@ def sources_of(root):
 def as_json(mutant):
     """A mutant as a list of plain values."""
     c = mutant.change
-    return [mutant.number, mutant.file, mutant.line, c.kind, c.begin, c.end, c.before, c.after, c.statement]
+    return [mutant.number, mutant.file, mutant.line, c.kind, c.begin, c.end, c.before, c.after, c.statement, mutant.seed]
 
 
 def as_mutant(row):
     """The mutant of such a list."""
-    return choose.Mutant(row[0], row[1], row[2], places.Change(*row[3:]))
+    return choose.Mutant(row[0], row[1], row[2], places.Change(*row[3:9]), row[9])
 
 
 def write(path, state):

@@ -79,14 +79,15 @@ def page(root, mutants, state, asked):
     cases = [c for file in state["tests"].values() for c in file["cases"].values()]
     failing = [name for file in state["tests"].values() for name, c in file["cases"].items() if not c["passed"]]
     lines = ["# Mutants", "", "Made by `tools/mutate`; [how it works](README.md#mutants).", "",
-             f"{datetime.date.today().isoformat()}, commit {commit(root)}, seed {asked.seed}, {len(mutants)} mutants below "
+             f"{datetime.date.today().isoformat()}, commit {commit(root)}, {seeds_of(asked)}, {len(mutants)} mutants below "
              f"{', '.join(f'`{u}`' for u in asked.under)}; {len(cases)} cases; {state['seconds'] / 60:.0f} minutes with "
              f"{asked.jobs} processes. A mutant met the cases that ask for it, quickest first, for {asked.patience:g} s of "
              "their time. Slow cases were not run."]
     if failing:
         lines += ["", "Not used, as they fail in this build without a mutant: " + "; ".join(sorted(failing)) + "."]
+    by_seed = [*table("seed", grouped(mutants, lambda m: str(m.seed)), state, why), ""] if len(asked.seed) > 1 else []
     lines += ["", *table("folder", grouped(mutants, lambda m: choose.room_of(m.file), ROWS), state, why),
-              "", *table("kind", grouped(mutants, lambda m: m.change.kind), state, why), "",
+              "", *by_seed, *table("kind", grouped(mutants, lambda m: m.change.kind), state, why), "",
               "## Survivors", "", "| place | kind | before | after | | why |", "|---|---|---|---|---|---|"]
     for m in sorted(mutants, key=lambda m: (m.file, m.line)):
         verdict = state_of(m, state)
@@ -94,6 +95,11 @@ def page(root, mutants, state, asked):
             lines.append(f"| {m.file}:{m.line} | {m.change.kind} | {quoted(m.change.before)} | {quoted(m.change.after)} "
                          f"| {verdict} | {why.get(m)} |")
     return "\n".join(lines) + "\n"
+
+
+def seeds_of(asked):
+    """Which seeds, in words."""
+    return f"seed{'s' if len(asked.seed) > 1 else ''} {', '.join(str(s) for s in asked.seed)}"
 
 
 def quoted(text):
