@@ -145,7 +145,7 @@ def check_words(browser, folder):
 
 
 LIMITED = """
-const {frames} = player, edges = [50, 0.5, 0, 1], before = frames.follows_shape;
+const {frames} = player, edges = [...arguments[1]], before = frames.follows_shape;
 frames.follows_shape = arguments[0];
 frames.limit(edges, 2, 3);
 frames.follows_shape = before;
@@ -153,13 +153,29 @@ return [...edges, frames.largest];
 """
 
 
+def moments(a, b, c, d):
+    """Second moments of a domain with these half-edges, row by row."""
+    return a * a + b * b, a * c + b * d, c * c + d * d
+
+
 def check_limits(browser, name):
-    """A domain that is stretched far is drawn as it was seeded, or with half-diagonals of a cell where domains follow F."""
-    check(browser.execute_script(LIMITED, False)[:4] == [2, 0, 0, 3], f"{name}: a long domain is not drawn as it was seeded")
-    a, b, c, d, largest = browser.execute_script(LIMITED, True)
-    check(abs(largest - 0.5e-3) < 1e-12, f"{name}: the largest domain is {largest} m")
+    """A domain that is stretched far is drawn as it was seeded. Where domains follow F it is drawn as shape functions take it:
+    a rectangle along its principal axes, with half-diagonals of nearly a cell and with its own second moments if they fit."""
+    long = [50, 0.5, 0, 1]
+    check(browser.execute_script(LIMITED, False, long)[:4] == [2, 0, 0, 3], f"{name}: a long domain is not drawn as it was seeded")
+    a, b, c, d, largest = browser.execute_script(LIMITED, True, long)
+    check(abs(largest - 0.999 * 0.5e-3) < 1e-12, f"{name}: the largest domain is {largest} m")
     for diagonal in [(a + b, c + d), (a - b, c - d)]:
         check(abs(math.hypot(*diagonal) / largest - 1) < 1e-9, f"{name}: a half-diagonal of {diagonal}")
+    check(abs(a * b + c * d) < 1e-12 * largest**2, f"{name}: a long domain is no rectangle")
+    xx, xy, yy = moments(*long)
+    check(abs(math.atan2(c, a) - 0.5 * math.atan2(2 * xy, xx - yy)) < 1e-9, f"{name}: a long domain lies at {math.atan2(c, a)}")
+    thin = [0.1 * largest, 0.09 * largest, 0.01 * largest, 0]
+    *drawn, _ = browser.execute_script(LIMITED, True, thin)
+    check(drawn != thin and abs(drawn[0] * drawn[1] + drawn[2] * drawn[3]) < 1e-12 * largest**2, f"{name}: a thin domain is no rectangle")
+    check(all(abs(x - y) < 1e-9 * largest**2 for x, y in zip(moments(*drawn), moments(*thin))), f"{name}: a thin domain has {drawn}")
+    short = [0.1 * largest, 0.05 * largest, 0, 0.1 * largest]
+    check(browser.execute_script(LIMITED, True, short)[:4] == short, f"{name}: a short domain is not drawn as it is")
 
 
 def check_plane(browser, program, folder, shots):

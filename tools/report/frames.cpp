@@ -11,6 +11,7 @@
 #include "engine/output/drawn.hpp"
 #include "frame_constants.hpp"
 #include "frame_survey.hpp"
+#include "kernels/basis/domain_limit.hpp"
 #include "kernels/basis/facts.hpp"
 #include "pack.hpp"
 
@@ -209,6 +210,7 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
   if (scene_) {  // how large domains are drawn
     json["largest"] = largest_half_diagonal(*scene_);
     json["follows_shape"] = facts(scene_->method.basis).convected;
+    json["least_sine"] = kLeastSine;
   }
   std::vector<double> times;
   for (const SeriesFrame& frame : survey_.frames) times.push_back(frame.time);

@@ -49,20 +49,24 @@ class Frames {
     this.limit(out, x, y);
   }
 
-  // Half-diagonals beyond the largest: of domains that follow F they are cut, others are drawn as they were seeded.
+  // What is too large is drawn as it was seeded. Where domains follow F it is drawn as shape functions take it: what is too
+  // long or too thin as the rectangle of the same second moments, cut to the largest half-diagonal (as the pictures do).
   limit(out, x, y) {
-    const most = this.largest;
+    const [a, b, c, d] = out, most = this.largest ** 2;
     if (!(most > 0)) return;
-    const sx = out[0] + out[1], sy = out[2] + out[3], dx = out[0] - out[1], dy = out[2] - out[3];
-    const sum = Math.hypot(sx, sy), difference = Math.hypot(dx, dy);
-    if (sum <= most && difference <= most) return;
+    const first = a * a + c * c, second = b * b + d * d, dot = a * b + c * d, det = a * d - b * c;
+    const long = first + second + 2 * Math.abs(dot) > most;
     if (!this.follows_shape) {
-      out[0] = x; out[1] = 0; out[2] = 0; out[3] = y;
+      if (long) [out[0], out[1], out[2], out[3]] = [x, 0, 0, y];
       return;
     }
-    const s = Math.min(1, most / sum) / 2, d = Math.min(1, most / difference) / 2;
-    out[0] = s * sx + d * dx; out[1] = s * sx - d * dx;
-    out[2] = s * sy + d * dy; out[3] = s * sy - d * dy;
+    if (!long && Math.abs(det) >= this.least_sine * Math.sqrt(first * second)) return;
+    const angle = Math.atan2(2 * dot, first - second) / 2;  // from the first edge to the one that becomes the long axis
+    const rx = Math.cos(angle) * a + Math.sin(angle) * b, ry = Math.cos(angle) * c + Math.sin(angle) * d;
+    const longer = rx * rx + ry * ry, shorter = det * det / longer;
+    const shortKept = Math.min(shorter, most / 2), longKept = Math.min(longer, most - shortKept);
+    const scale = Math.sqrt(longKept / longer), aside = shorter > 0 ? Math.sqrt(shortKept / shorter) * det / longer : 0;
+    [out[0], out[1], out[2], out[3]] = [scale * rx, -aside * ry, scale * ry, aside * rx];
   }
 
   // How far a particle reaches along an axis, m.
