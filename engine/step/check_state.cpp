@@ -63,6 +63,13 @@ void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>
       if (std::abs(state.particles.column(Quantity::domain_edges, e)[p]) > cell)
         refuse_checkpoint(fmt::format("the domain of particle {} is too large", state.particles.id()[p]));
   }
+  // The sides that a map of cracks names are sides of the field that its particles have.
+  for (const auto& nodes : state.tiling.node_tiles)
+    for (const int t : nodes.particle_tile)
+      if (nodes.field >= static_cast<int>(state.field_base.size()) ||
+          (t >= 0 && state.field_base[static_cast<std::size_t>(nodes.field)] !=
+                         state.tiling.tiles[static_cast<std::size_t>(t)].field))
+        refuse_checkpoint("a crack has a side that its body lacks");
   std::size_t placed = 0;
   for (const auto& tile : state.tiling.tiles)
     for (int r = tile.run_begin; r < tile.run_end; ++r) {
