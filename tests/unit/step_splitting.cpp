@@ -54,22 +54,27 @@ time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
 )";
 
-// Regressions go to their end: otherwise round-off decides after how many passes one stops.
+/// A falling block on another one, which lies on a wall.
+std::string block_on_block(const std::string& contact, const std::string& basis) {
+  return std::string("space: plane_strain\n") + kBlock + "contact: {friction: 0.3, tolerance: 1e-13" +
+         contact +
+         "}\n"
+         "bodies:\n"
+         "  - {name: a, box: {from: [2 mm, 3 mm], to: [6 mm, 6 mm]}, material: m, velocity: [5 m/s, -20 "
+         "m/s]}\n"
+         "  - {name: b, box: {from: [1 mm, 1 mm], to: [8 mm, 3 mm]}, material: m}\n"
+         "boundaries: {bottom: {wall: sliding, position: 1 mm, at: surface}}\n"
+         "method: {basis: " +
+         basis + "}\n";
+}
+
+// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit it may
+// still decide in which step a normal is found anew, so that has one scene, where it does not.
 TEST_CASE("a body whose particles are all split is as one that was seeded so, in contact and at walls") {
-  for (const char* contact : {"contact: {friction: 0.3, tolerance: 1e-13}\n",
-                              "contact: {friction: 0.3, tolerance: 1e-13, refit: 0.3}\n",
-                              "contact: {friction: 0.3, tolerance: 1e-13, separation: ellipsoid_support}\n"})
-    for (const char* basis : {"lcpdi", "qcpdi"})
-      check_like_finer<2>(
-          std::string("space: plane_strain\n") + kBlock + contact +
-              "bodies:\n"
-              "  - {name: a, box: {from: [2 mm, 3 mm], to: [6 mm, 6 mm]}, material: m, velocity: [5 m/s, "
-              "-20 m/s]}\n"
-              "  - {name: b, box: {from: [1 mm, 1 mm], to: [8 mm, 3 mm]}, material: m}\n"
-              "boundaries: {bottom: {wall: sliding, position: 1 mm, at: surface}}\n"
-              "method: {basis: " +
-              basis + "}\n",
-          40);
+  for (const char* basis : {"lcpdi", "qcpdi"})
+    for (const char* contact : {"", ", separation: ellipsoid_support"})
+      check_like_finer<2>(block_on_block(contact, basis), 40);
+  check_like_finer<2>(block_on_block(", refit: 0.3", "lcpdi"), 40);
 }
 
 TEST_CASE("rings, plane stress and solids that are split are as those that were seeded so") {
