@@ -21,6 +21,8 @@ void read_study_bytes(Bytes bytes);
 void read_bitmap_bytes(Bytes bytes);
 /// A run.json is written out again, or is no such.
 void read_json_bytes(Bytes bytes);
+/// A table of numbers, as history.csv: all columns have as many rows. It is refused with its line otherwise.
+void read_table_bytes(Bytes bytes);
 /// A state of a small scene with columns altered, as lines "COLUMN ENTRY NUMBER" or "COLUMN length NUMBER"
 /// say, is refused, or goes on for a step.
 void read_checkpoint_bytes(Bytes bytes);

@@ -59,5 +59,11 @@ TEST_CASE("the readers of run.json and of checkpoints take the fuzzers' corpus, 
   CHECK(replay("tests/fuzz/corpus/json", fuzz::read_checkpoint_bytes) >= 4);
 }
 
+TEST_CASE("the reader of tables takes the fuzzers' corpus, and those of other readers") {
+  CHECK(replay("tests/fuzz/corpus/table", fuzz::read_table_bytes) == 8);
+  CHECK(replay("tests/fuzz/corpus/study", fuzz::read_table_bytes) >= 2);
+  CHECK(replay("tests/fuzz/corpus/bitmap", fuzz::read_table_bytes) >= 4);
+}
+
 }  // namespace
 }  // namespace mpmfast

@@ -58,7 +58,10 @@ Table read_table(const std::filesystem::path& file, Unended last) {
   std::string why_not;
   auto whole = read_regular(file, kLargestFile, why_not);
   if (!whole) throw FileError(fmt::format("{}: cannot read the table: {}", file.string(), why_not));
-  std::string text = *std::move(whole);
+  return parse_table(*std::move(whole), file.string(), last);
+}
+
+Table parse_table(std::string text, const std::string& name, Unended last) {
   if (constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; text.starts_with(kByteOrderMark))
     text.erase(0, kByteOrderMark.size());
   if (last == Unended::whole && !text.empty() && text.back() != '\n') text += '\n';
@@ -72,13 +75,13 @@ Table read_table(const std::filesystem::path& file, Unended last) {
       table.columns.resize(cells.size());
       continue;
     }
-    const std::string where = fmt::format("{}:{}", file.string(), line);
+    const std::string where = fmt::format("{}:{}", name, line);
     if (cells.size() != table.names.size())
       throw FileError(
           fmt::format("{}: {} cells, but {} in the header", where, cells.size(), table.names.size()));
     for (std::size_t k = 0; k < cells.size(); ++k) table.columns[k].push_back(number_of(cells[k], where));
   }
-  if (line == 0) throw FileError(fmt::format("{}: no header", file.string()));
+  if (line == 0) throw FileError(fmt::format("{}: no header", name));
   return table;
 }
 

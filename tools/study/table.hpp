@@ -26,6 +26,8 @@ enum class Unended { whole, torn };
 
 /// Reads a CSV file with a header (cells may be quoted). A torn line is left out. Throws FileError.
 Table read_table(const std::filesystem::path& file, Unended last);
+/// The same of the text of a file. @param name  of the file, for messages
+Table parse_table(std::string text, const std::string& name, Unended last);
 
 /// Names that an expression may use beside the columns.
 using Constants = std::map<std::string, double>;
