@@ -68,8 +68,8 @@ std::string block_on_block(const std::string& contact, const std::string& basis)
          basis + "}\n";
 }
 
-// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit it may
-// still decide in which step a normal is found anew, so that has one scene, where it does not.
+// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit and
+// qcpdi the two runs differ by 1e-7 of the energy under some roundings, which is not explained yet.
 TEST_CASE("a body whose particles are all split is as one that was seeded so, in contact and at walls") {
   for (const char* basis : {"lcpdi", "qcpdi"})
     for (const char* contact : {"", ", separation: ellipsoid_support"})
