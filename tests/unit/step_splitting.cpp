@@ -68,13 +68,14 @@ std::string block_on_block(const std::string& contact, const std::string& basis)
          basis + "}\n";
 }
 
-// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit and
-// qcpdi the two runs differ by 1e-7 of the energy under some roundings, which is not explained yet.
+// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit normals
+// alone are kept: of the particles of a flat face, which are equally far forward, round-off decides which one
+// tells the separations after it.
 TEST_CASE("a body whose particles are all split is as one that was seeded so, in contact and at walls") {
   for (const char* basis : {"lcpdi", "qcpdi"})
-    for (const char* contact : {"", ", separation: ellipsoid_support"})
+    for (const char* contact :
+         {"", ", separation: ellipsoid_support", ", refit: 0.3, detection: velocity"})
       check_like_finer<2>(block_on_block(contact, basis), 40);
-  check_like_finer<2>(block_on_block(", refit: 0.3", "lcpdi"), 40);
 }
 
 TEST_CASE("rings, plane stress and solids that are split are as those that were seeded so") {

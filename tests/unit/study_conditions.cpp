@@ -138,6 +138,22 @@ TEST_CASE("a study of scenes side by side: what holds where, in the table, the p
   CHECK(has(text_of(out / "study.csv"), ",holds,moves,falls\n"));
 }
 
+TEST_CASE("a folder holds a study when it is absent, empty or a study's, also one that only begins") {
+  const StudyFolder folder;
+  const auto out = folder.path() / "out";
+  const auto put = [&out](const char* name) { std::ofstream(out / name) << "x\n"; };
+  CHECK(may_hold_study(out));
+  std::filesystem::create_directory(out);
+  CHECK(may_hold_study(out));
+  put("study.yaml.tmp");  // what another study that begins has there for a moment
+  CHECK(may_hold_study(out));
+  put("notes.txt");
+  CHECK_FALSE(may_hold_study(out));
+  put("study.yaml");
+  CHECK(may_hold_study(out));
+  CHECK_FALSE(may_hold_study(out / "notes.txt"));
+}
+
 TEST_CASE("a variant that was stopped goes on from its checkpoint") {
   const StudyFolder folder;
   const auto out = folder.path() / "out";

@@ -179,8 +179,15 @@ class StudyQueue {
 bool may_hold_study(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(fs::symlink_status(folder, error))) return true;
-  return fs::is_directory(folder, error) &&
-         (fs::is_empty(folder, error) || fs::exists(folder / "study.yaml", error));
+  // One listing, since another study may begin in the folder while this one looks: asked for in turn, the
+  // folder would be neither empty nor hold a study.yaml yet.
+  bool holds_study = false, holds_else = false;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    const fs::path name = entry->path().filename();
+    holds_study = holds_study || name == "study.yaml";
+    holds_else = holds_else || name != "study.yaml.tmp";
+  }
+  return !error && (holds_study || !holds_else);
 }
 
 FolderLock prepare_study_folder(const Study& study, const fs::path& folder) {

@@ -36,7 +36,8 @@ struct StudyOptions {
   std::function<void(const StudyCounts&)> counted;
 };
 
-/// Is the folder absent, empty, or that of a study?
+/// Is the folder absent, empty, or that of a study? A study that begins, or was killed as it began, has only
+/// study.yaml.tmp.
 bool may_hold_study(const std::filesystem::path& folder);
 
 /// Makes the folder and keeps the study in it. What it returns holds the folder: refuses one in which a study
