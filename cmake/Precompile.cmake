@@ -17,10 +17,10 @@ endif()
 reuse_headers(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_state mpmfast_conditions
   mpmfast_contact mpmfast_step mpmfast_core mpmfast_study mpmfast_report ${program})
 if(MPMFAST_TESTS)
-  target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h> <nlohmann/json.hpp>
+  target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)
   set_source_files_properties(tests/main.cpp TARGET_DIRECTORY test_main PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
-  reuse_headers(test_main unit_tests kernel_tests short_tests validation_tests)
+  reuse_headers(test_main test_support unit_tests kernel_tests short_tests validation_tests)
 endif()
 if(MPMFAST_BENCH)
   reuse_headers(mpmfast_quantities benchmarks)

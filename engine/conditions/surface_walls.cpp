@@ -158,9 +158,9 @@ void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities, Bou
     if (!column.touches) continue;
     straighten_velocity(state, velocities, column, column.target,
                         walls_[static_cast<std::size_t>(column.wall)].axis);
-    for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+    for_each_sideways(column, [&](int d, Friction& friction) {
       if (velocities == Nodal::re_extrapolated)
-        ledger.friction_work += rubbing_work(state, column, d, rubbed);
+        ledger.friction_work += friction_work(state, column, d, friction);
       if (column.stuck) straighten_velocity(state, velocities, column, 0, d);
     });
   }
@@ -169,8 +169,8 @@ void SurfaceWalls<Dim>::impose_velocity(State<Dim>& state, Nodal velocities, Bou
 /// What particles lose by sliding, J, with the impulse J along the wall: −J·½(v^c + v'^c) + ½(J₁ + J₃)·(v⁺ −
 /// v^c); v^c and v'^c are what the strains see, J₁ and J₃ what holds put into them, v⁺ the velocity after J.
 template <int Dim>
-double SurfaceWalls<Dim>::rubbing_work(const State<Dim>& state, const Column& column, int axis,
-                                       const Rubbed& rubbed) const {
+double SurfaceWalls<Dim>::friction_work(const State<Dim>& state, const Column& column, int axis,
+                                        const Friction& friction) const {
   const double *mass = state.nodes.column(Nodal::mass), *end = state.nodes.column(Nodal::velocity, axis),
                *back = state.nodes.column(Nodal::re_extrapolated, axis);
   const Change third =
@@ -179,8 +179,8 @@ double SurfaceWalls<Dim>::rubbing_work(const State<Dim>& state, const Column& co
   for (std::size_t k = 0; k < kRows; ++k) {
     const int slot = column.slot[k];
     if (slot < 0 || !(mass[slot] > 0)) continue;
-    gain += 0.5 * rubbed.impulse[k] * (rubbed.held[k] + back[slot] + third.row[k] / mass[slot]) -
-            0.5 * (rubbed.first[k] + third.row[k]) * (end[slot] - rubbed.held[k]);
+    gain += 0.5 * friction.impulse[k] * (friction.held[k] + back[slot] + third.row[k] / mass[slot]) -
+            0.5 * (friction.first[k] + third.row[k]) * (end[slot] - friction.held[k]);
   }
   return -gain;
 }
@@ -200,10 +200,10 @@ void SurfaceWalls<Dim>::push(State<Dim>& state, double dt, Column& column, const
 /// What sticks keeps its slip in its particles, as pairs do: no force, but the grid does not see it.
 template <int Dim>
 void SurfaceWalls<Dim>::hold_slip(State<Dim>& state, const Column& column) {
-  for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+  for_each_sideways(column, [&](int d, Friction& friction) {
     const Change change = of_momentum(state, column, 0, d);
     add(state, Nodal::momentum, column, d, change, 1);
-    std::copy(change.row, change.row + kRows, rubbed.first.begin());
+    std::copy(change.row, change.row + kRows, friction.first.begin());
   });
 }
 
@@ -261,7 +261,7 @@ void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryLedger<Dim
   }
   for (Column& column : columns_)
     if (column.touches)
-      rub(state, dt, column, ledger);
+      apply_friction(state, dt, column, ledger);
     else
       let_go(state, dt, column, ledger);
 }
@@ -272,22 +272,23 @@ void SurfaceWalls<Dim>::let_go(const State<Dim>& state, double dt, Column& colum
                                BoundaryLedger<Dim>& ledger) {
   const double* mass = state.nodes.column(Nodal::mass);
   if (column.stuck && whole_)
-    for_each_sideways(column, [&](int d, const Rubbed& rubbed) {
+    for_each_sideways(column, [&](int d, const Friction& friction) {
       const double* force = state.nodes.column(Nodal::force, d);
       for (std::size_t k = 0; k < kRows; ++k)
         if (const int slot = column.slot[k]; slot >= 0 && mass[slot] > 0)
-          ledger.friction_work += 0.5 * rubbed.first[k] * dt * force[slot] / mass[slot];
+          ledger.friction_work += 0.5 * friction.first[k] * dt * force[slot] / mass[slot];
     });
   column.stuck = false;
 }
 
 /// Coulomb: the impulse that stops the slip at the plane, at most μ times the one along the normal.
 template <int Dim>
-void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger) {
+void SurfaceWalls<Dim>::apply_friction(State<Dim>& state, double dt, Column& column,
+                                       BoundaryLedger<Dim>& ledger) {
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
   Change stick[Dim];
   double squared = 0;
-  for_each_sideways(column, [&](int d, Rubbed&) {
+  for_each_sideways(column, [&](int d, Friction&) {
     stick[d] = of_momentum(state, column, 0, d);
     squared += stick[d].sum * stick[d].sum;
   });
@@ -297,22 +298,22 @@ void SurfaceWalls<Dim>::rub(State<Dim>& state, double dt, Column& column, Bounda
   // What rests exactly, as loose sand does, needs nothing.
   const double factor = sticks ? 1 : needed > 0 ? wall.friction * std::max(0.0, column.pushed) / needed : 0;
   const double* mass = state.nodes.column(Nodal::mass);
-  for_each_sideways(column, [&](int d, Rubbed& rubbed) {
+  for_each_sideways(column, [&](int d, Friction& friction) {
     const double *momentum = state.nodes.column(Nodal::momentum, d),
                  *force = state.nodes.column(Nodal::force, d);
-    if (!column.stuck) rubbed.first = {};
+    if (!column.stuck) friction.first = {};
     for (std::size_t k = 0; k < kRows; ++k) {
       const int slot = column.slot[k];
       if (slot < 0 || !(mass[slot] > 0)) continue;
-      rubbed.impulse[k] = factor * stick[d].row[k];
-      rubbed.held[k] = (momentum[slot] - dt * force[slot]) / mass[slot];
+      friction.impulse[k] = factor * stick[d].row[k];
+      friction.held[k] = (momentum[slot] - dt * force[slot]) / mass[slot];
     }
     add(state, Nodal::momentum, column, d, stick[d], factor);
     add(state, Nodal::force, column, d, stick[d], factor / dt);
     ledger.force[static_cast<std::size_t>(wall.boundary)][d] += factor * stick[d].sum / dt;
     for (std::size_t k = 0; !whole_ && k < kRows; ++k)
       if (stick[d].row[k] != 0)
-        ledger.friction_work -= rubbed.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
+        ledger.friction_work -= friction.impulse[k] * momentum[column.slot[k]] / mass[column.slot[k]];
   });
   column.stuck = sticks && holds_ && column.sideways != 0;
 }

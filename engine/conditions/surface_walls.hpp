@@ -99,14 +99,14 @@ class SurfaceWalls {
   struct Column {
     std::array<int, kRows> slot;
     int wall;
-    unsigned sideways;  ///< bit of each axis along which the wall may rub
+    unsigned sideways;  ///< bit of each axis along which the wall has friction
     double gap;         ///< m; infinite where no particle is near
     Gaps gaps;          ///< cells
     double target;      ///< m/s along the axis, at the plane
     double pushed;      ///< N s so far in this step, inwards
     bool touches;
     bool stuck;         ///< along the wall, at the end of the last friction
-    int rubbed;         ///< the first of its axes in rubbed_
+    int friction;       ///< the first of its axes in frictions_
     std::uint64_t key;  ///< of the wall, the line across it and the field
   };
   /// A tile of particles near a wall, and the columns of its window.
@@ -123,7 +123,7 @@ class SurfaceWalls {
 
   /// Friction of a column along an axis, by row: what holds it before forces and its impulse, N s; the
   /// velocity that the strain before forces sees, m/s.
-  struct Rubbed {
+  struct Friction {
     std::array<double, kRows> first, impulse, held;
   };
 
@@ -146,14 +146,15 @@ class SurfaceWalls {
   void push(State<Dim>& state, double dt, Column& column, const Change& change, double factor,
             BoundaryLedger<Dim>& ledger) const;
   void hold_slip(State<Dim>& state, const Column& column);
-  void rub(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
+  void apply_friction(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
   void let_go(const State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
-  double rubbing_work(const State<Dim>& state, const Column& column, int axis, const Rubbed& rubbed) const;
-  /// Calls f(axis, Rubbed) for every axis along which the wall may rub the column.
+  double friction_work(const State<Dim>& state, const Column& column, int axis,
+                       const Friction& friction) const;
+  /// Calls f(axis, Friction) for every axis along which the wall has friction on the column.
   template <class F>
   void for_each_sideways(const Column& column, F f) {
-    for (int d = 0, k = column.rubbed; d < Dim; ++d)
-      if (column.sideways >> d & 1) f(d, rubbed_[static_cast<std::size_t>(k++)]);
+    for (int d = 0, k = column.friction; d < Dim; ++d)
+      if (column.sideways >> d & 1) f(d, frictions_[static_cast<std::size_t>(k++)]);
   }
   void straighten_velocity(State<Dim>& state, Nodal velocities, const Column& column, double target,
                            int axis) const;
@@ -171,7 +172,7 @@ class SurfaceWalls {
   std::vector<int> first_;               ///< by wall, into at_
   std::vector<std::uint8_t> held_;       ///< by slot: see held_axes
   std::vector<Near> near_;
-  std::vector<Rubbed> rubbed_;
+  std::vector<Friction> frictions_;
   std::vector<std::uint64_t>
       stuck_;  ///< keys of columns, in order: while the list is made anew, and from a checkpoint
 };

@@ -36,7 +36,7 @@ template <int Dim>
 void SurfaceWalls<Dim>::list(const State<Dim>& state, const Prescribed& prescribed) {
   keep_stuck();
   columns_.clear();
-  rubbed_.clear();
+  frictions_.clear();
   at_.clear();
   first_.clear();
   const auto& tiling = state.tiling;
@@ -80,7 +80,7 @@ void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIn
   column.gap = std::numeric_limits<double>::infinity();
   column.sideways = 0;
   column.touches = column.stuck = false;
-  column.rubbed = 0;
+  column.friction = 0;
   column.key = key_of<Dim>(w, wall.axis, node, field);
   NodeIndex<Dim> row = node;
   for (int k = 0; k < kRows; ++k) {
@@ -95,11 +95,11 @@ void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIn
              return other.axis == axis && other.cut < kThin && other.out * (node[axis] - other.row) >= -2;
            });
   };
-  column.rubbed = static_cast<int>(rubbed_.size());
+  column.friction = static_cast<int>(frictions_.size());
   for (int d = 0; d < Dim; ++d)
     if (d != wall.axis && !prescribed(node, d) && !on_line_of_other(d)) {
       column.sideways |= 1u << d;
-      rubbed_.emplace_back();
+      frictions_.emplace_back();
     }
   column.stuck = std::binary_search(stuck_.begin(), stuck_.end(), column.key);
 }

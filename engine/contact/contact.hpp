@@ -184,8 +184,8 @@ class Contact {
   bool start_bridge(const State<Dim>& state, double dt, const ContactNode<Dim>& node, int e);
   Vec<Dim> pull_of(const AnyLaw& law, const ContactEntry<Dim>& entry, Bridge<Dim>& bridge,
                    const ContactNode<Dim>& node, double dt, const Vec<Dim>& pulls, bool alone) const;
-  void rub_pressed(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt, bool alone,
-                   Vec<Dim>& end) const;
+  void apply_pressed_friction(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt,
+                              bool alone, Vec<Dim>& end) const;
   double stored_of(const AnyLaw& law, const ContactEntry<Dim>& entry) const;
   Vec<Dim> told_jump(const State<Dim>& state, const ContactNode<Dim>& node, int slot_a, int slot_b) const;
   void apply(State<Dim>& state, Correction correction, double dt, const ContactNode<Dim>& node,

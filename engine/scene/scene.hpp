@@ -17,7 +17,7 @@
 #include "engine/quantities/time_table.hpp"
 #include "kernels/basis/bases.hpp"
 #include "kernels/contact/laws.hpp"
-#include "kernels/contact/penalty.hpp"
+#include "kernels/contact/penalty_spec.hpp"
 #include "kernels/materials/laws.hpp"
 
 namespace mpmfast {

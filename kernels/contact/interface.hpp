@@ -153,7 +153,7 @@ Vec<Dim> rate_after(const Springs& springs, const PairStart<Dim>& joint, double 
 
 /// What friction makes of a slip.
 template <int Dim>
-struct Rubbed {
+struct FrictionResult {
   Vec<Dim> rate;     ///< of the slip at the end of the step, m/s
   Vec<Dim> impulse;  ///< of friction on the first field, N s
 };
@@ -164,8 +164,8 @@ struct Rubbed {
 /// @param law      of Sliding (sliding.hpp)
 /// @param pressed  the impulse of the normal springs, N s, positive in compression
 template <int Dim, class Law, class Spring>
-Rubbed<Dim> rub(const Law& law, double pressed, const Spring& spring, const PairStart<Dim>& joint, double dt,
-                bool alone) {
+FrictionResult<Dim> apply_friction(const Law& law, double pressed, const Spring& spring,
+                                   const PairStart<Dim>& joint, double dt, bool alone) {
   const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
                  drawn = joint.across(joint.opening);
   const Vec<Dim> held = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
@@ -173,9 +173,9 @@ Rubbed<Dim> rub(const Law& law, double pressed, const Spring& spring, const Pair
   const double needed = stick.norm(), limit = law({pressed, needed, joint.mass});
   if (needed <= limit) return {Vec<Dim>::Zero(), stick};
   const Vec<Dim> impulse = limit / needed * stick;
-  PairStart<Dim> rubbed = joint;
-  rubbed.opening -= impulse / dt;
-  return {spring.rate_after(rubbed, dt, alone), impulse};
+  PairStart<Dim> sliding = joint;
+  sliding.opening -= impulse / dt;
+  return {spring.rate_after(sliding, dt, alone), impulse};
 }
 
 }  // namespace mpmfast

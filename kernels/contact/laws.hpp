@@ -247,7 +247,7 @@ using AnyLaw = std::variant<Coulomb, Frictionless, Stick, Perfect, Ignore, Adhes
 
 /// Has a law no friction, or that of Coulomb, or is there no contact by it?
 template <class Law>
-inline constexpr bool kRubsDry =
+inline constexpr bool kDryFriction =
     std::is_same_v<Law, Coulomb> || std::is_same_v<Law, Frictionless> || std::is_same_v<Law, Ignore>;
 
 /// Does it join surfaces by springs or a bond?

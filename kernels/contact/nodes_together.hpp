@@ -18,7 +18,8 @@
 
 namespace mpmfast {
 
-/// Nodes of kFields fields whose contacts are of the step's one set and rub by Coulomb's law or not at all.
+/// Nodes of kFields fields whose contacts are of the step's one set and have friction by Coulomb's law or
+/// none.
 ///
 /// The steps are those of ContactsTogether, contacts in the order of their fields: sweeps, and leaps between
 /// them, each lane until its own node has settled. A lane does the same whatever stands in the others. Nodes
@@ -55,8 +56,8 @@ class NodesTogether {
     for (int d = 0; d < Dim; ++d) c.normal[d][lane] = a < b ? normal[d] : -normal[d];
     c.reduced[lane] = reduced;
     c.closing[lane] = closing;
-    c.friction[lane] = rule.rubs ? law.friction : 0;
-    c.static_friction[lane] = rule.rubs ? law.static_friction : 0;
+    c.friction[lane] = rule.friction ? law.friction : 0;
+    c.static_friction[lane] = rule.friction ? law.static_friction : 0;
     c.exists[lane] = 1;
     c.acts[lane] = rule.acts;
     c.both_ways[lane] = rule.both_ways;
@@ -303,8 +304,8 @@ class NodesTogether {
       const IntLanes slips = going & (c.hinders == kSlip), slides = going & (c.hinders == kApproach);
       some |= slips | slides;
       const Lanes along = dot(c.impulse, c.normal);
-      const IntLanes rubs = magnitude(along) > kLeast;
-      const Lanes inverse = quotient(one(), chosen(rubs, along, one()));
+      const IntLanes loaded = magnitude(along) > kLeast;
+      const Lanes inverse = quotient(one(), chosen(loaded, along, one()));
       VecLanes left;
       slip<place>(left);
       for (int d = 0; d < Dim; ++d) left[d] = c.reduced * (left[d] + c.closing * c.normal[d]);
@@ -314,7 +315,7 @@ class NodesTogether {
           const Lanes unit = chosen(slips, broadcast<Lanes>(d == way ? 1.0 : 0.0), Lanes{});
           motion[i][d] = way == 0 ? chosen(slides, c.normal[d], unit) : unit;
           impulse[i][d] =
-              way == 0 ? chosen(slides, chosen(rubs, inverse * c.impulse[d], c.normal[d]), unit) : unit;
+              way == 0 ? chosen(slides, chosen(loaded, inverse * c.impulse[d], c.normal[d]), unit) : unit;
         }
         amount[i] = dot(left, motion[i]);
       }

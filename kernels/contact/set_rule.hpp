@@ -17,7 +17,7 @@ struct SetRule {
   bool acts = false;        ///< it may have an impulse
   bool both_ways = false;   ///< it is held whichever way it goes
   bool holds_slip = false;  ///< it is held along the surface too, by no friction
-  bool rubs = false;        ///< friction slides. (What is held for the strain alone must be a projection.)
+  bool friction = false;    ///< friction acts. (What is held for the strain alone must be a projection.)
   bool may_bond = false;    ///< it is near enough for a bond
 
   /// @param normal     unit, from a to b
@@ -39,11 +39,11 @@ struct SetRule {
     const double end = along + reduced * closing;
     if (!acts || (end > 0 && !both_ways)) return {Vec<Dim>::Zero(), Hinders::nothing};
     if (holds_slip) return {end * normal + tangential, Hinders::slip};
-    if (kRubsDry<Law> && !rubs) return {end * normal, Hinders::approach};  // no roots and quotients
+    if (kDryFriction<Law> && !friction) return {end * normal, Hinders::approach};  // no roots and quotients
     const double needed = tangential.norm();
     const double presses = Law::scope == LawScope::contact ? force_of(end) : end;
-    const double limit =
-        law({rubs ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), reduced, rubs ? area_time : 0});
+    const double limit = law({friction ? std::max(0.0, -presses) : 0, std::max(needed, kLeast), reduced,
+                              friction ? area_time : 0});
     if (needed <= limit && limit > 0) return {end * normal + tangential, Hinders::slip};
     return {end * normal + (needed > 0 ? limit / needed : 0) * tangential, Hinders::approach};
   }

@@ -299,7 +299,7 @@ class ContactsTogether {
     }
   }
 
-  /// What impulses of contacts that do not rub make least: Σ ½ m v² − Σ closing J·n, J.
+  /// What impulses of contacts without friction make least: Σ ½ m v² − Σ closing J·n, J.
   double excess() {
     double sum = 0;
     for (const MovingField<Dim>& f : fields)

@@ -187,11 +187,12 @@ TEST_CASE("friction that vanishes leaves the springs as they are") {
     const PairStart<2> start{0.7, Vec<2>::UnitX(), {-0.2, 0.3}, {-1, 0.6}, {0.1, 0.2}};
     const SlipSpring spring{9};
     const CurvedSlip curve{kSlip, 2};
-    CHECK((rub(Coulomb{1e-12, 0}, 1, spring, start, dt, true).rate - spring.rate_after(start, dt, true))
+    CHECK((apply_friction(Coulomb{1e-12, 0}, 1, spring, start, dt, true).rate -
+           spring.rate_after(start, dt, true))
               .norm() < 1e-10);
-    CHECK(
-        (rub(Coulomb{1e-12, 0}, 1, curve, start, dt, true).rate - curve.rate_after(start, dt, true)).norm() <
-        1e-10);
+    CHECK((apply_friction(Coulomb{1e-12, 0}, 1, curve, start, dt, true).rate -
+           curve.rate_after(start, dt, true))
+              .norm() < 1e-10);
   }
 }
 
@@ -205,20 +206,20 @@ TEST_CASE("friction beside springs: rests or takes its share of the pressure, an
       CAPTURE(pressed);
       const PairStart<3> start{mass, Vec<3>::UnitZ(), {0.3, -0.4, 0.1}, {0.8, 0.5, -3}, {0.1, 0.4, 2}};
       const auto check = [&](const auto& spring, const auto& stored) {
-        const Rubbed<3> rubbed = rub(Coulomb{0.5, 0.6}, pressed, spring, start, dt, false);
+        const FrictionResult<3> after = apply_friction(Coulomb{0.5, 0.6}, pressed, spring, start, dt, false);
         const Vec<3> from = start.across(start.jump), rate = start.across(start.rate),
-                     drawn = start.across(start.opening), mean = 0.5 * (rate + rubbed.rate),
+                     drawn = start.across(start.opening), mean = 0.5 * (rate + after.rate),
                      to = from + dt * mean;
-        CHECK(rubbed.rate[2] == 0);
-        CHECK(rubbed.impulse.norm() <= 0.6 * pressed + 1e-12);
-        if (!rubbed.rate.isZero(0)) {  // slides: against the slip that it leaves, or stops
-          CHECK(rubbed.impulse.norm() == doctest::Approx(0.5 * pressed));
+        CHECK(after.rate[2] == 0);
+        CHECK(after.impulse.norm() <= 0.6 * pressed + 1e-12);
+        if (!after.rate.isZero(0)) {  // slides: against the slip that it leaves, or stops
+          CHECK(after.impulse.norm() == doctest::Approx(0.5 * pressed));
         }
         const Vec<3> change =
-            mass * (rubbed.rate - rate) + rubbed.impulse - dt * drawn + dt * spring.mean_force(from, to);
+            mass * (after.rate - rate) + after.impulse - dt * drawn + dt * spring.mean_force(from, to);
         CHECK(change.norm() < 1e-9);  // Newton's law with all forces
-        const double moved = 0.5 * mass * (rubbed.rate.squaredNorm() - rate.squaredNorm());
-        CHECK(moved + stored(to) - stored(from) + rubbed.impulse.dot(mean) - dt * drawn.dot(mean) ==
+        const double moved = 0.5 * mass * (after.rate.squaredNorm() - rate.squaredNorm());
+        CHECK(moved + stored(to) - stored(from) + after.impulse.dot(mean) - dt * drawn.dot(mean) ==
               doctest::Approx(0).scale(1 + std::abs(moved)).epsilon(1e-9));
       };
       check(SlipSpring{6}, [](const Vec<3>& slip) { return 3 * slip.squaredNorm(); });

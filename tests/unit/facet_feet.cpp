@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/contact/penalty.hpp"
+#include "kernels/contact/facet_feet.hpp"
 
 namespace mpmfast {
 namespace {

@@ -24,7 +24,7 @@ struct Posed : PressedNode<Dim> {
 
 /// A node whose fields press on each other, with all that a rule may say; one in four has a rigid field.
 template <int Dim>
-Posed<Dim> pose(int fields, bool rubs, bool holds, std::mt19937_64& draw) {
+Posed<Dim> pose(int fields, bool friction, bool holds, std::mt19937_64& draw) {
   std::uniform_real_distribution<double> from_0_to_1(0, 1);
   const auto odds = [&](double share) { return from_0_to_1(draw) < share; };
   Posed<Dim> node(fields, 4, draw);
@@ -40,7 +40,7 @@ Posed<Dim> pose(int fields, bool rubs, bool holds, std::mt19937_64& draw) {
     rule.acts = !odds(0.1);
     rule.both_ways = c.both_ways = odds(0.3);
     rule.holds_slip = holds && odds(0.3);
-    rule.rubs = rubs;
+    rule.friction = friction;
     c.closing = odds(0.3) ? 0.3 * from_0_to_1(draw) : 0;
     node.contacts.push_back(c);
     node.rules.push_back(rule);
@@ -114,10 +114,10 @@ bool obeys(const NodesTogether<Dim, kFields>& batch, int lane, const Posed<Dim>&
 /// Nodes in lanes obey their laws, and get what each gets alone but where friction leaves several answers.
 /// @param share  of those that settle alone, at least: the others take more sweeps than lanes do
 template <int Dim, int kFields>
-void check_as_alone(bool rubs, bool holds, double share) {
+void check_as_alone(bool friction, bool holds, double share) {
   CAPTURE(Dim);
   CAPTURE(kFields);
-  CAPTURE(rubs);
+  CAPTURE(friction);
   CAPTURE(holds);
   constexpr int kTrials = 400;
   std::mt19937_64 draw(7);
@@ -125,10 +125,10 @@ void check_as_alone(bool rubs, bool holds, double share) {
   std::vector<Posed<Dim>> nodes;
   int settled = 0, alone = 0, same = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    nodes.push_back(pose<Dim>(kFields, rubs, holds, draw));
+    nodes.push_back(pose<Dim>(kFields, friction, holds, draw));
     put(batch, nodes.back());
     if (!batch.is_full() && trial + 1 < kTrials) continue;
-    const unsigned bits = batch.solve(rubs || holds);
+    const unsigned bits = batch.solve(friction || holds);
     for (std::size_t lane = 0; lane < nodes.size(); ++lane) {
       Posed<Dim>& node = nodes[lane];
       const int at = static_cast<int>(lane);
@@ -172,14 +172,14 @@ void check_beside_others() {
   std::mt19937_64 draw(3);
   NodesTogether<Dim, kFields> batch;
   for (int trial = 0; trial < 50; ++trial) {
-    const bool rubs = trial % 2 == 0, holds = trial % 3 == 0;
-    const Posed<Dim> node = pose<Dim>(kFields, rubs, holds, draw);
+    const bool friction = trial % 2 == 0, holds = trial % 3 == 0;
+    const Posed<Dim> node = pose<Dim>(kFields, friction, holds, draw);
     std::vector<Vec<Dim>> first;
     unsigned settled = 0;
     for (int lane = 0; lane < kLanes; ++lane) {
-      for (int other = 0; other < lane; ++other) put(batch, pose<Dim>(kFields, rubs, holds, draw));
+      for (int other = 0; other < lane; ++other) put(batch, pose<Dim>(kFields, friction, holds, draw));
       put(batch, node);
-      const unsigned bits = batch.solve(rubs || holds) >> lane & 1;
+      const unsigned bits = batch.solve(friction || holds) >> lane & 1;
       if (lane == 0) settled = bits;
       CHECK(bits == settled);
       for (std::size_t k = 0; k < node.contacts.size(); ++k) {
@@ -206,7 +206,7 @@ Posed<2> faint_and_strong(double faint) {
   node.add_contact(0, 1, {1, 0});
   node.add_contact(0, 2, {0, 1});
   SetRule<2> rule;
-  rule.acts = rule.rubs = true;
+  rule.acts = rule.friction = true;
   node.rules.assign(2, rule);
   node.laws.assign(2, {0.3, 0});
   return node;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "engine/errors.hpp"
 #include "tests/unit/output_fixture.hpp"

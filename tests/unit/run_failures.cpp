@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 #include "engine/output/read_vtu.hpp"
 #include "tests/support.hpp"
 

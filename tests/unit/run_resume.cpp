@@ -6,6 +6,7 @@
 
 #include <omp.h>
 #include <csignal>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tests/support.hpp"

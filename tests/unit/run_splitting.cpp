@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <fstream>
+
 #include "engine/output/paint.hpp"
 #include "engine/output/particle_access.hpp"
 #include "engine/output/read_frame.hpp"

@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "engine/plan/seed.hpp"
+#include "kernels/fracture/tip_integrals.hpp"
 #include "kernels/materials/at_rest.hpp"
 
 namespace mpmfast {

@@ -7,7 +7,7 @@
 
 #include "engine/contact/cracks/cracks.hpp"
 #include "engine/contact/nodal/list.hpp"
-#include "kernels/fracture/tip_integrals.hpp"
+#include "kernels/fracture/tip_sample.hpp"
 
 namespace mpmfast {
 

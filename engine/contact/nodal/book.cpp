@@ -35,18 +35,18 @@ void Contact<Dim>::book(const State<Dim>& state) {
 /// parts. Particles that keep the first correction lose by that too.
 template <int Dim>
 double Contact<Dim>::friction_work_of(const ContactEntry<Dim>& entry, bool tangential) const {
-  const auto rubbing = [&](const Vec<Dim>& x) -> Vec<Dim> {
+  const auto sliding_part = [&](const Vec<Dim>& x) -> Vec<Dim> {
     return tangential || one_set_ ? Vec<Dim>(x - x.dot(entry.normal) * entry.normal) : x;
   };
-  const Vec<Dim> second = rubbing(entry.second - (one_set_ ? Vec<Dim>::Zero() : entry.passed));
+  const Vec<Dim> second = sliding_part(entry.second - (one_set_ ? Vec<Dim>::Zero() : entry.passed));
   double gain = one_set_ ? 0.5 * second.dot(entry.slip_held + entry.slip_end) : second.dot(entry.slip_end);
   if (first_correction_stays_)
-    gain += rubbing(entry.first)
+    gain += sliding_part(entry.first)
                 .dot(one_set_ ? Vec<Dim>(0.5 * (entry.slip_start + entry.slip_held)) : entry.slip_held);
   else if (holds_sticking_) {
     const Vec<Dim> unseen = entry.slip_pulled - entry.slip_held;
-    if (entry.stuck_before) gain -= 0.5 * rubbing(entry.first).dot(unseen);
-    if (entry.stuck) gain -= 0.5 * rubbing(entry.impulse).dot(unseen);
+    if (entry.stuck_before) gain -= 0.5 * sliding_part(entry.first).dot(unseen);
+    if (entry.stuck) gain -= 0.5 * sliding_part(entry.impulse).dot(unseen);
   }
   return -gain;
 }

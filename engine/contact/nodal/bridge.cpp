@@ -202,21 +202,21 @@ bool Contact<Dim>::start_bridge(const State<Dim>& state, double dt, const Contac
 
 /// Friction of surfaces that an entry's springs press; none where contact holds them apart.
 template <int Dim>
-void Contact<Dim>::rub_pressed(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint, double dt,
-                               bool alone, Vec<Dim>& end) const {
+void Contact<Dim>::apply_pressed_friction(const AnyLaw& law, Bridge<Dim>& bridge, const PairStart<Dim>& joint,
+                                          double dt, bool alone, Vec<Dim>& end) const {
   bridge.friction.setZero();
-  const auto rub_with = [&](const Coulomb& friction, const auto& along) {
+  const auto slide_with = [&](const Coulomb& friction, const auto& along) {
     const double pressed = joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
     if (friction.friction == 0 || !(pressed > 0)) return;
-    const Rubbed<Dim> rubbed = rub(friction, pressed, along, joint, dt, alone);
-    end = end.dot(joint.normal) * joint.normal + rubbed.rate;
-    bridge.friction = rubbed.impulse;
+    const FrictionResult<Dim> after = apply_friction(friction, pressed, along, joint, dt, alone);
+    end = end.dot(joint.normal) * joint.normal + after.rate;
+    bridge.friction = after.impulse;
   };
   const auto springs_press = [](const auto& springs) { return springs.compression == Pressed::spring; };
   if (const auto* springs = std::get_if<Interface>(&law)) {
-    if (springs_press(*springs)) rub_with(springs->contact(), SlipSpring{bridge.springs.shear});
+    if (springs_press(*springs)) slide_with(springs->contact(), SlipSpring{bridge.springs.shear});
   } else if (const auto* curves = std::get_if<NonlinearInterface>(&law)) {
-    if (springs_press(*curves)) rub_with(curves->contact(), CurvedSlip{curves->shear_curve, bridge.area});
+    if (springs_press(*curves)) slide_with(curves->contact(), CurvedSlip{curves->shear_curve, bridge.area});
   }
 }
 
@@ -239,7 +239,7 @@ Vec<Dim> Contact<Dim>::pull_of(const AnyLaw& law, const ContactEntry<Dim>& entry
   } else {
     end = rate_after(bridge.springs, joint, dt, alone);
   }
-  rub_pressed(law, bridge, joint, dt, alone, end);
+  apply_pressed_friction(law, bridge, joint, dt, alone, end);
   const Vec<Dim> impulse = reduced * (bridge.rate + dt * pulls - end);
   return node.constrained ? free_part(node, impulse) : impulse;
 }

@@ -62,7 +62,7 @@ Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& c
   solves_in_lanes_ =
       one_set_ && !bridges_ && scene.cracks.empty() &&
       std::all_of(laws_.begin(), laws_.end(), [](const AnyLaw& law) {
-        return std::visit([](const auto& l) { return kRubsDry<std::decay_t<decltype(l)>>; }, law);
+        return std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
       });
 }
 
@@ -248,7 +248,7 @@ SetRule<Dim> Contact<Dim>::rule_of(const ContactEntry<Dim>& entry, double separa
                                                 : entry.touching;
   rule.both_ways = both_ways(entry, correction);
   rule.holds_slip = Law::scope == LawScope::contact && holds_slip(entry, correction);
-  rule.rubs = correction == Correction::final || first_correction_stays_;
+  rule.friction = correction == Correction::final || first_correction_stays_;
   return rule;
 }
 

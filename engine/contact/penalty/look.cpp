@@ -7,6 +7,7 @@
 
 #include "engine/contact/penalty/penalty.hpp"
 #include "engine/state/team.hpp"
+#include "kernels/contact/facet_feet.hpp"
 
 namespace mpmfast {
 

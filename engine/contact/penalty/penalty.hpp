@@ -18,6 +18,9 @@
 
 namespace mpmfast {
 
+template <int Dim>
+struct Foot;  // kernels/contact/facet_feet.hpp
+
 /// A boundary point where a surface folds onto itself.
 struct Fold {
   int body;
@@ -160,7 +163,7 @@ class Penalty {
   double stiffness_between(int body_a, int body_b) const;
   Vec<Dim> facet_normal(int facet) const;
   void add_couple(const Touch& touch, const Vec<Dim>& force, Vec<Dim> (&back)[Dim]) const;
-  Vec<Dim> rub(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const;
+  Vec<Dim> friction_force(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const;
   void push_out(const State<Dim>& state, double elapsed, Room& room);
   const AnyLaw& law_between(int field_a, int field_b) const;
   void book(const Touch& touch, const Pushed& pushed, double dt);

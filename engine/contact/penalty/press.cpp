@@ -95,7 +95,7 @@ struct Carried {
 /// The force along the surface on the point: of a spring that stretches with the slip, up to what the law
 /// carries (K24 Eq. 29, 32); of a film, of the slip's speed.
 template <int Dim>
-Vec<Dim> Penalty<Dim>::rub(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const {
+Vec<Dim> Penalty<Dim>::friction_force(const Touch& touch, Hold& hold, double elapsed, Pushed& pushed) const {
   const auto& other = facet(touch.facet);
   const int body = facet(touch.own).body;
   const AnyLaw& law = law_between(field_of(body), field_of(other.body));
@@ -183,10 +183,10 @@ void Penalty<Dim>::push_out(const State<Dim>& state, double elapsed, Room& room)
       for (const Hold& one : known.of)
         if (one.piece == facet(touch.facet).piece) hold = one;
     Pushed pushed{};
-    pushed.force = touch.stiffness * touch.depth * touch.exit + rub(touch, hold, elapsed, pushed);
+    pushed.force = touch.stiffness * touch.depth * touch.exit + friction_force(touch, hold, elapsed, pushed);
     if (holds < kHolds) held.of[holds++] = hold;
     for (int k = 0; k < Dim; ++k) pushed.back[k] = -touch.share[k] * pushed.force;
-    // What rubs does so at the foot, not at the point: normal forces on the facet take the couple.
+    // Friction acts at the foot, not at the point: normal forces on the facet take the couple.
     add_couple(touch, pushed.force, pushed.back);
     room.pushed.push_back(pushed);
   }

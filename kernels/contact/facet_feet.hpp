@@ -1,7 +1,7 @@
 #pragma once
 
-/// @file Contact of surfaces by penalty (K24 §3.5, 3.6): what a scene says of it, and where a point lies
-/// below a facet. Theory: tools/manual/theory.md, "Penalty contact".
+/// @file Where a point lies over or under a facet of a surface (K24 §3.5, 3.6). Theory:
+/// tools/manual/theory.md, "Penalty contact".
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,24 +11,8 @@
 #include <optional>
 
 #include "kernels/dimension.hpp"
-#include "kernels/measure.hpp"
 
 namespace mpmfast {
-
-/// Springs between surfaces that overlap.
-struct PenaltySpec {
-  double stiffness = 1;   ///< ω = this × ρc²/Δh of the softer body, Pa/m
-  double tangential = 1;  ///< ω_t/ω
-  int per_cell = 2;       ///< boundary points along the side of a cell
-
-  template <class Keys>
-  void describe(Keys& map) {
-    map.key("stiffness", "Of the springs that push, in moduli of the softer body a cell.", stiffness,
-            Number{Measure::number, kPositive});
-    map.key("tangential_stiffness", "Of the springs that hold what sticks, over `stiffness`.", tangential,
-            Number{Measure::number, kPositive});
-  }
-};
 
 /// Where a point is over or under a facet.
 template <int Dim>
