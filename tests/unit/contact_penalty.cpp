@@ -295,6 +295,84 @@ TEST_CASE("forces and their moments sum to zero, also of corners and of what rub
   check_balanced(corners);
 }
 
+TEST_CASE(
+    "where a surface folds onto itself its body and the particle there are named, whichever body it is") {
+  for (const int body : {0, 1}) {
+    CAPTURE(body);
+    Pressed disks(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
+                             "disk: {centre: [23 mm, 20 mm], radius: 5 mm}", "law: frictionless"));
+    auto& state = disks.step.state();
+    auto& particles = state.particles;
+    // The point that is nearest to the other body, drawn out to a needle.
+    const double sign = body == 0 ? 1 : -1;
+    std::size_t tip = particles.size();
+    double most = 0;
+    for (std::size_t p = 0; p < particles.size(); ++p) {
+      if (particles.body()[p] != body || !state.surfaces.holds(body, particles.id()[p])) continue;
+      const double x = sign * particles.column(Quantity::position, 0)[p];
+      if (tip < particles.size() && x <= most) continue;
+      tip = p;
+      most = x;
+    }
+    REQUIRE(tip < particles.size());
+    const std::uint32_t id = particles.id()[tip];
+    particles.column(Quantity::position, 0)[tip] += sign * 8e-3;
+    disks.passes->sort(state);
+    disks.penalty.forget_tiles();
+    const std::optional<Fold> fold = disks.penalty.look(state);
+    REQUIRE(fold);
+    CHECK(fold->body == body);
+    CHECK(fold->id == id);
+  }
+}
+
+TEST_CASE("each of two rigid bodies beside each other is booked the forces on its own points") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [40 mm, 40 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}, r: {model: rigid}}
+bodies:
+  - {name: block, box: {from: [5 mm, 5 mm], to: [30 mm, 10.01 mm]}, material: m}
+  - {name: left, box: {from: [8 mm, 10 mm], to: [14 mm, 14 mm]}, material: r}
+  - {name: right, box: {from: [18 mm, 10 mm], to: [26 mm, 14 mm]}, material: r}
+method: {basis: bspline2}
+contact: {family: penalty, points_per_cell: 4, law: frictionless}
+)");
+  Step<2> step(scene);
+  auto& state = step.state();
+  make_passes<2>(scene.method.basis)->sort(state);
+  Penalty<2> penalty(scene, step.plan(), state);
+  REQUIRE(!penalty.look(state));
+  const std::vector<Vec<2>> pivots{{0, 0}, {0.011, 0.012}, {0.022, 0.012}};
+  const double dt = 1e-6;
+  penalty.press(state, pivots, dt);
+  std::vector<Vec<2>> place(state.surfaces.points());
+  for (std::size_t p = 0; p < state.particles.size(); ++p)
+    if (const int number = state.surfaces.number(state.particles.body()[p], state.particles.id()[p]);
+        number >= 0)
+      place[static_cast<std::size_t>(number)] = state.particles.vector(Quantity::position, p);
+  for (const std::size_t b : {1u, 2u}) {
+    CAPTURE(b);
+    const auto& own = state.surfaces.bodies[b];
+    const auto field = static_cast<std::size_t>(step.plan().body_field[b]);
+    Vec<2> force = Vec<2>::Zero();
+    double moment = 0;
+    for (int p = own.first; p < own.first + own.count; ++p) {
+      const auto k = static_cast<std::size_t>(p);
+      const Vec<2> arm = place[k] - pivots[field], &push = penalty.forces()[k];
+      force += push;
+      moment += arm[0] * push[1] - arm[1] * push[0];
+    }
+    REQUIRE(force[1] > 0);
+    REQUIRE(penalty.forces()[static_cast<std::size_t>(own.first)][1] > 0);  // on a corner
+    CHECK((penalty.books().rigid_impulse[field] - dt * force).norm() < 1e-12 * dt * force.norm());
+    CHECK(penalty.books().rigid_moment[field][2] ==
+          doctest::Approx(dt * moment).epsilon(1e-9).scale(dt * force.norm() * 4e-3));
+  }
+  CHECK(penalty.books().rigid_impulse[0] == Vec<2>::Zero());  // the block is none
+}
+
 /// The largest change of the force on b from a place of its path to the next.
 template <class Path>
 double largest_jump(Pressed& pressed, int steps, const Path& path, double& largest) {

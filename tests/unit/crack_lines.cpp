@@ -40,6 +40,30 @@ cracks: [{body: block, law: frictionless, line: [[)" +
   }
 }
 
+TEST_CASE("nodes behind a third crack are counted where three meet, and nowhere else") {
+  const auto third = [](const char* more) {
+    const Scene scene = scene_from(std::string(R"(
+space: plane_strain
+grid: {size: [30 mm, 30 mm], cell: 1 mm}
+time: {end: 1 ms}
+materials: {rock: {model: neo_hookean, density: 2.6 g/cm^3, young: 5 GPa, poisson: 0.3}}
+bodies: [{name: block, box: {from: [6 mm, 6 mm], to: [24 mm, 24 mm]}, material: rock}]
+)") + more);
+    Step<2> step(scene);
+    advance(step, 1);
+    return step.cracks().counters().third;
+  };
+  const std::string two = R"(cracks:
+  - {body: block, law: frictionless, line: [[3 mm, 15.1 mm], [27 mm, 15.1 mm]]}
+  - {body: block, law: frictionless, line: [[15.1 mm, 3 mm], [15.1 mm, 27 mm]]}
+)";
+  CHECK(third("") == 0);
+  CHECK(third(two.c_str()) == 0);
+  CHECK(
+      third((two + "  - {body: block, law: frictionless, line: [[3 mm, 3 mm], [27 mm, 27 mm]]}\n").c_str()) >
+      0);
+}
+
 /// Else what one of them keeps from step to step would be the other's.
 TEST_CASE("where two cracks cross, each surface at a node has a name of its own") {
   const Scene scene = scene_from(R"(

@@ -56,7 +56,13 @@ TEST_CASE("a crack has come to the outline half a cell before it, however much m
         advance(step, 1);
         return step.tip_load(0, true);
       };
-      CHECK(load_at(23.4).through);
+      for (const double end : {23.4, 27.0}) {
+        const TipLoad load = load_at(end);
+        CHECK(load.through);
+        CHECK(load.release == 0);
+        CHECK(load.opening == 0);
+        CHECK(load.sliding == 0);
+      }
       CHECK_FALSE(load_at(20.4).through);
     }
 }
@@ -243,6 +249,39 @@ TEST_CASE("an end that rests is asked again when a wave along its sides has gone
     }
     CHECK(cracks.lines()[0].length() == doctest::Approx(6e-3).epsilon(1e-9));
   }
+}
+
+TEST_CASE("nodes ahead of where an end was, within three cells, are fresh when it has grown, whichever way") {
+  for (int quarters = 0; quarters < 4; ++quarters)
+    for (const bool end : {false, true}) {
+      CAPTURE(quarters);
+      CAPTURE(end);
+      const Point from = turned({8.1, kMiddle + 0.2}, quarters), to = turned({13.3, kMiddle - 0.3}, quarters);
+      const Scene scene = scene_from(block(from, to, "", "law: frictionless, growth: {toughness: 10 J/m^2}"));
+      Step<2> step(scene);
+      Cracks<2> cracks(scene, step.plan());
+      const auto for_each = [&](const auto& f) {
+        for (int i = 0; i <= 30; ++i)
+          for (int j = 0; j <= 30; ++j) f(NodeIndex<2>(i, j));
+      };
+      for_each([&](const NodeIndex<2>& node) { CHECK_FALSE(cracks.is_fresh(step.state(), 0, node)); });
+      const Point &at = end ? to : from, &other = end ? from : to;
+      TipLoad load;
+      load.ahead = Vec<2>(at[0] - other[0], at[1] - other[1]).normalized();
+      load.modulus = 50e6 / 0.91;
+      load.opening = 2 * std::sqrt(load.modulus * scene.cracks[0].growth.toughness);
+      const double length = cracks.lines()[0].length();
+      cracks.grow(step.state(), [&](int, bool asked) { return asked == end ? load : TipLoad{}; });
+      REQUIRE(cracks.lines()[0].length() > length + 0.1e-3);
+      int fresh = 0;
+      for_each([&](const NodeIndex<2>& node) {
+        const Vec<2> cells(node[0] - at[0], node[1] - at[1]);
+        const bool ahead = cells.dot(load.ahead) > 0 && cells.norm() < 3;
+        CHECK(cracks.is_fresh(step.state(), 0, node) == ahead);
+        fresh += ahead;
+      });
+      CHECK(fresh > 10);
+    }
 }
 
 /// By Erdogan and Sih, where σ_tn = σ_nn: tan(θ/2) = −1/2.

@@ -21,7 +21,8 @@ double content(const Step<2>& step, std::size_t body) {
 }
 
 /// What body 0 at 300 K gets in a step through x = 6 mm, of h A ΔT Δt.
-double crossed(const std::string& others, const std::string& contact) {
+double crossed(const std::string& others, const std::string& contact,
+               const std::string& conductance = "10 W/m^2/K") {
   const Scene scene = scene_from(R"(
 space: plane_strain
 grid: {size: [12 mm, 12 mm], cell: 1 mm}
@@ -32,8 +33,8 @@ materials:
 heat: {temperature: 300 K}
 bodies:
   - {name: a, box: {from: [2 mm, 2 mm], to: [6 mm, 10 mm]}, material: m}
-)" + others + "contact: {conductance: 10 W/m^2/K, " +
-                                 contact + "}\n");
+)" + others +
+                                 "contact: {conductance: " + conductance + ", " + contact + "}\n");
   Step<2> step(scene);
   const double dt = step.stable_dt();
   step.advance(dt);
@@ -59,6 +60,23 @@ TEST_CASE("a rigid body without a heat capacity is as warm as it is told") {
     CAPTURE(std::string(contact));
     CHECK(crossed(kWarm + "material: hard}\n", contact) == doctest::Approx(1).epsilon(1e-5));
   }
+}
+
+TEST_CASE("what fills a gap and the surfaces on it resist in series") {
+  const std::string apart =
+      "  - {name: b, box: {from: [6.5 mm, 2 mm], to: [10 mm, 10 mm]}, temperature: 400 K, material: m}\n";
+  const auto through = [&](const std::string& conductance, const std::string& filling) {
+    return crossed(apart, "normal: logistic_regression, gap_conductivity: " + filling, conductance);
+  };
+  // Half a millimetre of 5 mW/m/K: 10 W/m^2/K by itself, in multiples of which both are.
+  const double gap = through("perfect", "0.005 W/m/K");
+  CHECK(gap == doctest::Approx(1).epsilon(0.05));
+  for (const double surface : {0.5, 1.0, 4.0}) {
+    CAPTURE(surface);
+    CHECK(through(std::to_string(10 * surface) + " W/m^2/K", "0.005 W/m/K") ==
+          doctest::Approx(gap * surface / (1 + surface)).epsilon(1e-4));
+  }
+  CHECK(through("10 W/m^2/K", "0 W/m/K") == 0);
 }
 
 TEST_CASE("a surface that is shared by two bodies lets through as much as that of one") {

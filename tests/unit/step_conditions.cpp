@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <memory>
 #include <optional>
+#include <string>
 
 #include "tests/support.hpp"
 
@@ -126,6 +129,38 @@ space: 3d
 grid: {size: [20 mm, 20 mm, 20 mm], cell: 1 mm}
 bodies: [{name: a, box: {from: [4 mm, 4.4 mm, 5 mm], to: [12.3 mm, 12 mm, 9 mm]}, material: m, velocity: [3 m/s, -2 m/s, 1 m/s]}]
 )") < 1e-12);
+  }
+}
+
+/// Of a picture, material may lie far behind a wall.
+TEST_CASE("what lies far behind the plane of a wall that holds stands still, on every side") {
+  auto image = std::make_shared<GreyImage>();
+  image->width = image->height = 12;
+  image->pixel.assign(144, 7);
+  struct Side {
+    const char* name;
+    int axis;
+    double plane;  // mm
+    bool upper;
+  };
+  for (const Side& side : {Side{"left", 0, 7.4, false}, Side{"bottom", 1, 7.4, false},
+                           Side{"right", 0, 8.6, true}, Side{"top", 1, 8.6, true}}) {
+    CAPTURE(std::string(side.name));
+    Scene scene = scene_from(
+        std::string(kBlock) + fmt::format("boundaries: {{{}: {{wall: held, position: {} mm, at: plane}}}}\n",
+                                          side.name, side.plane),
+        {{"bodies.0.box.from", "[7.4 mm, 7.4 mm]"}, {"bodies.0.box.to", "[8.6 mm, 8.6 mm]"}});
+    scene.bodies[0].shape = BitmapShape{"", {2e-3, 2e-3, 0}, {14e-3, 14e-3, 0}, 7, image};
+    Step<2> step(scene);
+    advance(step, 3);
+    int beyond = 0;
+    for_each_node(step, [&](const NodeIndex<2>& n, const Vec<2>& v) {
+      const double way = side.upper ? n[side.axis] - side.plane : side.plane - n[side.axis];
+      if (way < 3) return;  // nearer rows are on a line through the plane
+      CHECK(v.norm() < 1e-12);
+      ++beyond;
+    });
+    CHECK(beyond > 25);
   }
 }
 

@@ -277,6 +277,57 @@ TEST_CASE("contact areas of a flat interface add up to it, anywhere in the cells
     }
 }
 
+TEST_CASE("areas by nodal volumes are exact with linear functions and a surface along the grid") {
+  for (const double offset : {0.0, 0.25, 0.5, 0.75}) {
+    CAPTURE(offset);
+    CHECK(shear_area(0, offset, "nodal_volume", "linear") == doctest::Approx(16e-3).epsilon(1e-6).scale(0));
+  }
+}
+
+/// How far surfaces would come together without what presses them: F T²/(2 m), T the time in which the
+/// fastest crosses a cell.
+TEST_CASE(
+    "the spring of a pair is its force by the square of a time over its mass, of rigid bodies the other's") {
+  for (const bool rigid : {true, false}) {
+    CAPTURE(rigid);
+    // So large that the masses of nodes are many kg.
+    const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [12 m, 12 m], cell: 1 m}
+time: {end: 1 s, cfl: 0.4}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}, hard: {model: rigid}}
+bodies:
+  - {name: floor, box: {from: [1 m, 2 m], to: [11 m, 5 m]}, material: )" +
+                                   std::string(rigid ? "hard" : "m") + R"(}
+  - {name: block, box: {from: [3 m, 5 m], to: [8 m, 9 m]}, material: m, velocity: [0, -1 m/s]}
+contact: {law: frictionless}
+)");
+    Step<2> step(scene);
+    int pressed = 0;
+    for (int k = 0; k < 4; ++k) {
+      const double dt = step.stable_dt(), time = dt / 0.4;
+      step.advance(dt);
+      const auto& list = step.contact_list();
+      const double* mass = step.state().nodes.column(Nodal::mass);
+      for (const auto& node : list.nodes)
+        for (int e = node.entry_begin; e < node.entry_end; ++e) {
+          const auto& entry = list.entries[static_cast<std::size_t>(e)];
+          const double force = std::max(0.0, -entry.second.dot(entry.normal) / dt);
+          double inverse_mass = 0;
+          for (int f = node.field_begin; f < node.field_end; ++f) {
+            const auto [field, slot] = list.fields[static_cast<std::size_t>(f)];
+            if (!step.state().field_rigid[static_cast<std::size_t>(field)]) inverse_mass += 1 / mass[slot];
+          }
+          const double now = 0.5 * force * time * time * inverse_mass;
+          const double spring = entry.touched ? 0.9 * entry.spring_before + 0.1 * now : now;
+          CHECK(entry.spring == doctest::Approx(spring).epsilon(1e-9).scale(1e-12));
+          pressed += entry.spring > 0;
+        }
+    }
+    CHECK(pressed > 20);
+  }
+}
+
 TEST_CASE(
     "nodal volumes and gradients are projected only where a law or a lump of several laws asks for them") {
   const auto columns = [](const std::string& contact, const std::string& third) {

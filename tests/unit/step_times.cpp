@@ -1,6 +1,7 @@
 // How long steps are, what a push between two of them does, and how long they take.
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <thread>
 
@@ -29,6 +30,36 @@ TEST_CASE("what is left of the time is one step, or two that are alike, or more 
   CHECK(step.dt_towards(1.5 * stable, stable) == 0.75 * stable);
   CHECK(step.dt_towards(1.99 * stable, stable) == doctest::Approx(0.995 * stable).epsilon(1e-12));
   CHECK(step.dt_towards(2.1 * stable, stable) == stable);
+}
+
+TEST_CASE("a step is as long as what is fastest lets it be: waves, or a rigid body, however slow all are") {
+  // Waves in what is so soft run at 0.3 m/s.
+  const std::string soft = R"(
+space: plane_strain
+grid: {size: [20 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s, cfl: 0.4}
+materials:
+  jelly: {model: neo_hookean, density: 1000 kg/m^3, bulk: 50 Pa, shear: 30 Pa}
+  hard: {model: rigid}
+bodies:
+  - {name: block, box: {from: [2 mm, 4 mm], to: [6 mm, 6 mm]}, material: jelly}
+)";
+  const std::string plate =
+      "  - {name: plate, box: {from: [8 mm, 2 mm], to: [16 mm, 6 mm]}, material: hard, ";
+  const double waves = std::sqrt((50 + 4.0 / 3 * 30) / 1000);
+  const auto fastest = [](const std::string& yaml) {
+    const Scene scene = scene_from(yaml);
+    return 0.4 * 1e-3 / Step<2>(scene).stable_dt();
+  };
+  CHECK(fastest(soft) == doctest::Approx(waves).epsilon(1e-9));
+  CHECK(fastest(soft + plate + "velocity: [0.1 m/s, 0 m/s]}\n") == doctest::Approx(waves).epsilon(1e-9));
+  CHECK(fastest(soft + plate + "velocity: [0.3 m/s, 0.4 m/s]}\n") == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(fastest(soft + plate + "velocity: [[[0 s, 0 m/s], [1 s, 0.7 m/s]], 0]}\n") ==
+        doctest::Approx(0.7).epsilon(1e-9));
+  // Of the particles at quarters of the cells the farthest are 3.75 mm and 1.75 mm from the middle.
+  CHECK(fastest(soft + plate +
+                "velocity: [0.3 m/s, 0 m/s], rotation: {about: [12 mm, 4 mm], speed: -100 rad/s}}\n") ==
+        doctest::Approx(0.3 + 100e-3 * std::hypot(3.75, 1.75)).epsilon(1e-9));
 }
 
 TEST_CASE("a push between two steps does the work that the particles gain") {
