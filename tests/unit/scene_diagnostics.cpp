@@ -69,6 +69,11 @@ TEST_CASE("a missing key is named where its map begins") {
               "scene.yaml:7:5: bodies.0.material: missing"));
 }
 
+TEST_CASE("a missing key whose value is a word is told with all the words that it may be") {
+  CHECK(fault(replaced(plain_scene(), "space: plane_strain\n", "")) ==
+        "scene.yaml:1:1: space: missing (plane_strain, plane_stress, axisymmetric or 3d)");
+}
+
 TEST_CASE("the text must be one plain YAML document") {
   CHECK(fault("") == "scene.yaml: empty (a scene was expected)");
   CHECK(fault("# nothing but a comment\n") == "scene.yaml: empty (a scene was expected)");

@@ -136,3 +136,22 @@ TEST_CASE("what an alias holds may reach down to level 32, and no further") {
   CHECK_FALSE(too_deep(deep("{k: ", "}", 11)));
   CHECK(too_deep(deep("{k: ", "}", 12)));
 }
+
+TEST_CASE("a value stands as deep as an empty list may, and no deeper") {
+  // The map of the scene is level 1; of no value is it asked what it is for.
+  const auto too_deep = [](const std::string& open, const std::string& inside, const std::string& close,
+                           int levels) {
+    const auto all = faults("a: " + repeated(open, levels) + inside + repeated(close, levels) + "\n");
+    return all.size() == 1 && holds(all[0], "nested too deeply (at most 32 levels, aliases expanded)");
+  };
+  for (const char* inside : {"", "1", "word", "\"\"", "~", "1, 2", "&b 1, *b"}) {
+    CAPTURE(inside);
+    CHECK_FALSE(too_deep("[", inside, "]", 31));
+    CHECK(too_deep("[", inside, "]", 32));
+  }
+  for (const char* inside : {"1", "word", "\"\"", "~"}) {
+    CAPTURE(inside);
+    CHECK_FALSE(too_deep("{k: ", inside, "}", 31));
+    CHECK(too_deep("{k: ", inside, "}", 32));
+  }
+}

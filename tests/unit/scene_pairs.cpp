@@ -2,6 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <map>
+#include <string>
+
 #include "engine/plan/contact_law.hpp"
 #include "engine/scene/catalogue.hpp"
 #include "scene_helpers.hpp"
@@ -173,6 +176,10 @@ TEST_CASE("a rotation is about a point; only that of a rigid body may change in 
                      "material: steel, rotation: {about: [0, 0], speed: [[0 s, 0 rad/s], [1 s, 1 rad/s]]}}")),
       "bodies.0.rotation: a table of rotations is for rigid bodies only"));
   CHECK(holds(fault(three_bodies("", ", rotation: {speed: 1 rad/s}")), "bodies.3.rotation.about: missing"));
+  CHECK(holds(fault(three_bodies("", ", rotation: 1 rad/s")),
+              "bodies.3.rotation: not a map {about, speed}, got '1 rad/s'"));
+  CHECK(holds(fault(replaced(solid_scene(), "material: steel", "material: steel, rotation: 1 rad/s")),
+              "bodies.0.rotation: not a map {about, axis, speed}, got '1 rad/s'"));
   CHECK(holds(fault(three_bodies("", ", rotation: {about: [0, 0], speed: 1 m/s}")), "'m/s' is a velocity"));
 }
 
@@ -194,4 +201,15 @@ TEST_CASE("every law and choice of contact is listed with its keys") {
   CHECK(laws[7].keys == "viscosity, film");
   CHECK(catalogue("areas").size() == 2);
   CHECK(catalogue("fields").size() == 3);
+}
+
+TEST_CASE("a key of the output is listed with its default, a map with those of its keys") {
+  std::map<std::string, std::string> keys;
+  for (const CatalogueEntry& entry : catalogue("output")) keys[entry.name] = entry.keys;
+  CHECK(keys.at("frames") == "= 20");
+  CHECK(keys.at("history") == "= 200");
+  CHECK(keys.at("grid") == "= false");
+  CHECK(keys.at("overlap") == "= false");
+  CHECK(keys.at("picture") == "= pressure");
+  CHECK(keys.at("checkpoint") == "{every = 600 s, steps = none}");
 }

@@ -318,3 +318,23 @@ TEST_CASE("half of each pair of elastic constants is no pair, and three are too 
   CHECK(holds(moduli("bulk: 1 GPa, poisson: 0.3"), needs + "but has only bulk and poisson"));
   CHECK(holds(moduli("bulk: 1 GPa, young: 2 GPa, poisson: 0.3"), needs + "not more"));
 }
+
+TEST_CASE("a grid has a cell along each edge at least, and a million at most") {
+  const auto of = [](const std::string& size, const std::string& cell) {
+    return faults(replaced(plain_scene(), "{size: [10 mm, 20 mm], cell: 1 mm}",
+                           "{size: [" + size + "], cell: " + cell + "}"));
+  };
+  CHECK(of("20 mm, 20 mm", "20 mm").empty());
+  CHECK(of("1000000 m, 1000000 m", "1 m").empty());
+  const auto refused = [&](const std::string& size, const std::string& cell, const std::string& what) {
+    CAPTURE(size);
+    const auto all = of(size, cell);
+    REQUIRE_FALSE(all.empty());
+    CHECK(holds(all[0], what));
+  };
+  refused("10 mm, 20 mm", "20 mm", "grid.size.0: smaller than one cell of 0.02 m, got '10 mm'");
+  refused("20 mm, 19.99 mm", "20 mm", "grid.size.1: smaller than one cell of 0.02 m, got '19.99 mm'");
+  refused("20.01 mm, 20 mm", "20 mm",
+          "grid.size.0: not a whole number of cells of 0.02 m (nearest: 0.02 m), got '20.01 mm'");
+  refused("1 m, 1000001 m", "1 m", "grid.size.1: 1e+06 cells of 1 m (at most 1e+06), got '1000001 m'");
+}

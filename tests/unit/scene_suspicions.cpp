@@ -40,6 +40,31 @@ TEST_CASE("a density that nothing has is told with what was likely meant") {
   CHECK(warnings(replaced(plain_scene(), "7.85 g/cm^3", "29.9 g/cm^3")).empty());
 }
 
+TEST_CASE("densities are usual from 0.1 to 30000 kg/m^3, and likely meant from 10 to 30000 kg/m^3") {
+  const auto of = [](const std::string& density) {
+    return warnings(replaced(plain_scene(), "7.85 g/cm^3", density));
+  };
+  const auto meant = [&](const std::string& density) {
+    const std::string all = of(density), before = "Did you mean ";
+    const std::size_t at = all.find(before);
+    return at == std::string::npos ? ""
+                                   : all.substr(at + before.size(), all.find(',', at) - at - before.size());
+  };
+  CHECK(of("30 g/cm^3").empty());
+  CHECK(holds(of("30.001 g/cm^3"), "no density"));
+  CHECK_FALSE(holds(of("0.1 kg/m^3"), "no density"));
+  CHECK(holds(of("0.0999 kg/m^3"), "no density"));
+  // A thousand times too much is told before a million times.
+  CHECK(meant("30000 g/cm^3") == "3e+04 kg/m^3");
+  CHECK(meant("30001 g/cm^3") == "30 kg/m^3");
+  CHECK(meant("3e7 g/cm^3") == "3e+04 kg/m^3");
+  CHECK(meant("3.001e7 g/cm^3") == "");
+  CHECK(meant("0.01 kg/m^3") == "10 kg/m^3");
+  CHECK(meant("0.00999 kg/m^3") == "9990 kg/m^3");
+  CHECK(meant("1e-5 kg/m^3") == "10 kg/m^3");
+  CHECK(meant("9.99e-6 kg/m^3") == "");
+}
+
 TEST_CASE("waves that run too fast or too slowly tell of a modulus in the wrong unit") {
   // c = sqrt(1.346 E / rho) at a Poisson's ratio of 0.3.
   CHECK(warnings(replaced(plain_scene(), "210 GPa", "21000 GPa")) ==

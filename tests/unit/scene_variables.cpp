@@ -164,3 +164,24 @@ TEST_CASE("a variable that the file uses may be overridden away, one that nobody
   CHECK(holds(fault(with_cell("dx: 1 mm", "1 mm") + "title: $${dx}\n", {{"grid.cell", "2 mm"}}),
               "nobody uses this variable"));
 }
+
+TEST_CASE("what begins like an expression and does not end on its side of a brace leaves the braces alone") {
+  // The whole scene as one map in braces; of "$${" the scene takes "${" as it stands.
+  const auto scene = [](const std::string& title) {
+    return "{title: " + title +
+           ", grid: {size: [10 mm, 20 mm], cell: 1 mm}, space: plane_strain,\n"
+           "time: {end: 1 us}, materials: {steel: {model: linear_elastic, density: 7.85 g/cm^3, "
+           "young: 210 GPa, poisson: 0.3}},\n"
+           "bodies: [{box: {from: [1 mm, 1 mm], to: [4 mm, 3 mm]}, material: steel}]}\n";
+  };
+  for (const char* quote : {"'", "\""}) {
+    CAPTURE(quote);
+    const auto quoted = [&](const std::string& text) { return scene(quote + text + quote); };
+    CHECK(parse(quoted("five $${")).title == "five ${");
+    CHECK(parse(quoted("$${a, b")).title == "${a, b");
+    CHECK(parse(quoted("$${{a, b")).title == "${{a, b");
+    CHECK(parse(quoted("$${a, b}")).title == "${a, b}");
+    CHECK(parse(quoted("${min(1, 2)} of $${")).title == "1 of ${");
+    CHECK(holds(fault(quoted("${a, b")), "scene.yaml:1:9: title: a '}' is missing after '${'"));
+  }
+}

@@ -71,3 +71,23 @@ TEST_CASE("what is no YAML is told by what was done, at the place to mend") {
   CHECK(fault(plain_scene() + "# [\nname: \"{\"\ncell: ${min(1,2)}\ngravity: [0, 1]]\n") ==
         "scene.yaml:11:16: not valid YAML: this ']' closes nothing");
 }
+
+TEST_CASE("a cell of a body may lie behind a wall, wherever both stand on the grid, and no more") {
+  const auto reaches = [](const std::string& side, int wall, const std::string& from, const std::string& to) {
+    return faults(replaced(with(side + ": {wall: sliding, position: " + std::to_string(wall) + " mm}"),
+                           "box: {from: [1 mm, 1 mm], to: [4 mm, 3 mm]}",
+                           "box: {from: [1 mm, " + from + "], to: [4 mm, " + to + "]}"));
+  };
+  for (int k = 2; k <= 18; ++k) {
+    CAPTURE(k);
+    const std::string below = std::to_string(k - 1), above = std::to_string(k + 1);
+    CHECK(reaches("bottom", k, below + " mm", "20 mm").empty());
+    CHECK(reaches("top", k, "0 mm", above + " mm").empty());
+    const auto lower = reaches("bottom", k, "${" + below + " mm - 0.01 mm}", "20 mm"),
+               upper = reaches("top", k, "0 mm", "${" + above + " mm + 0.01 mm}");
+    REQUIRE(lower.size() == 1);
+    REQUIRE(upper.size() == 1);
+    CHECK(holds(lower[0], "body 'block' reaches 0.00101 m behind the bottom wall"));
+    CHECK(holds(upper[0], "body 'block' reaches 0.00101 m behind the top wall"));
+  }
+}
