@@ -1,6 +1,7 @@
 // Springs between surfaces that are followed: how stiff, what they store, and whom they reach.
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -138,6 +139,31 @@ TEST_CASE("surfaces twice as long take twice the memory: what is listed with a f
   const double ratio = bytes_of_bars(80) / bytes_of_bars(40);
   CHECK(ratio > 1.5);  // vectors have some room for more: measured 1.94
   CHECK(ratio < 2.6);
+}
+
+TEST_CASE("no two bodies have a piece of their surfaces in common, and each has as many as its shape") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [40 mm, 40 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {soft: {model: neo_hookean, density: 1000 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies:
+  - {name: disk, disk: {centre: [8 mm, 8 mm], radius: 4 mm}, material: soft}
+  - {name: ring, ring: {centre: [20 mm, 8 mm], inner: 2 mm, outer: 4 mm}, material: soft}
+  - {name: box, box: {from: [4 mm, 20 mm], to: [12 mm, 24 mm]}, material: soft}
+  - {name: other, disk: {centre: [20 mm, 24 mm], radius: 4 mm}, material: soft}
+method: {basis: bspline2}
+contact: {family: penalty, law: frictionless}
+)");
+  const Step<2> step(scene);
+  std::map<int, int> body_of;
+  for (const auto& facet : step.state().surfaces.facets) {
+    const auto known = body_of.emplace(facet.piece, facet.body).first;
+    CHECK(known->second == facet.body);
+  }
+  std::vector<int> pieces(4, 0);
+  for (const auto& [piece, body] : body_of) ++pieces[static_cast<std::size_t>(body)];
+  CHECK(pieces == std::vector<int>{1, 2, 4, 1});
 }
 
 }  // namespace
