@@ -55,8 +55,7 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       if (touches) {
         crossing.conductance = capped(surface.touching);
       } else if (surface.gap > 0 && gap < state.grid.cell) {
-        const double over = surface.touching > 0 ? 1 / surface.touching : 0;  // resistances in series
-        crossing.conductance = 1 / (over + gap / surface.gap);
+        crossing.conductance = 1 / (1 / surface.touching + gap / surface.gap);  // resistances in series
       }
       const double a = nodes.vector(Nodal::volume_gradient, crossing.a).dot(entry.normal),
                    b = -nodes.vector(Nodal::volume_gradient, crossing.b).dot(entry.normal);

@@ -77,6 +77,7 @@ TEST_CASE("what fills a gap and the surfaces on it resist in series") {
           doctest::Approx(gap * surface / (1 + surface)).epsilon(1e-4));
   }
   CHECK(through("10 W/m^2/K", "0 W/m/K") == 0);
+  CHECK(through("none", "0.005 W/m/K") == 0);
 }
 
 TEST_CASE("a surface that is shared by two bodies lets through as much as that of one") {

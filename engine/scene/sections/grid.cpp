@@ -15,8 +15,8 @@ constexpr double kFurthest = 1e9;   // cells: there doubles still tell 1e-7 of a
 void check_cells(Slot& size, int dimension, const GridSpec& grid) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k) {
     const double cells = grid.size[k] / grid.cell;
-    const double whole = std::max(std::round(cells), 1.0);
-    if (cells > kMostCells)
+    const double whole = std::round(cells);
+    if (whole > kMostCells)
       size.refuse_item(k, fmt::format("{:.3g} cells of {} m (at most {:g})", cells, grid.cell, kMostCells));
     else if (cells < 1 - 1e-6)
       size.refuse_item(k, fmt::format("smaller than one cell of {} m", grid.cell));
