@@ -170,6 +170,44 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "over a jump that hardly grows the mean integrity is that between its ends, however little it grows") {
+  constexpr double kRoundOff = 1e-15;
+  for (const Softening shape : kShapes)
+    for (double angle : {0.0, 0.7, std::numbers::pi / 2})
+      for (double stretch : {1.2, 1.7, 2.9})
+        for (double growth : {1e-4, 1e-5, 2e-6, 4e-7, 1e-8, 1e-10, 1e-12, 1e-14}) {
+          CAPTURE(static_cast<int>(shape));
+          CAPTURE(angle);
+          CAPTURE(stretch);
+          CAPTURE(growth);
+          const Cohesive law = law_of(shape);
+          const Vec<2> normal(1, 0), way(std::cos(angle), std::sin(angle));
+          const Parted unit = parted<2>(way, normal);
+          const double scale = stretch / std::sqrt(law.measure(unit.opening, unit.slip_squared));
+          const Parted from = parted<2>(scale * way, normal),
+                       to = parted<2>((1 + growth) * scale * way, normal);
+          const double q0 = law.measure(from.opening, from.slip_squared),
+                       q1 = law.measure(to.opening, to.slip_squared),
+                       length = law.length(law.measure(to.opening, 0) / q1);
+          const double first = law.integrity(std::sqrt(q0), length),
+                       last = law.integrity(std::sqrt(q1), length);
+          REQUIRE(last > 0);
+          REQUIRE(last < first);
+          // As it was left there, and where it comes from a direction in which it is tougher: all that it
+          // loses in between is lost before, by the turn.
+          for (const double before : {first, 0.5 * (first + 1), 1.0}) {
+            const Integrity now = integrity_over(law, before, from, to);
+            CHECK(std::abs(now.end - last) <= kRoundOff);
+            CHECK(std::abs(now.mean - 0.5 * (first + last)) <= 0.05 * (first - last) + kRoundOff);
+          }
+          // What has softened more holds what it has.
+          const double less = 0.9 * last;
+          CHECK(integrity_over(law, less, from, to).mean == less);
+          CHECK(integrity_over(law, less, from, to).end == less);
+        }
+}
+
 TEST_CASE("whatever pulls and however long the step, bonds store and lose what they take from the fields") {
   for (const Softening shape : kShapes)
     for (double dt : {0.03, 0.7, 5.0, 60.0}) {  // √(K/m) = 2; the fall of S is up to 40 times its inertia

@@ -66,14 +66,17 @@ TEST_CASE_TEMPLATE("the impulses of any number of hindrances end all that they h
 }
 
 TEST_CASE("a hindrance that follows from those before gets no impulse, and no other is lost") {
-  for (int copies : {1, 4, 8, 15}) {
-    CAPTURE(copies);
-    Hindrances<2> h;
-    for (int k = 0; k <= copies; ++k) h.push({k, 0, 1, 0.25, 0.75, {1, 0}, {1, 0}, 2.0});
-    h.push({copies + 1, 0, 1, 0.25, 0.75, {0, 1}, {0, 1}, 3.0});
-    CHECK(h.solve());
-    h.for_each_change([&](int k, const Vec<2>& change) {
-      CHECK(change == (k == 0 ? Vec<2>(2, 0) : k == copies + 1 ? Vec<2>(0, 3) : Vec<2>(0, 0)));
-    });
-  }
+  // Also where what is left of its motion differs from theirs, by round-off or more.
+  for (const double more : {0.0, 1e-15, -1e-9, 0.5})
+    for (int copies : {1, 4, 8, 15, 40}) {
+      CAPTURE(copies);
+      CAPTURE(more);
+      Hindrances<2> h;
+      for (int k = 0; k <= copies; ++k) h.push({k, 0, 1, 0.25, 0.75, {1, 0}, {1, 0}, 2.0 + more * k});
+      h.push({copies + 1, 0, 1, 0.25, 0.75, {0, 1}, {0, 1}, 3.0});
+      CHECK(h.solve());
+      h.for_each_change([&](int k, const Vec<2>& change) {
+        CHECK(change == (k == 0 ? Vec<2>(2, 0) : k == copies + 1 ? Vec<2>(0, 3) : Vec<2>(0, 0)));
+      });
+    }
 }

@@ -199,6 +199,84 @@ TEST_CASE("a node in a lane gets the same bits whatever stands beside it") {
   check_beside_others<3, 4>();
 }
 
+/// Fields and contacts that rub, with their normals as they come.
+template <int Dim>
+Posed<Dim> rubbing(const std::vector<MovingField<Dim>>& fields,
+                   const std::vector<std::pair<FieldContact<Dim>, Coulomb>>& contacts) {
+  Posed<Dim> node;
+  node.fields = fields;
+  for (const auto& [c, law] : contacts) {
+    node.add_contact(c.a, c.b, c.normal);
+    node.contacts.back().both_ways = c.both_ways;
+    SetRule<Dim> rule;
+    rule.acts = rule.rubs = true;
+    rule.both_ways = c.both_ways;
+    node.rules.push_back(rule);
+    node.laws.push_back(law);
+  }
+  return node;
+}
+
+/// Whatever the speeds and masses are a little: what is at rest remains so.
+template <int Dim, int kFields>
+void check_like_alone(const Posed<Dim>& posed) {
+  NodesTogether<Dim, kFields> batch;
+  for (int k = 0; k < 20; ++k) {
+    CAPTURE(k);
+    std::vector<MovingField<Dim>> fields = posed.fields;
+    for (std::size_t f = 0; f < fields.size(); ++f) {
+      const int turn = k * (2 * static_cast<int>(f) + 3);
+      fields[f].velocity *= 1 + 0.002 * (turn % 7);
+      fields[f].inverse_mass *= 1 + 0.002 * (turn % 5);
+    }
+    std::vector<std::pair<FieldContact<Dim>, Coulomb>> contacts;
+    for (std::size_t c = 0; c < posed.contacts.size(); ++c)
+      contacts.emplace_back(posed.contacts[c], posed.laws[c]);
+    Posed<Dim> node = rubbing<Dim>(fields, contacts);
+    put(batch, node);
+    REQUIRE((batch.solve(true) & 1) == 1);
+    CHECK(obeys(batch, 0, node));
+    REQUIRE(solve_alone(node));
+    for (const FieldContact<Dim>& c : node.contacts)
+      CHECK((batch.impulse(0, c.a, c.b) - c.impulse).norm() <= 1e-8 * largest_of(node));
+  }
+}
+
+FieldContact<2> between(int a, int b, const Vec<2>& normal, bool both_ways = false) {
+  FieldContact<2> c{a, b, normal, 0};
+  c.both_ways = both_ways;
+  return c;
+}
+
+TEST_CASE("a leap in a lane goes as far as stuck contacts remain so, which is how far it goes alone") {
+  // Three that close in on each other, of different masses.
+  check_like_alone<2, 3>(rubbing<2>({{{-1.1, -3.43}, 12.3}, {{-3.03, 2.85}, 8.52}, {{0.166, 0.378}, 5.49}},
+                                    {{between(0, 1, {0.397, -0.918}), {0.195, 0.5}},
+                                     {between(0, 2, {0.102, -0.995}), {0.0294, 0.5}},
+                                     {between(1, 2, {-0.756, 0.655}), {0.0673, 0}}}));
+  check_like_alone<2, 3>(rubbing<2>({{{-2.79, -2.04}, 891}, {{-0.704, 0.995}, 67.8}, {{1.16, -1.48}, 56.1}},
+                                    {{between(0, 1, {-0.626, -0.78}), {0.102, 0}},
+                                     {between(0, 2, {-0.991, -0.134}, true), {0.109, 0.5}},
+                                     {between(1, 2, {-0.629, 0.777}), {0.224, 0.5}}}));
+}
+
+TEST_CASE("a contact without an impulse that a leap would make pull parts before it, in a lane as alone") {
+  // Two at rest on a wall at rest, and one that comes: what slides along does not press.
+  check_like_alone<2, 4>(rubbing<2>({{{0, 0}, 4}, {{0, 0}, 4}, {{0, 0}, 0}, {{-1, -1}, 2}},
+                                    {{between(0, 1, {0, 1}), {0.0573, 0}},
+                                     {between(0, 2, {-1, 0}), {0.194, 0.5}},
+                                     {between(0, 3, {0, 1}), {0.0115, 0}},
+                                     {between(1, 2, {0, -1}, true), {0.0921, 0}},
+                                     {between(1, 3, {1, 0}), {0.124, 0}},
+                                     {between(3, 2, {0, -1}), {0.255, 0}}}));
+  check_like_alone<2, 4>(rubbing<2>({{{0, -1}, 4}, {{0, 0}, 2}, {{-1, 0}, 1}, {{0, 0}, 4}},
+                                    {{between(0, 1, {1, 0}), {0.275, 0.5}},
+                                     {between(0, 2, {0, -1}, true), {0.127, 0}},
+                                     {between(0, 3, {-1, 0}, true), {0.0689, 0}},
+                                     {between(1, 3, {0, -1}, true), {0.107, 0.5}},
+                                     {between(2, 3, {-1, 0}), {0.0722, 0}}}));
+}
+
 /// Three equal fields of 1 kg: the first runs into the second, and `faint` m/s into the third.
 Posed<2> faint_and_strong(double faint) {
   Posed<2> node;

@@ -1,5 +1,8 @@
 // What a scene would take of the machine is known before it is taken.
 
+#include <omp.h>
+
+#include <algorithm>
 #include <string>
 
 #include "engine/plan/memory.hpp"
@@ -117,6 +120,42 @@ TEST_CASE("a column tells of the memory that it has touched, in pages") {
   CHECK(large.bytes() == (std::size_t{18} << 20));
   large.resize_discard(1);
   CHECK(large.bytes() == (std::size_t{18} << 20));
+}
+
+TEST_CASE("a column that grows within its room finds zeros there, up to the end of its padding") {
+  constexpr std::size_t kPadding = Column<double>::kPadding, kRoom = 1000;
+  for (const std::size_t more : {std::size_t{1}, kPadding - 1, kPadding, kPadding + 1}) {
+    CAPTURE(more);
+    Column<double> column;
+    column.resize_discard(1, kRoom);
+    for (std::size_t i = 1 + kPadding; i < kRoom + kPadding; ++i) column.data()[i] = 7;  // of others, before
+    for (std::size_t n = 1 + more; n <= kRoom; n += more) {
+      column.resize_discard(n);
+      REQUIRE(column.size() == n);
+      REQUIRE(std::all_of(column.data(), column.data() + n + kPadding, [](double x) { return x == 0; }));
+    }
+  }
+  // Padding is touched as the rest is: the first number on another page is one of it.
+  Column<double> pages;
+  pages.resize_discard(4096 / 8 - kPadding, 5000);
+  CHECK(pages.bytes() == 4096);
+  pages.resize_discard(4096 / 8 - kPadding + 1);
+  CHECK(pages.bytes() == 2 * 4096);
+}
+
+TEST_CASE("of the rooms that threads work in, those of threads at work are counted") {
+  const Scene scene = scene_file("bench/block-2d.yaml", {{"grid.cell", "1/8 m"}});
+  Step<2> step(scene);
+  const auto rooms = [&](int threads) {
+    step.state().threads = threads;
+    return step.room_bytes();
+  };
+  const int most = omp_get_max_threads();
+  const std::size_t one = rooms(1);
+  CHECK(one > 0);
+  for (int threads = 2; threads <= most; ++threads)
+    CHECK(rooms(threads) == static_cast<std::size_t>(threads) * one);
+  CHECK(rooms(most + 1000) == static_cast<std::size_t>(most) * one);  // there are no more
 }
 
 TEST_CASE("a scene that needs more memory than there is, is refused with the figures") {

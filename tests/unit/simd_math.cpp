@@ -126,6 +126,20 @@ TEST_CASE("transpose exchanges rows and columns of four records and of eight wid
   check_transpose<8, WideRecord>();
 }
 
+TEST_CASE("the leading lanes are the first n of them, or all") {
+  Lanes number;
+  for (int i = 0; i < kLanes; ++i) number[i] = i;
+  for (int n = 0; n <= 3 * kLanes; ++n) {
+    CAPTURE(n);
+    const auto before = [&](int last) {
+      return where_less(leading_lanes(kLanes), number, broadcast<Lanes>(static_cast<double>(last)));
+    };
+    CHECK(same_lanes(leading_lanes(n), before(n)));
+    if (n < kLanes) CHECK_FALSE(same_lanes(leading_lanes(n), before(n + 1)));
+    for (int i = 0; i < kLanes; ++i) CHECK((lanes_before(n)[i] != 0) == (i < n));
+  }
+}
+
 TEST_CASE("lanes are loaded and stored at any address") {
   double in[2 * kLanes], out[2 * kLanes];
   for (int i = 0; i < 2 * kLanes; ++i) in[i] = i;

@@ -275,16 +275,25 @@ TEST_CASE("edges that are too long are found by id, and held when they were halv
   CHECK(count_long_edges(state, {1.5e-3, none}).splits == 0);
 }
 
-TEST_CASE("a ring whose halves would not lie beside the axis stays whole") {
+TEST_CASE("a ring whose halves would not lie beside the axis stays whole, whichever way its edges point") {
   const Scene scene = block("axisymmetric");
-  State<2> state = seeded<2>(scene);
-  auto& particles = state.particles;
-  particles.column(Quantity::deformation_gradient, 0)[0] = 3;
   const std::vector<bool> splits{true};
-  particles.column(Quantity::position, 0)[0] = 0.76e-3;  // its half edge is 1.5 mm
-  CHECK(count_long_edges(state, {1.5e-3, splits}).splits == 1);
-  particles.column(Quantity::position, 0)[0] = 0.74e-3;
-  CHECK(count_long_edges(state, {1.5e-3, splits}).held == 1);
+  for (int k = 0; k < 2; ++k)
+    for (const double stretch : {3.0, -3.0}) {
+      CAPTURE(k);
+      CAPTURE(stretch);
+      State<2> state = seeded<2>(scene);
+      auto& particles = state.particles;
+      particles.column(Quantity::deformation_gradient, k)[0] = stretch;
+      particles.column(Quantity::position, 0)[0] = 0.76e-3;  // half its edge goes 1.5 mm from the axis
+      const SplitCounters beside = count_long_edges(state, {1.5e-3, splits});
+      CHECK(beside.splits == 1);
+      CHECK(beside.held == 0);
+      particles.column(Quantity::position, 0)[0] = 0.74e-3;
+      const SplitCounters across = count_long_edges(state, {1.5e-3, splits});
+      CHECK(across.splits == 0);
+      CHECK(across.held == 1);
+    }
 }
 
 TEST_CASE("a column that grows keeps what it holds") {

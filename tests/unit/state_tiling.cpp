@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/step/tile_loops.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -267,6 +268,100 @@ TEST_CASE("supports up to two tiles beyond a domain have tiles, slots and neighb
   check_border<2>({7, 4, 0});
   check_border<2>({9, 6, 0});
   check_border<3>({5, 6, 8});
+}
+
+/// Tiles of so many particles, each in a tile of its own or all in one, that lies in the same corner.
+template <int Dim>
+Tiling<Dim> tiling_of(int particles, bool apart) {
+  const std::vector<int> field_of_body{0};
+  const auto n = static_cast<std::size_t>(particles);
+  Tiling<Dim> tiling;
+  Particles<Dim> all;
+  tiling.set_domain({8 * kTileSide * particles, 4 * kTileSide, 4 * kTileSide});
+  tiling.start_keys(n, field_of_body);
+  all.allocate(n, {Quantity::position});
+  for (std::size_t i = 0; i < n; ++i) {
+    all.id()[i] = static_cast<std::uint32_t>(i);
+    all.body()[i] = 0;
+    NodeIndex<Dim> begin = NodeIndex<Dim>::Constant(1);
+    if (apart || i + 1 == n) begin[0] += 4 * kTileSide * static_cast<int>(i);
+    tiling.set_key(i, begin, 0, 0, false);
+  }
+  tiling.build(all, field_of_body);
+  return tiling;
+}
+
+template <int Dim>
+void check_bytes() {
+  constexpr int kParticles = 60;
+  const Tiling<Dim> one = tiling_of<Dim>(kParticles, false), many = tiling_of<Dim>(kParticles, true);
+  REQUIRE(one.tiles.size() == 2);
+  REQUIRE(many.tiles.size() == kParticles);
+  // A node tile is listed for each corner of a window; here each is one of its own. The room of the sort is
+  // that of the particles.
+  REQUIRE(many.node_tiles.size() == kCorners<Dim> * many.tiles.size());
+  const std::size_t of_tile = sizeof(ParticleTile<Dim>) + sizeof(ParticleRun<Dim>) +
+                              kCorners<Dim> * (sizeof(NodeTile<Dim>) + sizeof(Stack<Dim>));
+  CHECK(many.bytes() - one.bytes() == (kParticles - 2) * of_tile);
+}
+
+TEST_CASE("a tile takes the memory of its own, its run and the nodes at its corners") {
+  check_bytes<2>();
+  check_bytes<3>();
+}
+
+/// Whom each tile is told to be followed by, and whether the sums go on to it, by one thread.
+template <int Dim>
+int check_followed(const Scene& scene) {
+  Step<Dim> step(scene);
+  advance(step, 1);
+  State<Dim>& state = step.state();
+  state.threads = 1;
+  TileLoops<Dim> loops(1);
+  std::vector<int> seen(state.tiling.tiles.size(), 0);
+  const ParticleTile<Dim>* expected = nullptr;
+  bool goes_on_to = false;
+  int going_on = 0;
+  const auto see = [&](const TileContext<Dim>& c) {
+    if (expected) REQUIRE(c.tile == expected);
+    expected = c.next;
+    ++seen[static_cast<std::size_t>(c.tile - state.tiling.tiles.data())];
+  };
+  loops.for_each_by_colour(state, [&](const TileContext<Dim>& c, int thread, bool rigid) {
+    REQUIRE(thread == 0);
+    REQUIRE(!rigid);
+    see(c);
+    REQUIRE(c.goes_on_from == goes_on_to);
+    goes_on_to = c.goes_on_to;
+    REQUIRE(goes_on_to == (c.next && goes_on<Dim>(*c.tile, *c.next)));
+    going_on += goes_on_to;
+  });
+  CHECK(!expected);
+  for (const int times : seen) REQUIRE(times == 1);
+  loops.for_each_deformable(state, [&](const TileContext<Dim>& c, int) { see(c); });
+  CHECK(!expected);
+  for (const int times : seen) REQUIRE(times == 2);
+  return going_on;
+}
+
+TEST_CASE("a tile is followed by the one that it is told, and sums go on to it where it shares nodes") {
+  const Scene bar = scene_from(R"(
+space: plane_strain
+grid: {origin: [-5 mm, -5 mm], size: [140 mm, 40 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: a, box: {from: [0 mm, 0 mm], to: [128 mm, 20 mm]}, material: m, particles_per_cell: 1}]
+)");
+  CHECK(check_followed<2>(bar) > 100);
+  check_followed<2>(columns("{law: coulomb}"));
+  const Scene solid = scene_from(R"(
+space: 3d
+grid: {origin: [-5 mm, -5 mm, -5 mm], size: [40 mm, 20 mm, 20 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
+bodies: [{name: a, box: {from: [0 mm, 0 mm, 0 mm], to: [30 mm, 10 mm, 10 mm]}, material: m, particles_per_cell: 1}]
+)");
+  CHECK(check_followed<3>(solid) == 0);  // in space each tile has sums of its own
 }
 
 TEST_CASE("bodies of different fields that lie in one row of tiles are neighbours among the particles") {

@@ -132,6 +132,35 @@ TEST_CASE(
       }
 }
 
+TEST_CASE("a number that is none is found in any component of any quantity, and that is named") {
+  const Scene scene =
+      scene_from(kAtRest, {{"materials.m",
+                            "{model: j2_plasticity, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa, "
+                            "yield: 1 MPa, hardening: 1 MPa}"},
+                           {"method.basis", "lcpdi"}});
+  Step<2> step(scene);
+  advance(step, 1);
+  auto& particles = step.state().particles;
+  const std::size_t p = 20;
+  int components = 0;
+  for (const Quantity q : particles.quantities())
+    for (int k = 0; k < Particles<2>::components(q); ++k, ++components)
+      for (const double none : {kNoNumber, std::numeric_limits<double>::infinity()}) {
+        const std::string name(kQuantityTable[static_cast<std::size_t>(q)].name);
+        CAPTURE(name);
+        CAPTURE(k);
+        const double right = std::exchange(particles.column(q, k)[p], none);
+        const Blamed blamed(step, kNoNumber);
+        CHECK(blamed.names(particles.id()[p]));
+        CHECK(blamed.says("not a number any more (" + name + ")"));
+        CHECK_FALSE(blamed.says("particles around it"));
+        CHECK(blamed.placed);
+        particles.column(q, k)[p] = right;
+      }
+  CHECK(components > 20);
+  CHECK(Blamed(step, kNoNumber).says("of all domains its own is the largest"));  // all are right again
+}
+
 TEST_CASE("where all particles are right and have domains, the largest of these is named, however it lies") {
   const Scene scene = scene_from(kAtRest, {{"method.basis", "lcpdi"}});
   for (const double share : {1.5, -1.5}) {

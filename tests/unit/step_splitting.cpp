@@ -68,13 +68,12 @@ std::string block_on_block(const std::string& contact, const std::string& basis)
          basis + "}\n";
 }
 
-// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit normals
-// alone are kept: of the particles of a flat face, which are equally far forward, round-off decides which one
-// tells the separations after it.
+// Regressions go to their end: otherwise round-off decides after how many passes one stops. With refit
+// normals alone are kept: of the particles of a flat face, which are equally far forward, round-off decides
+// which one tells the separations after it.
 TEST_CASE("a body whose particles are all split is as one that was seeded so, in contact and at walls") {
   for (const char* basis : {"lcpdi", "qcpdi"})
-    for (const char* contact :
-         {"", ", separation: ellipsoid_support", ", refit: 0.3, detection: velocity"})
+    for (const char* contact : {"", ", separation: ellipsoid_support", ", refit: 0.3, detection: velocity"})
       check_like_finer<2>(block_on_block(contact, basis), 40);
 }
 
@@ -172,6 +171,40 @@ TEST_CASE(
   CHECK(four.summary.checksum == one.summary.checksum);
   CHECK(two.history == one.history);
   CHECK(four.history == one.history);
+}
+
+TEST_CASE("domains are looked at in the first step, then whenever particles have gone an eighth of a cell") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [20 mm, 8 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 10 Pa, shear: 4 Pa}}
+bodies: [{name: a, box: {from: [2 mm, 2 mm], to: [6 mm, 5 mm]}, material: m, particles_per_cell: 1, velocity: [50 m/s, 0]}]
+method: {basis: lcpdi, split: true}
+)");
+  Step<2> step(scene);
+  auto& particles = step.state().particles;
+  const auto stretch = [&](std::size_t p) { particles.column(Quantity::deformation_gradient, 0)[p] = 1.7; };
+  const double dt = 0.03e-3 / 50;  // 0.03 cells; the material is so soft that nothing else moves
+  stretch(0);
+  step.advance(dt);
+  CHECK(step.splits().splits == 1);
+  for (std::size_t expected : {2U, 3U}) {
+    // Longer by hand. It has gone 0.12 cells before the fifth step from a look.
+    const double* const along = particles.column(Quantity::deformation_gradient, 0);
+    const auto whole = static_cast<std::size_t>(
+        std::find_if(along, along + particles.size(), [](double f) { return f < 1.5; }) - along);
+    REQUIRE(whole < particles.size());
+    stretch(whole);
+    for (int k = 1; k <= 4; ++k) {
+      CAPTURE(k);
+      step.advance(dt);
+      CHECK(step.splits().splits == expected - 1);
+    }
+    step.advance(dt);
+    CHECK(step.splits().splits == expected);
+  }
+  CHECK(particles.size() == 12 + 3);
 }
 
 TEST_CASE("grains that part by their law, rigid bodies and scenes that do not ask are not split") {

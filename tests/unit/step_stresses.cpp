@@ -1,6 +1,9 @@
 // Stresses that a step keeps to itself: whoever reads them between two steps gets those of F, and no run
 // depends on who looks.
 
+#include <algorithm>
+#include <string>
+
 #include "engine/plan/seed.hpp"
 #include "tests/support.hpp"
 
@@ -66,6 +69,37 @@ TEST_CASE("stresses between two steps are those of F, and looking at them change
     check_stresses<2>(strain);
     check_stresses<3>(strain);
   }
+}
+
+TEST_CASE(
+    "the stress that a body of one particle keeps to itself is found too, wherever it lies among others") {
+  std::string bodies = "bodies:\n";
+  for (int k = 0; k < 9; ++k)
+    bodies += "  - {name: b" + std::to_string(k) + ", box: {from: [" + std::to_string(4 * k) +
+              " mm, 0 mm], to: [" + std::to_string(4 * k + 1) +
+              " mm, 1 mm]}, material: " + (k % 2 ? "hooke" : "rubber") + ", particles_per_cell: 1}\n";
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {origin: [-4 mm, -4 mm], size: [44 mm, 10 mm], cell: 1 mm}
+time: {end: 1 s}
+materials:
+  rubber: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}
+  hooke: {model: linear_elastic, density: 1200 kg/m^3, young: 80 MPa, poisson: 0.3}
+)" + bodies,
+                                 {{"method.strain", "first"}});
+  Step<2> step(scene);
+  step.advance(step.stable_dt(), false);
+  auto& particles = step.state().particles;
+  REQUIRE(particles.size() == 9);
+  for (std::size_t p = 0; p < particles.size(); ++p)
+    particles.column(Quantity::deformation_gradient, 0)[p] = 1.01 + 0.01 * static_cast<double>(p);
+  step.find_stresses();
+  const std::vector<double> found = by_id(particles, Quantity::kirchhoff_stress);
+  refresh_stress(step.state());
+  const std::vector<double> stress = by_id(particles, Quantity::kirchhoff_stress);
+  CHECK(*std::min_element(particles.column(Quantity::kirchhoff_stress, 0),
+                          particles.column(Quantity::kirchhoff_stress, 0) + particles.size()) > 1e5);
+  CHECK(relative_difference(found, stress) < 1e-13);
 }
 
 }  // namespace

@@ -78,9 +78,36 @@ TEST_CASE("a push between two steps does the work that the particles gain") {
   for (std::size_t p = 0; p < change.size(); ++p) change[p] = 0.1 * static_cast<double>(p % 7) - 0.2;
   for (const int axis : {0, 1}) {
     const double before = kinetic(), work = step.sums().body_force_work;
+    std::vector<Vec<2>> expected;
+    for (std::size_t p = 0; p < change.size(); ++p) {
+      expected.push_back(particles.vector(Quantity::velocity, p));
+      expected.back()[axis] += change[p];
+    }
     step.add_velocity(axis, change);
     CHECK(step.sums().body_force_work - work == doctest::Approx(kinetic() - before).epsilon(1e-12));
+    for (std::size_t p = 0; p < change.size(); ++p)
+      CHECK(particles.vector(Quantity::velocity, p) == expected[p]);
   }
+}
+
+TEST_CASE("a push of any one particle makes the stable step as short as its speed then asks") {
+  const Scene scene = scene_from(kBlock);
+  Step<2> step(scene);
+  advance(step, 1);
+  auto& particles = step.state().particles;
+  double push = 1000;  // m/s: faster than waves, and each push than the one before
+  for (const std::size_t p : {std::size_t{0}, particles.size() / 2, particles.size() - 1})
+    for (const int axis : {0, 1}) {
+      CAPTURE(p);
+      CAPTURE(axis);
+      std::vector<double> change(particles.size(), 0);
+      change[p] = push *= 2;
+      step.add_velocity(axis, change);
+      const double fastest =
+          particles.column(Quantity::wave_speed)[p] + particles.vector(Quantity::velocity, p).norm();
+      CHECK(fastest > push);
+      CHECK(step.stable_dt() == doctest::Approx(scene.time.cfl * scene.grid.cell / fastest).epsilon(1e-14));
+    }
 }
 
 double of_pass(const PassClock& clock, Pass pass) { return clock.seconds()[static_cast<std::size_t>(pass)]; }
