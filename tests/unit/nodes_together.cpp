@@ -209,7 +209,7 @@ Posed<Dim> rubbing(const std::vector<MovingField<Dim>>& fields,
     node.add_contact(c.a, c.b, c.normal);
     node.contacts.back().both_ways = c.both_ways;
     SetRule<Dim> rule;
-    rule.acts = rule.rubs = true;
+    rule.acts = rule.friction = true;
     rule.both_ways = c.both_ways;
     node.rules.push_back(rule);
     node.laws.push_back(law);
