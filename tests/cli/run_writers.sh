@@ -2,7 +2,7 @@
 # One writer a folder: of six that begin at once one runs, or one after another, and what is left is that of one.
 # usage: run_writers.sh MPMFAST SOURCE_DIR [ROUNDS]
 source "$(dirname "$0")/helpers.sh"
-rounds=${3:-50}
+rounds=${3:-20}
 
 # six EXIT_CODES WORDS…: all six end in one of the codes, and one of them at least in 0.
 six() {
