@@ -104,12 +104,8 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
 
 namespace {
 
-/// Cause before effect: a body that parts, then normals and pairs that were not found; energy drifts as a
-/// result of either.
-int rank_as_cause(const RunWarning& warning) {
-  if (warning.about == "spacing") return 0;
-  return warning.about == "energy" ? 2 : 1;
-}
+/// A body that parts is why normals and pairs are not found, and energy drifts.
+bool is_cause(const RunWarning& warning) { return warning.about == "spacing"; }
 
 std::string flow_warning(const RunSummary& summary) {
   return fmt::format(
@@ -123,9 +119,9 @@ std::string flow_warning(const RunSummary& summary) {
 std::vector<std::string> all_warnings(const RunSummary& summary) {
   std::vector<RunWarning> figures = run_warnings(summary);
   std::vector<std::string> out;
-  const auto add = [&](int first, int last) {
+  const auto add = [&](bool causes) {
     for (const RunWarning& warning : figures)
-      if (rank_as_cause(warning) >= first && rank_as_cause(warning) <= last) out.push_back(warning.text);
+      if (is_cause(warning) == causes) out.push_back(warning.text);
   };
   const auto add_scene = [&] {
     out.insert(out.end(), summary.scene_warnings.begin(), summary.scene_warnings.end());
@@ -137,9 +133,9 @@ std::vector<std::string> all_warnings(const RunSummary& summary) {
   }
   if (summary.settings.follows_shape && !summary.settings.flowing_body.empty())
     out.push_back(flow_warning(summary));
-  add(0, 0);
+  add(true);
   add_scene();
-  add(1, 2);
+  add(false);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "engine/geometry/fill.hpp"
+#include "engine/geometry/surface.hpp"
 
 using namespace mpmfast;
 
@@ -96,6 +97,38 @@ TEST_CASE("every particle of a fill lies inside the shape and inside its bounds"
         doctest::Approx(std::sqrt(0.16 * std::pow(std::cos(0.7), 2) + 0.01 * std::pow(std::sin(0.7), 2))));
 }
 
+TEST_CASE("a shape that reaches beyond the grid is filled as far as the grid goes") {
+  const CellLattice grid{{1, 2, 3}, {0.5, 0.4, 0.3}, 0.1};
+  // The cube from 0 to 5: corners by the bits of their number, each face as two triangles seen from outside.
+  std::vector<Vec3> corners;
+  for (int c = 0; c < 8; ++c) corners.push_back({5.0 * (c & 1), 5.0 * (c >> 1 & 1), 5.0 * (c >> 2 & 1)});
+  const std::vector<Surface::Triangle> faces{{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6},
+                                             {0, 1, 5}, {0, 5, 4}, {2, 6, 7}, {2, 7, 3},
+                                             {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  REQUIRE(Surface::fault(corners, faces).empty());
+  StlShape cube;
+  cube.surface = std::make_shared<Surface>(corners, faces);
+  auto image = std::make_shared<GreyImage>();
+  image->width = image->height = 1;
+  image->pixel = {7};
+  const std::vector<std::array<double, 2>> square{{0, 0}, {5, 0}, {5, 5}, {0, 5}};
+  const auto fills = [&](const Shape& shape, int dimension) {
+    const auto position = fill(shape, kAlong, grid, dimension).position;
+    CHECK(position.size() == (dimension == 3 ? 10u * 8u * 6u : 10u * 8u));
+    for (const Vec3& point : position)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(dimension); ++k)
+        CHECK((point[k] > grid.origin[k] && point[k] < grid.origin[k] + grid.size[k]));
+  };
+  fills(EllipsoidShape{{1, 2, 0}, {3, 3, 0}, 0}, 2);
+  fills(RingShape{{0, 0, 0}, 1, 9, 0}, 2);
+  fills(PolygonShape{square, 0, 0}, 2);
+  fills(BitmapShape{"", {0, 0, 0}, {5, 5, 0}, 7, image}, 2);
+  fills(EllipsoidShape{{1, 2, 3}, {3, 3, 3}, 0}, 3);
+  fills(RingShape{{0, 0, 3}, 1, 9, 4}, 3);
+  fills(PolygonShape{square, 0, 5}, 3);
+  fills(cube, 3);
+}
+
 TEST_CASE("shapes that share a face share no particle and leave none out") {
   const Shape left = PolygonShape{{{0, 0}, {0.613, 0.1}, {0.4, 1}, {0, 1}}, 0, 0};
   const Shape right = PolygonShape{{{0, 0}, {1, 0}, {1, 1}, {0.4, 1}, {0.613, 0.1}}, 0, 0};
@@ -154,6 +187,32 @@ TEST_CASE("a bitmap's row 0 is its top, and a point belongs to its pixel") {
   const Bounds box = bounds(BitmapShape{"", {0, 0, 0}, {2, 1, 0}, 2, image});
   CHECK(box.lower == Vec3{1, 0.5, 0});
   CHECK(box.upper == Vec3{2, 1, 0});
+}
+
+TEST_CASE("the bounds of a level are those of its pixels, wherever the bitmap lies") {
+  auto image = std::make_shared<GreyImage>();
+  image->width = 8;
+  image->height = 4;
+  image->pixel.assign(32, 0);
+  image->pixel[8 + 2] = image->pixel[16 + 4] = 9;  // of the rows 1 and 2 from the top, the columns 2 and 4
+  image->pixel[0] = 1;
+  image->pixel[31] = 2;
+  for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{3, 5, 0}, Vec3{-16, -32, 0}, Vec3{-1, -1, 0}}) {
+    const double x = corner[0], y = corner[1];  // pixels are 1/4 wide and 1/2 high
+    const auto of_level = [&](int grey) {
+      return bounds(BitmapShape{"", corner, {x + 2, y + 2, 0}, grey, image});
+    };
+    CHECK(of_level(9).lower == Vec3{x + 0.5, y + 0.5, 0});
+    CHECK(of_level(9).upper == Vec3{x + 1.25, y + 1.5, 0});
+    CHECK(of_level(1).lower == Vec3{x, y + 1.5, 0});
+    CHECK(of_level(1).upper == Vec3{x + 0.25, y + 2, 0});
+    CHECK(of_level(2).lower == Vec3{x + 1.75, y, 0});
+    CHECK(of_level(2).upper == Vec3{x + 2, y + 0.5, 0});
+    CHECK(of_level(0).lower == corner);
+    CHECK(of_level(0).upper == Vec3{x + 2, y + 2, 0});
+    CHECK(of_level(77).lower == of_level(77).upper);
+    CHECK(of_level(77).lower == corner);
+  }
 }
 
 TEST_CASE("the levels of a bitmap share out all particles") {

@@ -199,6 +199,49 @@ TEST_CASE("text of any bytes is drawn, in every format") {
     }
 }
 
+TEST_CASE("bytes that are no characters show as such, and control characters as blanks") {
+  using namespace std::string_literals;
+  const std::vector<std::pair<std::string, std::string>> known{{"a\xff"
+                                                                "b",
+                                                                "a\uFFFDb"},
+                                                               {"a\xfe\xff"
+                                                                "b",
+                                                                "a\uFFFD\uFFFDb"},
+                                                               {"cut \xc3", "cut \uFFFD"},
+                                                               {"a\xef\xbf\xbf"
+                                                                "b",
+                                                                "a\uFFFDb"},
+                                                               {"a\xef\xbf\xbe"
+                                                                "b",
+                                                                "a\uFFFDb"},
+                                                               {"a\xef\xb7\x90"
+                                                                "b",
+                                                                "a\uFFFDb"},
+                                                               {"a\xef\xb7\xaf"
+                                                                "b",
+                                                                "a\uFFFDb"},
+                                                               {"a\x01\x1f\x7f"
+                                                                "b",
+                                                                "a   b"},
+                                                               {"a\0b"s, "a b"},
+                                                               {"a\xc2\x80\xc2\x9f"
+                                                                "b",
+                                                                "a  b"},
+                                                               {"a !~\u00a0\u00a1b", "a !~\u00a0\u00a1b"}};
+  for (const auto& [bytes, shown] : known) {
+    CAPTURE(shown);
+    const std::string file = written(PictureFormat::svg, [&](Canvas& canvas) {
+      canvas.set_title(bytes);
+      canvas.text({10, 40}, Align::left, bytes);
+    });
+    pugi::xml_document svg;
+    REQUIRE(svg.load_string(file.c_str()).status == pugi::status_ok);
+    CHECK(svg.child("svg").child("title").text().as_string() == shown);
+    CHECK(svg.select_node("//text").node().text().as_string() == shown);
+    CHECK(Canvas::text_width(bytes) == Canvas::text_width(shown));
+  }
+}
+
 TEST_CASE("an SVG has its shapes as paths and its text as text") {
   const std::string file = written(PictureFormat::svg, [](Canvas& canvas) {
     canvas.set_title("Steel & glass");

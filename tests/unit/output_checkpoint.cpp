@@ -254,6 +254,39 @@ TEST_CASE(
   CHECK_THROWS_AS(HistoryFile(folder.path(), scene, third), FileError);
 }
 
+TEST_CASE("a long history goes on from any of its rows") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "history.csv";
+  const Scene scene = small_scene(Space::plane_strain);
+  HistoryRow row;
+  constexpr std::uint64_t kRows = 3000;
+  struct State {
+    HistoryMark mark;
+    std::string text;
+  };
+  std::vector<State> states;
+  {
+    HistoryFile file(folder.path(), scene);
+    for (std::uint64_t k = 0; k <= kRows; ++k) {
+      if (k % 600 == 0) states.push_back({file.mark(), read_text(path)});
+      row.step = 7 * k;
+      file.append(row);
+    }
+  }
+  const std::string whole = read_text(path);
+  REQUIRE(whole.size() > std::size_t{3} << 16);  // of what is read at a time
+  for (const State& state : states) {
+    write_text(path, whole);
+    HistoryFile file(folder.path(), scene, state.mark);
+    CHECK(read_text(path) == state.text);
+    CHECK(file.mark().hash == state.mark.hash);
+    row.step = 7 * state.mark.rows;
+    file.append(row);
+    CHECK(whole.starts_with(read_text(path)));
+    CHECK(file.mark().hash == text_hash(read_text(path)));
+  }
+}
+
 TEST_CASE("a particle series that goes on loses later frames, and a reopened folder what a kill left") {
   const TemporaryFolder folder;
   const Scene scene = small_scene(Space::plane_strain);

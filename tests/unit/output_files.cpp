@@ -37,6 +37,17 @@ TEST_CASE("what a link points to is written, also where it is not there yet, and
   }
 }
 
+TEST_CASE(
+    "the characters that end lines or ring bells are known in a name, and no others are taken for them") {
+  for (int byte = 1; byte < 256; ++byte) {  // no name has a zero
+    CAPTURE(byte);
+    const std::string name = "a" + std::string(1, static_cast<char>(byte)) + "b";
+    CHECK(has_control_character("there/" + name + "/file") == (byte < 32 || byte == 127));
+  }
+  CHECK_FALSE(has_control_character(""));
+  CHECK_FALSE(has_control_character("my results/Größe 2 µm"));
+}
+
 TEST_CASE("a pipe is written to and stays a pipe") {
   const TemporaryFolder folder;
   const fs::path pipe = folder.path() / "pipe";

@@ -11,6 +11,7 @@
 
 #include "engine/output/drawn.hpp"
 #include "engine/output/paint.hpp"
+#include "engine/output/projection.hpp"
 #include "engine/output/text_lines.hpp"
 #include "tests/unit/output_fixture.hpp"
 
@@ -218,6 +219,46 @@ TEST_CASE("no label of a picture in 3-D is cut") {
       CHECK(has_white_edge(paint_particles(particles, scene, "stress_xx", 1e-3, framing)));
     }
   }
+}
+
+TEST_CASE("the numbers along the edges of a box in 3-D lie within its frame, however many digits they have") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.svg";
+  // From `near` on numbers have one digit or two, from `far` on a dozen.
+  const double near = 1, far = -2850000000;
+  for (const auto& corner : {Vec3{near, near, near}, Vec3{far, near, near}, Vec3{near, far, near},
+                             Vec3{near, near, far}, Vec3{far, near, far}, Vec3{far, far, far}})
+    for (const double wide : {0.5, 1.0, 20.0})
+      for (const double high : {0.5, 1.0, 20.0})
+        for (const bool bar : {false, true}) {
+          CAPTURE(corner[0]);
+          CAPTURE(corner[1]);
+          CAPTURE(corner[2]);
+          CAPTURE(wide);
+          CAPTURE(high);
+          CAPTURE(bar);
+          const ViewBox view({Range{corner[0], corner[0] + wide}, Range{corner[1], corner[1] + 1},
+                              Range{corner[2], corner[2] + high}},
+                             {"m", 1});
+          Labels labels;
+          labels.length = {"m", 1};
+          if (bar) labels.bar = Range{0, 1};
+          Picture picture(view.across(), view.up(), labels, PictureFormat::svg);
+          const double left = picture.at(view.across().lower, 0).x,
+                       right = picture.at(view.across().upper, 0).x;
+          view.draw_labels(picture);
+          picture.canvas().write(path);
+          pugi::xml_document svg;
+          REQUIRE(svg.load_file(path.c_str()).status == pugi::status_ok);
+          for (const auto& found : svg.select_nodes("//text")) {
+            const pugi::xml_node text = found.node();
+            CAPTURE(text.text().as_string());
+            const double x = text.attribute("x").as_double(),
+                         width = text.attribute("textLength").as_double();
+            CHECK(x > left);
+            CHECK(x + width < right);
+          }
+        }
 }
 
 TEST_CASE("a long title goes on in the next line, and no word of it is lost") {

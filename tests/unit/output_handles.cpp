@@ -2,12 +2,15 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
+#include "engine/errors.hpp"
 #include "engine/output/descriptor.hpp"
 #include "engine/output/hdf5_file.hpp"
 #include "tests/unit/output_fixture.hpp"
@@ -35,6 +38,44 @@ TEST_CASE("a descriptor that was moved from closes no file, neither its own nor 
   CHECK(fcntl(0, F_GETFD) >= 0);
   second.write_at("what was written", 0, path);
   CHECK(read_text(path) == "what was written");
+}
+
+TEST_CASE("a program without a standard input opens and makes files, and looks into folders, as any other") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "file";
+  const int input = dup(0);
+  const auto with = [&](const auto& open, const auto& use) {
+    close(0);
+    try {
+      const Descriptor file = open();
+      CHECK(fcntl(0, F_GETFD) >= 0);  // its number
+      use(file);
+    } catch (const FileError& error) {
+      FAIL_CHECK(error.what());
+    }
+    CHECK(fcntl(0, F_GETFD) < 0);
+  };
+  const auto writes = [&](const char* text) {
+    return [&, text](const Descriptor& file) { file.write_at(text, 0, path); };
+  };
+  with([&] { return Descriptor::create(path); }, writes("one"));
+  CHECK(read_text(path) == "one");
+  with([&] { return Descriptor::open_or_create(path); }, writes("two"));
+  CHECK(read_text(path) == "two");
+  with([&] { return Descriptor::open(path, true); }, writes("six"));
+  CHECK(read_text(path) == "six");
+  with([&] { return Descriptor::open(path); },
+       [&](const Descriptor& file) {
+         std::array<char, 4> text{};
+         CHECK(file.read_at(text.data(), text.size(), 0, path) == 3);
+         CHECK(std::string(text.data()) == "six");
+       });
+  with([&] { return Descriptor::open_folder(folder.path()); },
+       [&](const Descriptor& there) { CHECK(there.is_at(folder.path())); });
+  if (input >= 0) {
+    REQUIRE(dup2(input, 0) == 0);
+    close(input);
+  }
 }
 
 TEST_CASE("an object of HDF5 is closed once, by the last handle that had it, whatever its number") {

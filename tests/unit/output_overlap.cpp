@@ -173,6 +173,30 @@ TEST_CASE("domains that are lines, points, far away or not a number spoil nothin
   CHECK(same_bits(measure_overlap({square(3, 4, 0, 0), square(3, 4, 0, 1)}, 1), {}));
 }
 
+TEST_CASE("a domain that is nowhere changes not a bit of the overlap of others") {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    CAPTURE(seed);
+    Random random(seed);
+    std::vector<ParticleDomain> domains;
+    for (int k = 0; k < 200; ++k) domains.push_back(random.domain(4, k % 2));
+    add_block(domains, 50 + random.in(0, 50), 0, 50, 10, 0);  // meets nobody
+    const Overlap before = measure_overlap(domains, 1);
+    CHECK(before.particles_inside > 0);
+    for (const double far : {kNaN, kInfinity, -kInfinity}) {
+      CAPTURE(far);
+      auto more = domains;
+      for (const int owner : {0, 1, 2}) {
+        more.push_back(square(far, 0, 1, owner));
+        more.push_back(square(0, far, 1, owner));
+        more.push_back({{0, 0}, matrix(far, 0, 0, 1), owner});
+        more.push_back({{0, 0}, matrix(1, 0, far, 1), owner});
+      }
+      CHECK(same_bits(measure_overlap(more, 1), before));
+    }
+  }
+}
+
 TEST_CASE("the overlap has the same bits on any number of threads and for any order of the particles") {
   Random random(11);
   std::vector<ParticleDomain> domains;

@@ -46,7 +46,7 @@ Particles<2> lattice(int side) {
   Particles<2> particles;
   particles.allocate(static_cast<std::size_t>(side * side),
                      {Quantity::position, Quantity::velocity, Quantity::deformation_gradient,
-                      Quantity::initial_volume, Quantity::kirchhoff_stress});
+                      Quantity::initial_volume, Quantity::kirchhoff_stress, Quantity::out_of_plane_stretch});
   for (int i = 0; i < side * side; ++i) {
     const auto p = static_cast<std::size_t>(i);
     particles.id()[p] = static_cast<std::uint32_t>(i);
@@ -56,6 +56,7 @@ Particles<2> lattice(int side) {
     particles.column(Quantity::initial_volume)[p] = 1.0 / (side * side);
     particles.column(Quantity::deformation_gradient, 0)[p] = 1;
     particles.column(Quantity::deformation_gradient, 3)[p] = 1;
+    particles.column(Quantity::out_of_plane_stretch)[p] = 1;
     particles.column(Quantity::kirchhoff_stress, 0)[p] = particles.column(Quantity::position, 0)[p];
   }
   return particles;
@@ -145,6 +146,26 @@ TEST_CASE("vectors of a picture hold its title, particles of one colour in one p
   const std::size_t box = pdf.find("/MediaBox [ 0 0 ");
   REQUIRE(box != std::string::npos);
   CHECK(std::stod(pdf.substr(box + 16)) < 595);  // points of A4
+}
+
+TEST_CASE("the axes of a picture are x and y, about an axis of symmetry r and z") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "x.svg";
+  const Particles<2> particles = lattice(5);
+  for (const Space space : {Space::plane_strain, Space::plane_stress, Space::axisymmetric}) {
+    const Scene scene = small_scene(space);
+    const std::string unit = " (" + length_unit(scene).name + ")";
+    paint_particles(particles, scene, "body", 0, framing_of(particles, scene, "body"), PictureFormat::svg)
+        .write(path);
+    pugi::xml_document svg;
+    REQUIRE(svg.load_file(path.c_str()).status == pugi::status_ok);
+    std::string axes;
+    for (const auto& found : svg.select_nodes("//text")) {
+      const std::string text = found.node().text().as_string();
+      if (text.size() > unit.size() && text.substr(1) == unit) axes += text[0];
+    }
+    CHECK(axes == (space == Space::axisymmetric ? "rz" : "xy"));
+  }
 }
 
 TEST_CASE("a few outliers do not stretch the colour range, and a constant field has one") {

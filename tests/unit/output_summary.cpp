@@ -1,8 +1,12 @@
 #include <doctest/doctest.h>
+#include <spawn.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -12,6 +16,7 @@
 #include <vector>
 
 #include "engine/errors.hpp"
+#include "tests/support.hpp"
 #include "tests/unit/output_fixture.hpp"
 
 using namespace output_test;
@@ -132,6 +137,37 @@ TEST_CASE("the peak of memory is that of the run, not of what the process did be
   forget_peak_memory();
   if (!std::ofstream("/proc/self/clear_refs")) return;  // a system that forgets nothing
   CHECK(peak_memory_bytes() < kMuch);
+}
+
+TEST_CASE("the peak of memory is that of this program and not of the one that started it") {
+  constexpr const char* kAnswer = "MPMFAST_TEST_ANSWER";
+  if (const char* file = std::getenv(kAnswer)) {  // started below
+    forget_peak_memory();
+    std::ofstream(file) << peak_memory_bytes();
+    return;
+  }
+  if (read_text("/proc/self/status").find("VmHWM:") == std::string::npos) return;  // nobody knows it
+  constexpr std::size_t kMuch = std::size_t{1} << (test::kSanitized ? 28 : 26);    // the program has less
+  const std::vector<char> much(kMuch, 'a');
+  const volatile char* last = &much.back();
+  REQUIRE(*last == 'a');
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "answer").string();
+  std::string name = "unit_tests", only = "-tc=the peak of memory is that of this program and not*",
+              silent = "-o=/dev/null";
+  char* const words[] = {name.data(), only.data(), silent.data(), nullptr};
+  setenv(kAnswer, file.c_str(), 1);
+  pid_t child = 0;
+  const int reason = posix_spawn(&child, "/proc/self/exe", nullptr, nullptr, words, environ);
+  unsetenv(kAnswer);
+  REQUIRE(reason == 0);
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  CHECK(status == 0);
+  std::uint64_t peak = 0;
+  std::ifstream(file) >> peak;
+  CHECK(peak > std::uint64_t{1} << 20);
+  CHECK(peak < kMuch);
 }
 
 TEST_CASE(
@@ -329,11 +365,11 @@ TEST_CASE("what a warning calls usual is where it begins") {
   }
 }
 
-TEST_CASE("a warning of energy has the sign and the two digits of the drift") {
-  const std::vector<std::pair<double, std::string>> known{{0.8, "drifted by +80 %"},
-                                                          {-0.8, "drifted by -80 %"},
-                                                          {0.12, "drifted by +12 %"},
-                                                          {1.5, "drifted by +150 %"}};
+TEST_CASE("a warning of energy has the sign and two digits of the drift, or those before the point") {
+  const std::vector<std::pair<double, std::string>> known{
+      {0.8, "drifted by +80 %"},    {-0.8, "drifted by -80 %"},    {0.12, "drifted by +12 %"},
+      {1.5, "drifted by +150 %"},   {-1.5, "drifted by -150 %"},   {0.994, "drifted by +99 %"},
+      {-0.994, "drifted by -99 %"}, {12.34, "drifted by +1234 %"}, {-12.34, "drifted by -1234 %"}};
   for (const auto& [error, said] : known) {
     RunSummary summary;
     summary.energy_error = error;

@@ -242,6 +242,27 @@ TEST_CASE("a VTU file that was altered is refused or read, and no size in it is 
   CHECK(found > (text.size() - 32 - data) / 14);
 }
 
+TEST_CASE("an array of a type that no run writes is refused, whatever its values would take") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "types.vtu";
+  VtuFile out(std::vector<double>{0, 0, 0, 1, 1, 1});
+  out.add_point_data("bytes", std::vector<std::uint8_t>{3, 250});
+  out.add_point_data("numbers", std::vector<double>{1, 2});
+  out.write(path, 0);
+  const std::string text = read_text(path);
+  CHECK(VtuReader(path).values(*VtuReader(path).find("bytes")) == std::vector<double>{3, 250});
+  for (const std::string known : {"UInt8", "Float64"})
+    for (const std::string other : {"Int8", "UInt64", "Float16", "uint8", "String", "bit", ""}) {
+      CAPTURE(known);
+      CAPTURE(other);
+      const std::string name = known == "UInt8" ? "bytes" : "numbers", type = "type=\"" + known + "\"";
+      const std::size_t tag = text.rfind('<', text.find("Name=\"" + name)), at = text.find(type, tag);
+      REQUIRE(at < text.find('>', tag));
+      write_text(path, std::string(text).replace(at, type.size(), "type=\"" + other + "\""));
+      CHECK(fault(path).find("an array of its PointData is not as a run writes it") != std::string::npos);
+    }
+}
+
 TEST_CASE("components of a VTU array have a name each or none, and the file says which") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "names.vtu";

@@ -75,6 +75,36 @@ TEST_CASE("an amount carries its unit through the arithmetic, a plain value does
   CHECK(amount("0 * -1") == "0");
 }
 
+TEST_CASE("a product has the units of its factors, whichever comes first, and a sum the radians of either") {
+  const auto amount = [](const std::string& text) {
+    const auto out = parsed(text).amount({});
+    return std::holds_alternative<Amount>(out) ? amount_text(std::get<Amount>(out))
+                                               : std::get<std::string>(out);
+  };
+  const std::vector<std::string> units{"m", "kg", "s", "K"};
+  for (const std::string& a : units)
+    for (const std::string& b : units) {
+      CAPTURE(a);
+      CAPTURE(b);
+      CHECK(amount("2 " + a + " * 3 " + b) == amount("3 " + b + " * 2 " + a));
+      CHECK(amount("6 * 1 " + a + " / 2 " + b) == amount("3 / (1 " + b + ") * 1 " + a));
+      CHECK(amount("6 " + a + " * 1 " + b + " / 2 " + b) == "3 " + a);
+      CHECK(amount("6 " + a + " / 2 " + b + " / 1 " + a + " * 1 " + b) == "3");
+    }
+  CHECK(amount("3 kg * 2 K") == "6 kg*K");
+  CHECK(amount("2 J / 1 kg / 1 K * 3 kg * 4 K") == amount("24 J * 1"));
+  CHECK(amount("24 J / 4 K * 1 K") == amount("6 J * 1"));
+  CHECK(amount("2 rad * 3 / 1 s") == "6 rad/s");
+  CHECK(amount("6 / 1 s * 1 rad") == "6 rad/s");
+  for (const std::string sum :
+       {"2 rad / 1 s + 1 / 1 s", "1 / 1 s + 2 rad / 1 s", "4 rad / 1 s - 1 / 1 s", "4 / 1 s - 1 rad / 1 s",
+        "min(3 rad / 1 s, 7 / 1 s)", "max(1 rad / 1 s, 3 / 1 s)"})
+    CHECK_MESSAGE(amount(sum) == "3 rad/s", sum);
+  CHECK(amount("1 + 2 rad") == "3 rad");
+  CHECK(amount("2 rad + 1") == "3 rad");
+  CHECK(amount("1 K + 2 rad") == "an angle cannot be added to a temperature");
+}
+
 TEST_CASE("functions and pi are known to an expression") {
   CHECK(value("sin(pi / 6)") == doctest::Approx(0.5).epsilon(1e-15));
   CHECK(value("atan2(1, -1)") == doctest::Approx(0.75 * std::numbers::pi).epsilon(1e-15));
