@@ -199,10 +199,10 @@ TEST_CASE("a node in a lane gets the same bits whatever stands beside it") {
   check_beside_others<3, 4>();
 }
 
-/// Fields and contacts that rub, with their normals as they come.
+/// Fields and contacts with friction, with their normals as they come.
 template <int Dim>
-Posed<Dim> rubbing(const std::vector<MovingField<Dim>>& fields,
-                   const std::vector<std::pair<FieldContact<Dim>, Coulomb>>& contacts) {
+Posed<Dim> with_friction(const std::vector<MovingField<Dim>>& fields,
+                         const std::vector<std::pair<FieldContact<Dim>, Coulomb>>& contacts) {
   Posed<Dim> node;
   node.fields = fields;
   for (const auto& [c, law] : contacts) {
@@ -232,7 +232,7 @@ void check_like_alone(const Posed<Dim>& posed) {
     std::vector<std::pair<FieldContact<Dim>, Coulomb>> contacts;
     for (std::size_t c = 0; c < posed.contacts.size(); ++c)
       contacts.emplace_back(posed.contacts[c], posed.laws[c]);
-    Posed<Dim> node = rubbing<Dim>(fields, contacts);
+    Posed<Dim> node = with_friction<Dim>(fields, contacts);
     put(batch, node);
     REQUIRE((batch.solve(true) & 1) == 1);
     CHECK(obeys(batch, 0, node));
@@ -250,31 +250,33 @@ FieldContact<2> between(int a, int b, const Vec<2>& normal, bool both_ways = fal
 
 TEST_CASE("a leap in a lane goes as far as stuck contacts remain so, which is how far it goes alone") {
   // Three that close in on each other, of different masses.
-  check_like_alone<2, 3>(rubbing<2>({{{-1.1, -3.43}, 12.3}, {{-3.03, 2.85}, 8.52}, {{0.166, 0.378}, 5.49}},
-                                    {{between(0, 1, {0.397, -0.918}), {0.195, 0.5}},
-                                     {between(0, 2, {0.102, -0.995}), {0.0294, 0.5}},
-                                     {between(1, 2, {-0.756, 0.655}), {0.0673, 0}}}));
-  check_like_alone<2, 3>(rubbing<2>({{{-2.79, -2.04}, 891}, {{-0.704, 0.995}, 67.8}, {{1.16, -1.48}, 56.1}},
-                                    {{between(0, 1, {-0.626, -0.78}), {0.102, 0}},
-                                     {between(0, 2, {-0.991, -0.134}, true), {0.109, 0.5}},
-                                     {between(1, 2, {-0.629, 0.777}), {0.224, 0.5}}}));
+  check_like_alone<2, 3>(
+      with_friction<2>({{{-1.1, -3.43}, 12.3}, {{-3.03, 2.85}, 8.52}, {{0.166, 0.378}, 5.49}},
+                       {{between(0, 1, {0.397, -0.918}), {0.195, 0.5}},
+                        {between(0, 2, {0.102, -0.995}), {0.0294, 0.5}},
+                        {between(1, 2, {-0.756, 0.655}), {0.0673, 0}}}));
+  check_like_alone<2, 3>(
+      with_friction<2>({{{-2.79, -2.04}, 891}, {{-0.704, 0.995}, 67.8}, {{1.16, -1.48}, 56.1}},
+                       {{between(0, 1, {-0.626, -0.78}), {0.102, 0}},
+                        {between(0, 2, {-0.991, -0.134}, true), {0.109, 0.5}},
+                        {between(1, 2, {-0.629, 0.777}), {0.224, 0.5}}}));
 }
 
 TEST_CASE("a contact without an impulse that a leap would make pull parts before it, in a lane as alone") {
   // Two at rest on a wall at rest, and one that comes: what slides along does not press.
-  check_like_alone<2, 4>(rubbing<2>({{{0, 0}, 4}, {{0, 0}, 4}, {{0, 0}, 0}, {{-1, -1}, 2}},
-                                    {{between(0, 1, {0, 1}), {0.0573, 0}},
-                                     {between(0, 2, {-1, 0}), {0.194, 0.5}},
-                                     {between(0, 3, {0, 1}), {0.0115, 0}},
-                                     {between(1, 2, {0, -1}, true), {0.0921, 0}},
-                                     {between(1, 3, {1, 0}), {0.124, 0}},
-                                     {between(3, 2, {0, -1}), {0.255, 0}}}));
-  check_like_alone<2, 4>(rubbing<2>({{{0, -1}, 4}, {{0, 0}, 2}, {{-1, 0}, 1}, {{0, 0}, 4}},
-                                    {{between(0, 1, {1, 0}), {0.275, 0.5}},
-                                     {between(0, 2, {0, -1}, true), {0.127, 0}},
-                                     {between(0, 3, {-1, 0}, true), {0.0689, 0}},
-                                     {between(1, 3, {0, -1}, true), {0.107, 0.5}},
-                                     {between(2, 3, {-1, 0}), {0.0722, 0}}}));
+  check_like_alone<2, 4>(with_friction<2>({{{0, 0}, 4}, {{0, 0}, 4}, {{0, 0}, 0}, {{-1, -1}, 2}},
+                                          {{between(0, 1, {0, 1}), {0.0573, 0}},
+                                           {between(0, 2, {-1, 0}), {0.194, 0.5}},
+                                           {between(0, 3, {0, 1}), {0.0115, 0}},
+                                           {between(1, 2, {0, -1}, true), {0.0921, 0}},
+                                           {between(1, 3, {1, 0}), {0.124, 0}},
+                                           {between(3, 2, {0, -1}), {0.255, 0}}}));
+  check_like_alone<2, 4>(with_friction<2>({{{0, -1}, 4}, {{0, 0}, 2}, {{-1, 0}, 1}, {{0, 0}, 4}},
+                                          {{between(0, 1, {1, 0}), {0.275, 0.5}},
+                                           {between(0, 2, {0, -1}, true), {0.127, 0}},
+                                           {between(0, 3, {-1, 0}, true), {0.0689, 0}},
+                                           {between(1, 3, {0, -1}, true), {0.107, 0.5}},
+                                           {between(2, 3, {-1, 0}), {0.0722, 0}}}));
 }
 
 /// Three equal fields of 1 kg: the first runs into the second, and `faint` m/s into the third.
