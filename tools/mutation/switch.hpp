@@ -1,7 +1,8 @@
 #pragma once
 
 /// @file What a mutated program asks at every mutant: is it this one? MUTANT names it in the environment; −1:
-/// none, but those that are asked for are noted and written to the file MUTANT_RECORD.
+/// none, but those that are asked for are noted and written to the file MUTANT_RECORD. A program shares it with
+/// the library that it is linked to.
 
 #include <unistd.h>
 
@@ -9,7 +10,7 @@
 #include <cstdlib>
 #include <type_traits>
 
-namespace mutation {
+namespace [[gnu::visibility("default")]] mutation {
 
 inline constexpr int kMost = 20000;
 
