@@ -56,7 +56,7 @@ void solve_in_lanes(benchmark::State& state) {
   for (int i = 0; i < draws; ++i) nodes.emplace_back(kFields, kOrders, draw);
   const Coulomb friction{0.2, 0};
   SetRule<Dim> rule;
-  rule.acts = rule.rubs = true;
+  rule.acts = rule.friction = true;
   NodesTogether<Dim, kFields> solver;
   std::size_t next = 0;
   std::int64_t unsettled = 0;
