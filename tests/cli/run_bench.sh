@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Checks bench/run with a benchmark program that says what it is told, bench/compare with tiny sets of figures, and that the
-# tables of bench/results/beside.md are those of its CSV files.
+# tables of bench/results/beside.md and bench/README.md are those of their CSV files.
 # usage: run_bench.sh SOURCE_DIR
 command -v python3 >/dev/null || { echo 'python3 is not installed'; exit 77; }
 root=$(realpath "$1")
@@ -111,8 +111,20 @@ check_beside() {
   says copy/bench/results/beside.md '| bare loop | 2-D, 10^5 | double | uGIMP, 9 nodes; FLIP | neo-Hookean | 49 [44 to 58] | 95 [76 to 110] | 0.5 |'
 }
 
+check_history() {
+  run 0 history --check
+  mkdir -p other
+  cp -r "$source_dir/bench" other
+  printf '2026-11-29,abc,"Xeon E, 2 cores","ellipses, whole",2,13.1,0.162\n' >>other/bench/results/speed_history.csv
+  checks=$((checks + 1))
+  python3 other/bench/history --check 2>err && fail 'a newer measurement is not missed in the tables'
+  python3 other/bench/history --readme || fail 'bench/history --readme ends with an error'
+  says other/bench/README.md '| ellipses, whole | Xeon E, 2 cores |  | 13.1 |  | 0.162 |'
+}
+
 check_run
 check_compare
 check_beside
+check_history
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]
