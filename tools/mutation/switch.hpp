@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file What a mutated program asks at every mutant: is it this one? MUTANT names it in the environment; −1:
-/// none, but those that are asked for are noted and written to the file MUTANT_RECORD. A program shares it with
-/// the library that it is linked to.
+/// none, but those that are asked for are noted and written to the file MUTANT_RECORD. A program shares it
+/// with the library that it is linked to.
 
 #include <unistd.h>
 
@@ -10,7 +10,9 @@
 #include <cstdlib>
 #include <type_traits>
 
-namespace [[gnu::visibility("default")]] mutation {
+#pragma GCC visibility push(default)
+
+namespace mutation {
 
 inline constexpr int kMost = 20000;
 
@@ -59,3 +61,5 @@ struct AtEnd {
 inline const AtEnd at_end;
 
 }  // namespace mutation
+
+#pragma GCC visibility pop
