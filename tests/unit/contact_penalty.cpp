@@ -1,5 +1,7 @@
 // Surfaces that are followed, and the forces between them.
 
+#include <Eigen/Geometry>
+
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // A particle that is halved: what its halves have together, and where they lie.
 
+#include <Eigen/Geometry>
+
 #include <fmt/format.h>
 
 #include <numbers>
