@@ -7,10 +7,10 @@ import sys
 # What a file names, and the header that it then needs.
 NEEDS = [
     (r"Eigen::|\b(Vec|Mat)<", r"<Eigen/|\"kernels/dimension\.hpp\""),
-    (r"\.cross\(|\b(Quaterniond|AngleAxisd|Rotation2Dd?)\b", r"<Eigen/Geometry>"),
-    (r"\bEigenSolver\b|SelfAdjointEigenSolver", r"<Eigen/Eigenvalues>"),
-    (r"\b(Jacobi|BDC)SVD\b", r"<Eigen/SVD>"),
-    (r"\.(determinant|fullPivLu|partialPivLu)\(", r"<Eigen/LU>"),
+    (r"\.cross\(|\b(Quaterniond|AngleAxisd|Rotation2Dd?)\b", r"<Eigen/(Geometry|Dense)>"),
+    (r"\bEigenSolver\b|SelfAdjointEigenSolver", r"<Eigen/(Eigenvalues|Dense)>"),
+    (r"\b(Jacobi|BDC)SVD\b", r"<Eigen/(SVD|Dense)>"),
+    (r"\.(determinant|fullPivLu|partialPivLu)\(", r"<Eigen/(LU|Dense)>"),
     (r"\bfmt::join\b", r"<fmt/ranges\.h>"),
     (r"\bfmt::", r"<fmt/(format|ranges|core|ostream|chrono)\.h>"),
     (r"\bnlohmann::", r"<nlohmann/json(_fwd)?\.hpp>"),

@@ -1,7 +1,5 @@
 // How F advances by the inverse form, (I − Δt L)⁻¹.
 
-#include <Eigen/Geometry>
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Dense>
