@@ -328,7 +328,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("each of two rigid bodies beside each other is booked the forces on its own points") {
+TEST_CASE("the ledger gives each of two rigid bodies beside each other the forces on its own points") {
   const Scene scene = scene_from(R"(
 space: plane_strain
 grid: {size: [40 mm, 40 mm], cell: 1 mm}
