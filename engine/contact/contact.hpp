@@ -5,11 +5,12 @@
 #include <omp.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "engine/contact/books.hpp"
+#include "engine/contact/contact_basis.hpp"
 #include "engine/contact/cracks/cracks.hpp"
-#include "engine/contact/fitter.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/contact/nodal/motion.hpp"
 #include "engine/plan/plan.hpp"
@@ -26,6 +27,8 @@ namespace mpmfast {
 
 template <int Dim>
 class Conditions;
+template <int Dim>
+class ContactFit;
 
 /// N20 §3.2: before the strain update (momenta only) and after the momentum update (also a force); and of
 /// re-extrapolated momenta (for the strain alone).
@@ -38,12 +41,13 @@ template <int Dim>
 class Contact {
  public:
   Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks);
+  ~Contact();
 
   /// Lists the nodes where two or more fields have mass, without the pairs that the mass screen drops.
   void find_nodes(const State<Dim>& state);
 
   /// Normals and separations of all entries: they hold for both corrections.
-  void find_geometry(State<Dim>& state, ContactFitter<Dim>& basis);
+  void find_geometry(State<Dim>& state, ContactBasis<Dim>& basis);
   /// The particles have been sorted: those that fits have kept have other numbers.
   void follow(const Tiling<Dim>& tiling);
   /// Particles have left: what fits have kept of them is void.
@@ -87,20 +91,11 @@ class Contact {
   bool joined(int entry) const { return bridges_ && list_.bridges[static_cast<std::size_t>(entry)].acts; }
   /// Of the last step.
   const ContactBooks<Dim>& books() const { return books_; }
-  /// Of all that grows with the contact nodes.
-  std::size_t bytes() const {
-    return bytes_in(list_.nodes, list_.fields, list_.entries, list_.bridges, list_.bonds, list_.fits,
-                    list_.node_at, keys_, memory_, last_bridges_, last_bonds_, last_fits_, field_begin_) +
-           listed_bytes();
-  }
+  /// Of all that grows with the contact nodes, and of the clouds of particles around them.
+  std::size_t bytes() const;
 
  private:
   int fields_on(const State<Dim>& state, std::size_t stack) const;
-  std::size_t listed_bytes() const {
-    std::size_t sum = 0;
-    for (const auto& listing : listings_) sum += bytes_in(listing.nodes, listing.entries);
-    return sum;
-  }
   void list_stack(const State<Dim>& state, std::size_t stack, NodeListing<Dim>& out);
   void add_entries(const State<Dim>& state, ContactNode<Dim>& node, NodeListing<Dim>& out) const;
   double screen_of(const ContactNode<Dim>& node, const ListedEntry<Dim>& entry, int other) const;
@@ -298,6 +293,7 @@ class Contact {
   bool bonds_;                   ///< some law joins them by bonds that break
   bool keeps_fits_;              ///< normals outlast a step
   bool solves_in_lanes_;         ///< nodes of three and four fields, many at once
+  std::unique_ptr<ContactFit<Dim>> fit_;
   ContactList<Dim> list_;
   std::vector<std::uint64_t> keys_;         ///< of the entries
   std::vector<int> field_begin_;            ///< by stack, into the list's fields

@@ -10,11 +10,11 @@
 #include <memory>
 #include <vector>
 
-#include "engine/contact/nodal/fit.hpp"
 #include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
 #include "engine/step/tile_loops.hpp"
 #include "kernels/basis/facts.hpp"
+#include "kernels/contact/collect.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
 #include "kernels/transfer/heat.hpp"
@@ -260,11 +260,16 @@ class BasisPasses final : public Passes<Dim> {
     return all;
   }
 
-  void fit_contact(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) override {
-    fit_.run(state, spec, contact);
+  void add_candidates(const TileContext<Dim>& tile, const NodeBox<Dim>& box,
+                      Candidates<Dim>& out) const override {
+    mpmfast::add_candidates<Dim, Basis>(tile, box, out);
   }
 
-  std::size_t fit_bytes() const override { return fit_.bytes(); }
+  void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece, double inverse_cell,
+                       const NodeIndex<Dim>& node, CloudRoom<Dim>& cloud) const override {
+    mpmfast::append_covering<Dim, Basis>(from, piece, inverse_cell, node, cloud);
+  }
+
   std::size_t room_bytes(int threads) const override {
     return std::min(rooms_.size(), static_cast<std::size_t>(threads)) * sizeof(Room);
   }
@@ -393,7 +398,6 @@ class BasisPasses final : public Passes<Dim> {
   std::vector<ThreadReport> reports_;
   std::vector<HeatReport> heat_reports_;  ///< by tile: sums want one order
   std::vector<int> inverted_, outside_;
-  ContactFit<Dim, Basis> fit_;
 };
 
 template <int Dim, BasisKind kind>

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/contact/cracks/cracks.hpp"
-#include "engine/contact/fitter.hpp"
+#include "engine/contact/contact_basis.hpp"
 #include "engine/heat/carrier.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
@@ -18,7 +18,7 @@
 namespace mpmfast {
 
 template <int Dim>
-class Passes : public ContactFitter<Dim>, public HeatCarrier<Dim> {
+class Passes : public ContactBasis<Dim>, public HeatCarrier<Dim> {
  public:
   /// Of the rooms that threads work in, as far as they do.
   virtual std::size_t room_bytes(int threads) const = 0;

@@ -84,7 +84,7 @@ class Step {
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
   /// Of contact lists and clouds now, and of the rooms that threads work in.
-  std::size_t contact_bytes() const { return contact_.bytes() + passes_->fit_bytes(); }
+  std::size_t contact_bytes() const { return contact_.bytes(); }
   std::size_t room_bytes() const { return passes_->room_bytes(state_.threads); }
   const Cracks<Dim>& cracks() const { return cracks_; }
   /// What drives a crack at one of its ends, after a step. The stresses must be those of the moment.

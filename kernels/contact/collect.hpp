@@ -74,16 +74,19 @@ struct NodeBox {
   NodeIndex<Dim> low, high;
 };
 
-/// Particles whose supports may reach some node of a box, in pieces of one body in one tile; those of one
-/// velocity field follow each other.
+/// Candidates of one body in one tile. It begins at a multiple of kLanes; up to the next piece, the columns
+/// hold entries that reach no node.
+template <int Dim>
+struct CandidatePiece {
+  int field, begin, count;
+  double half_size[Dim];  ///< m, of the undeformed domains
+};
+
+/// Particles whose supports may reach some node of a box, in pieces; those of one velocity field follow each
+/// other.
 template <int Dim>
 struct Candidates {
-  /// Begins at a multiple of kLanes; up to the next piece, the columns hold entries that reach no node.
-  struct Piece {
-    int field, begin, count;
-    double half_size[Dim];  ///< m, of the undeformed domains
-  };
-  std::vector<Piece> pieces;
+  std::vector<CandidatePiece<Dim>> pieces;
   std::vector<double> position[Dim];      ///< m, from the grid's origin
   std::vector<double> domain[Dim * Dim];  ///< m; half-edge vectors of CPDI domains, else not written
   std::vector<double> shape[Dim * Dim];   ///< of the domains F diag(R0), as the extent asks, cells
@@ -137,7 +140,7 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
                            std::uint32_t end, const NodeBox<Dim>& box, Candidates<Dim>& out) {
   const int particles = static_cast<int>(end - begin);
   out.reserve(particles);
-  typename Candidates<Dim>::Piece piece{c.tile->field, out.count, 0, {}};
+  CandidatePiece<Dim> piece{c.tile->field, out.count, 0, {}};
   const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, particles);
   for (int d = 0; d < Dim; ++d) piece.half_size[d] = g.half_size[d];
   for (int k = 0; k < particles; k += kLanes) {
@@ -205,7 +208,7 @@ inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, C
 
 /// Appends the particles of one piece whose basis functions cover the node.
 template <int Dim, class Basis>
-inline void append_covering(const Candidates<Dim>& from, const typename Candidates<Dim>::Piece& piece,
+inline void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece,
                             double inverse_cell, const NodeIndex<Dim>& node, CloudRoom<Dim>& room) {
   room.reserve(room.count + piece.count + kLanes);
   ChunkGeometry<Dim> g{};

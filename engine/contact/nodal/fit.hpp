@@ -8,6 +8,7 @@
 #include <cstring>
 #include <vector>
 
+#include "engine/contact/contact_basis.hpp"
 #include "engine/contact/nodal/kept_fit.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/contact/nodal/slabs.hpp"
@@ -58,14 +59,17 @@ struct FitChoice {
   }
 };
 
-template <int Dim, class Basis>
+template <int Dim>
 class ContactFit {
  public:
   ContactFit() : rooms_(static_cast<std::size_t>(omp_get_max_threads())) {}
 
-  void run(const State<Dim>& state, const ContactSpec& spec, ContactList<Dim>& contact) {
+  /// Normals by regression and separations by the particles' domains, of the listed contact entries.
+  void run(const State<Dim>& state, const ContactSpec& spec, const ContactBasis<Dim>& basis,
+           ContactList<Dim>& contact) {
     const FitChoice choice(spec);
     if (!choice.regress && !choice.separate) return;
+    basis_ = &basis;
     bases_ = &state.field_base;
     const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
     for (auto& room : rooms_) {
@@ -309,7 +313,7 @@ class ContactFit {
         if (first->field != tiling.node_tiles[static_cast<std::size_t>(n)].field) continue;  // once a body
         for (auto tile = first; tile <= first + first->others; ++tile) {
           const TileContext<Dim> c{&view, &*tile, tiling.runs.data(), state.bodies.data(), &state.grid};
-          add_candidates<Dim, Basis>(c, box, room.candidates);
+          basis_->add_candidates(c, box, room.candidates);
         }
       }
   }
@@ -329,7 +333,7 @@ class ContactFit {
       while (piece != end && piece->field < field) ++piece;
       first_[static_cast<std::size_t>(f)] = clouds.count;
       for (; piece != end && piece->field == field; ++piece)
-        append_covering<Dim, Basis>(candidates, *piece, grid.inverse_cell, node.node, clouds);
+        basis_->append_covering(candidates, *piece, grid.inverse_cell, node.node, clouds);
     }
     clouds.pad();
   }
@@ -416,6 +420,7 @@ class ContactFit {
     }
   }
 
+  const ContactBasis<Dim>* basis_ = nullptr;
   const std::vector<int>* bases_ = nullptr;  ///< State::field_base
   std::vector<Room> rooms_;
   std::vector<RawNormal<Dim>> raw_;

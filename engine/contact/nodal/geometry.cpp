@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/contact/contact.hpp"
+#include "engine/contact/nodal/fit.hpp"
 #include "engine/state/team.hpp"
 #include "kernels/contact/separation.hpp"
 
@@ -24,12 +25,12 @@ void for_each_entry(ContactList<Dim>& list, int threads, const F& f) {
 }  // namespace
 
 template <int Dim>
-void Contact<Dim>::find_geometry(State<Dim>& state, ContactFitter<Dim>& basis) {
+void Contact<Dim>::find_geometry(State<Dim>& state, ContactBasis<Dim>& basis) {
   if (list_.nodes.empty() || !geometry_) return;
   const auto is_crack = [](const auto& entry) { return entry.crack >= 0; };
   if (!std::all_of(list_.entries.begin(), list_.entries.end(), is_crack)) {
     grid_normals(state);
-    basis.fit_contact(state, spec_, list_);
+    fit_->run(state, spec_, basis, list_);
     grid_separations(state);
   }
   if (cracks_.active()) crack_separations(state);

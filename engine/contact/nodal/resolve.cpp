@@ -38,35 +38,6 @@ struct LawsByPair {
 }  // namespace
 
 template <int Dim>
-Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks)
-    : spec_(scene.contact),
-      cracks_(cracks),
-      pairs_(plan.pairs),
-      cell_(scene.grid.cell),
-      cell_volume_(cell_volume(scene)),
-      first_correction_(plan.first_correction),
-      one_set_(plan.one_set),
-      keep_velocity_change_(plan.paired),
-      holds_sticking_(plan.one_set && plan.update == ParticleUpdate::flip),
-      first_correction_stays_(plan.first_correction_stays),
-      first_share_(plan.first_share),
-      geometry_(plan.contact_geometry),
-      bridges_(plan.bridges),
-      keeps_fits_(plan.keeps_fits) {
-  together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  laws_.push_back(law_on(spec_.law, scene));
-  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
-  for (const CrackSpec& crack : scene.cracks) laws_.push_back(law_on(crack.law, scene));
-  bonds_ = bridges_ && std::any_of(laws_.begin(), laws_.end(),
-                                   [](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); });
-  solves_in_lanes_ =
-      one_set_ && !bridges_ && scene.cracks.empty() &&
-      std::all_of(laws_.begin(), laws_.end(), [](const AnyLaw& law) {
-        return std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
-      });
-}
-
-template <int Dim>
 void Contact<Dim>::resolve(State<Dim>& state, Correction correction, double dt) {
   dt_ = dt;
   if (pairs_.empty() && !cracks_.active())
