@@ -56,7 +56,7 @@ struct ParticleTile {
   int run_begin, run_end;   ///< into the list of runs
   int window[Dim];          ///< node coordinates of the window's first node
   int slot[kCorners<Dim>];  ///< first slot of each node tile under the window
-  int others = 0;           ///< tiles of the same place and field that follow
+  int others{};             ///< tiles of the same place and field that follow
   bool cracked = false;     ///< its particles reach nodes where others are behind a crack, or soon will
   /// Where nodes take the side of a crack: the slot of each under the window; else null.
   const int* node_slot = nullptr;
@@ -70,11 +70,11 @@ struct GridView {
 
 /// What conduction knows of a body (transfer/heat.hpp).
 struct BodyHeat {
-  double capacity = 0;          ///< c, J/(kg K)
-  double conductivity = 0;      ///< k, W/(m K)
-  double expansion = 0;         ///< α, of a length, 1/K
-  double start = 0;             ///< temperature at the start, at which heat has not stretched it, K
-  double stored = 0;            ///< ρ0 c where an equation of state holds the heat, J/(m³ K); else 0
+  double capacity{};            ///< c, J/(kg K)
+  double conductivity{};        ///< k, W/(m K)
+  double expansion{};           ///< α, of a length, 1/K
+  double start{};               ///< temperature at the start, at which heat has not stretched it, K
+  double stored{};              ///< ρ0 c where an equation of state holds the heat, J/(m³ K); else 0
   bool elastic_volume = false;  ///< the elastic strain of its law has the volume in it
 };
 

@@ -55,7 +55,7 @@ class Conditions {
   /// each.
   struct Held {
     int combination = -1;
-    unsigned axes = 0;
+    unsigned axes{};
     bool any() const { return combination >= 0 || axes != 0; }
   };
   Held held(int slot) const {

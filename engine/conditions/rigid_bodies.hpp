@@ -12,8 +12,8 @@ namespace mpmfast {
 
 /// Of the rigid particles in a step.
 struct RigidReport {
-  double fastest = 0;  ///< m/s
-  bool lost = false;   ///< one is outside the allowed box
+  double fastest{};   ///< m/s
+  bool lost = false;  ///< one is outside the allowed box
 };
 
 /// A rigid body moves with v(t) and turns with ω(t) about a pivot that moves with it: its particles are at

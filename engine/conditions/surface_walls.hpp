@@ -74,9 +74,9 @@ class SurfaceWalls {
     int boundary, axis, out;  ///< out: sign of the way out along the axis
     double friction;          ///< infinite: it holds
     bool moves;               ///< at some time
-    double plane = 0;         ///< cells from the grid's origin
-    double speed = 0;         ///< m/s along the axis
-    int row = 0;              ///< first one at or beyond the plane
+    double plane{};           ///< cells from the grid's origin
+    double speed{};           ///< m/s along the axis
+    int row{};                ///< first one at or beyond the plane
     double cut = 1;           ///< cells from the last row inside to the plane
   };
   /// Least gaps of the particles whose domains lie over a column, of those less than a cell beside it, and of
@@ -161,10 +161,10 @@ class SurfaceWalls {
   double closing(const Column& column) const;
 
   const Scene* scene_;
-  double share_;   ///< of −P v_s that particles take as a force
-  bool whole_;     ///< strains see what particles take back: the friction work is found from it
-  bool holds_;     ///< what sticks
-  double dt_ = 0;  ///< of this step
+  double share_;  ///< of −P v_s that particles take as a force
+  bool whole_;    ///< strains see what particles take back: the friction work is found from it
+  bool holds_;    ///< what sticks
+  double dt_{};   ///< of this step
   bool stale_ = true;
   std::vector<Wall> walls_;
   std::vector<Column> columns_;

@@ -193,9 +193,9 @@ class Contact {
   /// A pair of a node that may have an impulse while all of them are solved together.
   struct Acting {
     ContactEntry<Dim>* entry;
-    double reduced;        ///< kg
-    double area_time = 0;  ///< A_c Δt, m² s, for laws that use the area
-    bool in_set;           ///< the step's one set: by its rule
+    double reduced;      ///< kg
+    double area_time{};  ///< A_c Δt, m² s, for laws that use the area
+    bool in_set;         ///< the step's one set: by its rule
     SetRule<Dim> rule;
     Coulomb friction;  ///< where that is its law
   };
@@ -280,8 +280,8 @@ class Contact {
   std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs, then those of cracks
   const Conditions<Dim>* conditions_ = nullptr;
   double cell_, cell_volume_;
-  double dt_ = 0;        ///< of the step, s
-  double crossing_ = 0;  ///< s
+  double dt_{};        ///< of the step, s
+  double crossing_{};  ///< s
   bool first_correction_;
   bool one_set_;                 ///< the touching pairs are decided once a step
   bool keep_velocity_change_;    ///< XPIC wants Δv of the first correction

@@ -12,14 +12,14 @@ namespace mpmfast {
 /// The lattice of a grid: cubic cells from a corner on, so many particles along the side of each.
 struct CellLattice {
   Vec3 origin{}, size{};  ///< m
-  double cell = 0;        ///< m
+  double cell{};          ///< m
   std::array<int, 3> particles_per_cell{2, 2, 2};
 };
 
 /// How the particles of a body lie: on a lattice along the axes, on one turned about z, or on rings.
 struct Seeding {
   bool rings = false;
-  double angle = 0;  ///< rad, of the lattice
+  double angle{};  ///< rad, of the lattice
 
   bool turned() const { return rings || angle != 0; }
 };

@@ -19,11 +19,11 @@ struct Outline {
   struct Facet {
     std::array<int, 3> point{-1, -1, -1};  ///< of 2-D the first two
     std::array<Joint, 3> joint{};          ///< 2-D: at these points; 3-D: of the edges opposite them
-    int piece = 0;                         ///< smooth parts between creases
+    int piece{};                           ///< smooth parts between creases
   };
   std::vector<Vec3> points;  ///< m
   std::vector<Facet> facets;
-  int pieces = 0;
+  int pieces{};
 };
 
 /// Facets whose normals are further apart than this meet in a crease, rad.

@@ -23,22 +23,22 @@ struct BoxShape {
 /// Disk, sphere, ellipse, ellipsoid: radii along the axes, turned by `angle` about z.
 struct EllipsoidShape {
   Vec3 centre{}, radii{};
-  double angle = 0;  ///< rad
+  double angle{};  ///< rad
 };
 /// Ring (2-D) or tube along z (3-D, between the z values of lower and upper).
 struct RingShape {
   Vec3 centre{};
-  double inner = 0, outer = 0;  ///< m
-  double half_length = 0;       ///< m, along z, 3-D only
+  double inner{}, outer{};  ///< m
+  double half_length{};     ///< m, along z, 3-D only
 };
 /// Simple closed polygon in the xy plane; in 3-D extruded from z_lower to z_upper.
 struct PolygonShape {
   std::vector<std::array<double, 2>> points;  ///< m
-  double z_lower = 0, z_upper = 0;
+  double z_lower{}, z_upper{};
 };
 /// An 8-bit grey image, row 0 at the top.
 struct GreyImage {
-  int width = 0, height = 0;
+  int width{}, height{};
   std::vector<unsigned char> pixel;
 
   /// Which levels it has.
@@ -48,7 +48,7 @@ struct GreyImage {
 struct BitmapShape {
   std::filesystem::path file;
   Vec3 lower{}, upper{};  ///< m
-  int grey = 0;           ///< the level that belongs to this body
+  int grey{};             ///< the level that belongs to this body
   std::shared_ptr<const GreyImage> image;
 };
 /// The inside of a closed surface from an STL file: scaled, turned about an axis through the file's origin,
@@ -57,7 +57,7 @@ struct StlShape {
   std::filesystem::path file;
   double scale = 1;                              ///< m, a length of 1 in the file
   Vec3 axis{0, 0, 1};                            ///< unit
-  double angle = 0;                              ///< rad, right-handed about the axis
+  double angle{};                                ///< rad, right-handed about the axis
   Vec3 translate{};                              ///< m
   std::shared_ptr<const class Surface> surface;  ///< where it lies in the scene
 };

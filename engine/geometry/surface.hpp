@@ -13,8 +13,8 @@ namespace mpmfast {
 
 /// Where a line enters the surface (from below in x: +1) or leaves it (−1).
 struct Crossing {
-  double x = 0;
-  int winding = 0;
+  double x{};
+  int winding{};
 };
 
 /// Triangles that close: every edge is passed as often one way as the other. A point is inside where the
@@ -48,7 +48,7 @@ class Surface {
   std::vector<Triangle> triangles_;
   Bounds bounds_;
   // Triangles by the cell of a coarse grid in y and z that their bounds touch: a line meets few of them.
-  std::array<std::size_t, 2> buckets_{1, 1};
+  std::array<std::size_t, 2> buckets_{};
   std::vector<std::size_t> first_;  ///< of each bucket, in listed_
   std::vector<std::uint32_t> listed_;
 };

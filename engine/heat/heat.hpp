@@ -59,7 +59,7 @@ class Heat {
     double by_face = 1;
     std::array<int, 2> inner{};  ///< slots
     std::array<double, 2> by_inner{};
-    double end = 0;  ///< T at the end of the step, from the scene's, K
+    double end{};  ///< T at the end of the step, from the scene's, K
     /// Inside of a face that holds: the node of the first row at or beyond it, a slot; −1: this is no such
     /// node.
     int across = -1;
@@ -74,11 +74,11 @@ class Heat {
     int a = -1, b = -1;  ///< slots; −1: nothing crosses
     std::size_t field_a = 0, field_b = 0;
     bool tied = false;              ///< one temperature for both
-    double area = 0;                ///< m², of the surface at the node
+    double area{};                  ///< m², of the surface at the node
     std::array<double, 2> sides{};  ///< m², of each side, where a gap is between them
-    double conductance = 0;         ///< W/(m² K)
-    double jump = 0;                ///< T_b − T_a there, K
-    double drive = 0;               ///< what all else changes it by, K/s
+    double conductance{};           ///< W/(m² K)
+    double jump{};                  ///< T_b − T_a there, K
+    double drive{};                 ///< what all else changes it by, K/s
     Jump mean;                      ///< of both over the nodes around
     bool conducts() const { return area > 0 && conductance > 0; }
   };
@@ -125,10 +125,10 @@ class Heat {
 
   const Scene* scene_;
   bool active_, crosses_, ties_;
-  double stable_dt_ = 0;
-  double filter_time_ = 0;  ///< s, from one filter to the next
-  double unfiltered_ = 0;   ///< s, since the last one
-  double stiffest_ = 0;     ///< W/(m² K): what counts as a perfect conductance
+  double stable_dt_{};
+  double filter_time_{};   ///< s, from one filter to the next
+  double unfiltered_ = 0;  ///< s, since the last one
+  double stiffest_{};      ///< W/(m² K): what counts as a perfect conductance
   HeatScale scale_{};
   std::vector<double> effusivity_;  ///< √(k ρ c), by field
   std::vector<bool> rigid_;         ///< by field

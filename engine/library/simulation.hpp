@@ -50,10 +50,10 @@ struct Callbacks {
 /// Where the energy is, J; in 2-D of the scene's thickness. What was dissipated and worked counts from the
 /// start.
 struct Energies {
-  double kinetic = 0, stored = 0;
-  double friction = 0;    ///< heat of contact
-  double dissipated = 0;  ///< plastic work, viscous heat and what bonds of surfaces lost
-  double boundary_work = 0, body_force_work = 0;
+  double kinetic{}, stored{};
+  double friction{};    ///< heat of contact
+  double dissipated{};  ///< plastic work, viscous heat and what bonds of surfaces lost
+  double boundary_work{}, body_force_work{};
 };
 
 /// A scene that is stepped by its caller and writes no files. Everything is SI. Spans show the memory of the

@@ -16,7 +16,7 @@
 namespace mpmfast {
 
 struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
+  std::uint8_t red{}, green{}, blue{};
   static constexpr Colour hex(unsigned rgb) {
     return {static_cast<std::uint8_t>(rgb >> 16 & 255), static_cast<std::uint8_t>(rgb >> 8 & 255),
             static_cast<std::uint8_t>(rgb & 255)};
@@ -26,7 +26,7 @@ struct Colour {
 
 /// Pixels from the upper left corner, y down.
 struct PixelPoint {
-  double x = 0, y = 0;
+  double x{}, y{};
 };
 
 enum class Align { left, centre, right };

@@ -39,19 +39,19 @@ void reopen_folder(const std::filesystem::path& folder);
 
 /// What one row of history.csv says. Energies in J, per `thickness` in 2-D.
 struct HistoryRow {
-  std::uint64_t step = 0;
-  double time = 0, dt = 0;
-  double kinetic = 0, stored = 0, friction = 0, boundary_work = 0, body_force_work = 0;
-  double dissipated = 0;  ///< plastic work and viscous heat
-  double interface = 0;   ///< J, lost by bonds that soften and break
-  double joints = 0;      ///< J, of `stored`: what springs and bonds between surfaces hold
+  std::uint64_t step{};
+  double time{}, dt{};
+  double kinetic{}, stored{}, friction{}, boundary_work{}, body_force_work{};
+  double dissipated{};   ///< plastic work and viscous heat
+  double interface = 0;  ///< J, lost by bonds that soften and break
+  double joints{};       ///< J, of `stored`: what springs and bonds between surfaces hold
   Vec3 momentum{};
   std::array<double, 6> mean_stress{};  ///< Pa, as Body::mean_stress, over all bodies that deform
   struct Body {
     std::array<double, 6> mean_stress{};  ///< Pa, Cauchy, xx yy zz xy yz xz, weighted by current volume
     double mass = 0;
     Vec3 position{}, velocity{};  ///< of the centre of mass
-    double temperature = 0;       ///< K, weighted by mass, in scenes with heat
+    double temperature{};         ///< K, weighted by mass, in scenes with heat
   };
   std::vector<Body> bodies;           ///< as Scene::bodies
   std::vector<Vec3> boundary_force;   ///< N, on the material, mean over the interval; as Scene::boundaries
@@ -65,10 +65,10 @@ struct HistoryRow {
   std::vector<std::array<double, 5>> tips;  ///< of cracks: place, m, J, J/m², K_I, K_II, Pa √m; as crack_tips
   std::optional<Outflow> outflow;           ///< with grid.leaving: outflow; up to now
   struct Heat {
-    double content = 0;              ///< J, of the bodies that deform above the temperature of the scene
-    double in = 0;                   ///< J, that came in from faces, given nodes and rigid bodies
-    double friction = 0;             ///< J, that friction made in them
-    double worked = 0;               ///< J, that became elastic energy by thermal expansion
+    double content{};                ///< J, of the bodies that deform above the temperature of the scene
+    double in{};                     ///< J, that came in from faces, given nodes and rigid bodies
+    double friction{};               ///< J, that friction made in them
+    double worked{};                 ///< J, that became elastic energy by thermal expansion
     std::vector<double> conditions;  ///< J, that came in, as HeatSpec::conditions
   };
   std::optional<Heat> heat;  ///< in scenes with heat; up to now
@@ -86,8 +86,8 @@ bool flows(const Scene& scene, const BodySpec& body);
 
 /// How far apart neighbouring particles of one body were at most, as their F tells.
 struct Spacing {
-  double cells = 0;
-  std::uint64_t body = 0;  ///< into Scene::bodies
+  double cells{};
+  std::uint64_t body{};  ///< into Scene::bodies
 };
 template <int Dim>
 Spacing widest_spacing(const Particles<Dim>& particles, const Scene& scene);
@@ -99,7 +99,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene);
 
 /// How far a history has come, and which one it is.
 struct HistoryMark {
-  std::uint64_t rows = 0;                       ///< without the header
+  std::uint64_t rows{};                         ///< without the header
   std::uint64_t last_step = ~std::uint64_t{0};  ///< of the last row
   std::string hash;                             ///< XXH3-128 of header and rows, as hexadecimal text
 };
@@ -203,19 +203,19 @@ struct RunSummary {
   std::string failed_by;  ///< of a run that failed: physics, files or program
   HistoryMark history;    ///< what history.csv holds
   int dimension = 2, threads = 1;
-  std::uint64_t particles = 0, fields = 0, nodes_active_peak = 0, steps = 0;
-  double time = 0, dt_min = 0, dt_max = 0, wall = 0, particle_steps_per_second = 0;
-  std::uint64_t peak_memory_bytes = 0;
+  std::uint64_t particles{}, fields{}, nodes_active_peak{}, steps{};
+  double time{}, dt_min{}, dt_max{}, wall{}, particle_steps_per_second{};
+  std::uint64_t peak_memory_bytes{};
   std::vector<std::pair<std::string, double>> seconds;  ///< by pass name
   struct Contact {
     std::uint64_t nodes_peak = 0, regressions = 0, fallbacks = 0, unconverged = 0;
     double mean_iterations = 0;
-    std::uint64_t touching = 0, doubtful = 0;          ///< as ContactCounters
-    std::uint64_t pair_nodes = 0, pair_fallbacks = 0;  ///< with fields: pairs
-    std::uint64_t meetings = 0, screened = 0;          ///< as ContactCounters
-    std::uint64_t points_peak = 0;                     ///< of surfaces that press, with penalty contact
+    std::uint64_t touching{}, doubtful{};          ///< as ContactCounters
+    std::uint64_t pair_nodes{}, pair_fallbacks{};  ///< with fields: pairs
+    std::uint64_t meetings{}, screened{};          ///< as ContactCounters
+    std::uint64_t points_peak{};                   ///< of surfaces that press, with penalty contact
   } contact;
-  double energy_error = 0;
+  double energy_error{};
   /// What of the scene decides which remedies are left.
   struct Settings {
     bool averaged_strain = false;  ///< method.strain: average
@@ -227,9 +227,9 @@ struct RunSummary {
     bool splits = false;           ///< particles whose domains grow long are split
     std::string flowing_body;      ///< the first whose law flows
   } settings;
-  double spacing = 0;              ///< cells; the widest of the history's rows
+  double spacing{};                ///< cells; the widest of the history's rows
   double most_spacing = 1;         ///< cells that the basis bridges
-  std::uint64_t third_cracks = 0;  ///< times that a node was seen behind a third crack
+  std::uint64_t third_cracks{};    ///< times that a node was seen behind a third crack
   std::string spacing_body;        ///< where it was
   std::optional<Overlap> overlap;  ///< of the last row of the history, with output.overlap
   std::optional<Outflow> outflow;  ///< with grid.leaving: outflow
@@ -242,7 +242,7 @@ struct RunSummary {
   std::string command;                      ///< the command line
   std::vector<std::string> overrides;       ///< --set arguments
   std::vector<std::string> scene_warnings;  ///< what in the scene is likely a mistake
-  std::uint64_t resumes = 0;                ///< how often the run went on from a checkpoint
+  std::uint64_t resumes{};                  ///< how often the run went on from a checkpoint
   std::string resolved_yaml;                ///< Scene::resolved_yaml, of which run.json holds the hash
 };
 

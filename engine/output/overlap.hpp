@@ -16,18 +16,18 @@ namespace mpmfast {
 struct ParticleDomain {
   Vec<2> centre;  ///< m
   Mat<2> edges;   ///< m, columns: half-edge vectors F diag(R0)
-  int owner = 0;  ///< who claims it: domains of one owner do not count as an overlap
+  int owner{};    ///< who claims it: domains of one owner do not count as an overlap
   double area() const;
 };
 
 struct Overlap {
   /// m². Σ over pairs of particles of different owners of the area common to their domains. The domains of a
   /// body tile it, so this is what two bodies both claim; what three claim counts for each of three pairs.
-  double area = 0;
+  double area{};
   /// m². Area of the particles whose centre lies in a domain of another owner. Strained domains no longer
   /// tile exactly and common slivers add to `area`; here they do not show.
-  double inside = 0;
-  std::uint64_t particles_inside = 0;
+  double inside{};
+  std::uint64_t particles_inside{};
   std::pair<int, int> owners{-1, -1};  ///< of such a particle, and of the domain that it lies in
 };
 

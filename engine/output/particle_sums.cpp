@@ -11,11 +11,10 @@ struct BodySums {
   Vec3 moment{}, momentum{};
   std::array<double, 6> stress{};  ///< Σ V₀ τ = Σ V σ, J
 
+  /// For the balance, which asks for no places.
   void add(const BodySums& other) {
-    mass += other.mass;
     volume += other.volume;
     twice_kinetic += other.twice_kinetic;
-    for (std::size_t k = 0; k < 3; ++k) moment[k] += other.moment[k];
     for (std::size_t k = 0; k < 3; ++k) momentum[k] += other.momentum[k];
     for (std::size_t k = 0; k < 6; ++k) stress[k] += other.stress[k];
   }

@@ -94,7 +94,7 @@ Sides sides_for(const Labels& labels, const Range& x, const Range& y, double sca
 double Picture::Layout::top() const { return top_of(lines); }
 
 Picture::Layout Picture::make_layout(Range x, Range y, const Labels& labels) {
-  Layout layout{x, y, 1, 0, 0, 0, 0, false, 1, 2};
+  Layout layout{};
   Sides sides{kLeft, labels.bar ? kRightWithBar : kRight};
   constexpr int kTries = 3;  // wider labels make a smaller box, whose labels need no more
   for (int k = 0; k < kTries; ++k) {

@@ -22,7 +22,7 @@ struct VtuArray {
   std::size_t components = 1;           ///< values of one tuple
   std::vector<std::string> names = {};  ///< of the components; empty where they have none
   std::size_t tuples = 0;               ///< points, where it is not of the whole file
-  std::uint64_t offset = 0;             ///< bytes, into the appended data
+  std::uint64_t offset{};               ///< bytes, into the appended data
 };
 
 /// One VTU file of points, whole in memory; an array is unpacked when it is asked for.
@@ -76,14 +76,14 @@ class VtuReader {
   std::filesystem::path path_;
   std::string text_;
   std::string_view appended_;  ///< of the text
-  double time_ = 0;
+  double time_{};
   std::size_t size_ = 0;
   std::vector<VtuArray> point_data_, others_, of_file_;
 };
 
 /// A frame of a series.
 struct SeriesFrame {
-  double time = 0;  ///< s
+  double time{};  ///< s
   std::filesystem::path file;
 };
 

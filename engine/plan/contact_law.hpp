@@ -21,7 +21,7 @@ inline constexpr double kBonded = 10, kBrittle = 1.01;
 
 /// The largest modulus of longitudinal waves in the bodies of a scene, at rest, Pa.
 inline double stiffest_modulus(const Scene& scene) {
-  double modulus = 0;
+  double modulus{};
   for (const BodySpec& body : scene.bodies)
     if (!is_rigid(scene, body))
       modulus = std::max(modulus, std::visit([](const auto& law) { return law.modulus(); },

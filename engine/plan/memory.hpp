@@ -15,7 +15,7 @@ double estimated_particles(const Scene& scene);
 
 /// What a run takes for a while beside what lasts.
 struct PassingNeed {
-  double bytes = 0;
+  double bytes{};
   const char* reason = "";  ///< what takes it
 };
 

@@ -11,7 +11,7 @@ namespace mpmfast {
 /// bodies there are.
 struct PairTable {
   std::vector<int> group;  ///< by field
-  int groups = 0;
+  int groups{};
   std::vector<int> pair;  ///< [group · groups + group] → index into ContactSpec::pairs; −1: the default law
   std::vector<bool> forward;  ///< [same]: the first group is the pair's first
 

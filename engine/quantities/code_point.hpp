@@ -11,7 +11,7 @@ namespace mpmfast {
 
 /// A character of UTF-8. Overlong forms and surrogates are none.
 struct CodePoint {
-  std::uint32_t code = 0;
+  std::uint32_t code{};
   std::size_t bytes = 0;  ///< 0 where there is none
 };
 CodePoint code_point(std::string_view text, std::size_t at);

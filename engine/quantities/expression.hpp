@@ -40,7 +40,7 @@ class Expression {
   struct Code {
     Kind kind;
     double number = 0;
-    std::size_t index = 0;  ///< of the name or of the function
+    std::size_t index{};  ///< of the name or of the function
     Dimensions dimensions{};
   };
 

@@ -54,7 +54,7 @@ std::variant<double, QuantityError> parse_quantity(std::string_view text, Measur
 
 /// A number of whatever dimensions, SI. A bare number has none.
 struct Amount {
-  double value = 0;
+  double value{};
   Dimensions dimensions{};
 };
 std::variant<Amount, QuantityError> parse_amount(std::string_view text);

@@ -56,7 +56,7 @@ inline double mean_over(const TimeTable& table, double t, double dt) {
 
 /// Largest |value|.
 inline double largest(const TimeTable& table) {
-  double m = 0;
+  double m{};
   for (double v : table.value) m = v > m ? v : -v > m ? -v : m;
   return m;
 }

@@ -7,8 +7,8 @@
 namespace mpmfast {
 
 struct ContactNeed {
-  double nodes = 0;  ///< contact nodes, were two fifths of what can meet to do so
-  double bytes = 0;  ///< of the nodes, their entries, and the clouds that are kept at once
+  double nodes{};  ///< contact nodes, were two fifths of what can meet to do so
+  double bytes{};  ///< of the nodes, their entries, and the clouds that are kept at once
 };
 
 /// @param step  that has advanced: its nodes know their masses

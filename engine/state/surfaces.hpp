@@ -37,8 +37,8 @@ struct Surfaces {
     int point, begin, end;  ///< into wedge_facets
   };
   struct Body {
-    std::uint32_t first_id = 0;  ///< of its boundary points, which are the last of its particles
-    int first = 0, count = 0;    ///< their numbers
+    std::uint32_t first_id{};  ///< of its boundary points, which are the last of its particles
+    int first{}, count{};      ///< their numbers
   };
   std::vector<Body> bodies;
   std::vector<int> point_body;

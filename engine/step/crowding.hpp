@@ -12,9 +12,9 @@
 namespace mpmfast {
 
 struct Crowding {
-  std::size_t fields = 0;          ///< the most velocity fields that have particles in one cell
-  double pairs = 0;                ///< of fields with particles in one cell, over all cells
-  std::size_t one = 0, other = 0;  ///< bodies of the fullest cell
+  std::size_t fields{};        ///< the most velocity fields that have particles in one cell
+  double pairs{};              ///< of fields with particles in one cell, over all cells
+  std::size_t one{}, other{};  ///< bodies of the fullest cell
 };
 
 /// Nothing where the scene has so few fields that no cell is crowded.

@@ -100,8 +100,8 @@ class Extension {
   struct Found {
     std::vector<Shared> following;
     std::vector<Share> shares;
-    std::uint64_t lowered = 0, alone = 0;
-    std::size_t nodes_before = 0, shares_before = 0;  ///< of the portions before
+    std::uint64_t lowered{}, alone{};
+    std::size_t nodes_before{}, shares_before{};  ///< of the portions before
   };
   static constexpr int kPortions = 16;  ///< of tiles, a thread: where outlines lie, there is most to do
 

@@ -28,14 +28,14 @@ namespace mpmfast {
 /// What a run adds up over its steps.
 template <int Dim>
 struct Sums {
-  double friction_work = 0, boundary_work = 0, body_force_work = 0;  ///< J
-  std::vector<Vec<Dim>> boundary_impulse;                            ///< N s, as Scene::boundaries
-  std::vector<Vec<Dim>> rigid_impulse;                               ///< N s, by velocity field
-  std::vector<Vec<3>> rigid_moment;                                  ///< N m s about the pivot, likewise
+  double friction_work{}, boundary_work{}, body_force_work{};  ///< J
+  std::vector<Vec<Dim>> boundary_impulse;                      ///< N s, as Scene::boundaries
+  std::vector<Vec<Dim>> rigid_impulse;                         ///< N s, by velocity field
+  std::vector<Vec<3>> rigid_moment;                            ///< N m s about the pivot, likewise
   std::vector<Vec<Dim>> pair_impulse;      ///< N s, on the first of the two; as ContactSpec::pairs
   std::vector<double> pair_friction_work;  ///< J, likewise
   Outflow outflow;
-  double interface_loss = 0;  ///< J, of bonds that soften and break
+  double interface_loss{};  ///< J, of bonds that soften and break
 };
 
 template <int Dim>
@@ -168,12 +168,12 @@ class Step {
   PassClock clock_;
   Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
   TipSamples tip_samples_;
-  double dt_ = 0;         ///< of the last step, s
-  double fastest_ = 0;    ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;  ///< bound on paths since the last sort, or since all were near their places, m
-  double unlooked_ = 0;   ///< likewise since domains were looked at, m (split_if_due)
-  double ramped_ = 1;     ///< share of the body forces in this step
-  double body_force_work_ = 0;             ///< of this step, J
+  double dt_{};               ///< of the last step, s
+  double fastest_{};          ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;      ///< bound on paths since the last sort, or since all were near their places, m
+  double unlooked_ = 0;       ///< likewise since domains were looked at, m (split_if_due)
+  double ramped_ = 1;         ///< share of the body forces in this step
+  double body_force_work_{};  ///< of this step, J
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s
   bool sort_due_ = true;

@@ -35,7 +35,7 @@ inline constexpr std::array<Word<Softening>, 3> kSoftenings{{
 struct Fall {
   static constexpr double kDecay = 7;  ///< of the exponential, which is 1/1097 of its start at the end
   Softening shape = Softening::triangular;
-  double plateau = 0;  ///< share of the way, below 1
+  double plateau{};  ///< share of the way, below 1
 
   double hold() const { return shape == Softening::trapezoidal ? plateau : 0; }
   double at(double way) const {
@@ -79,12 +79,12 @@ struct Cohesive {
                               *kSays = "bonded by springs that soften and break, then coulomb";
   static constexpr LawScope scope = LawScope::bridged;
   static constexpr bool uses_area = true;
-  double friction = 0, static_friction = 0;          ///< once it is broken
+  double friction{}, static_friction{};              ///< once it is broken
   double normal_strength = 1, shear_strength = 1;    ///< Pa
   double normal_toughness = 1, shear_toughness = 1;  ///< J/m²
   Softening shape = Softening::triangular;
   double plateau = 0.5, mode_exponent = 1;
-  double initial_stiffness = 0, compression_stiffness = 0;  ///< Pa/m
+  double initial_stiffness{}, compression_stiffness{};  ///< Pa/m
   Pressed compression = Pressed::spring;
 
   template <class Keys>

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 #include <limits>
 #include <variant>
 
@@ -25,7 +26,7 @@ struct Coulomb {
                               *kSays = "slides when friction × normal force is reached (default, friction 0)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
-  double friction = 0, static_friction = 0;
+  double friction{}, static_friction{};
 
   template <class Keys>
   void describe(Keys& map) {
@@ -90,8 +91,8 @@ struct Adhesion {
                               *kSays = "bonded up to a tensile and a shear strength, then coulomb";
   static constexpr LawScope scope = LawScope::bonded;
   static constexpr bool uses_area = true;
-  double friction = 0, normal_strength = 0, shear_strength = 0;  ///< –, Pa, Pa
-  double reach = 0.05, cell = 1;                                 ///< cells; m, of the grid
+  double friction{}, normal_strength{}, shear_strength{};  ///< –, Pa, Pa
+  double reach = 0.05, cell = 1;                           ///< cells; m, of the grid
 
   template <class Keys>
   void describe(Keys& map) {
@@ -122,7 +123,7 @@ struct VelocityFriction {
                               *kSays = "friction + (static_friction - friction) exp(-v/decay_speed)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
-  double friction = 0, static_friction = 0, decay_speed = 1;  ///< –, –, m/s
+  double friction{}, static_friction{}, decay_speed = 1;  ///< –, –, m/s
 
   template <class Keys>
   void describe(Keys& map) {
@@ -153,7 +154,7 @@ struct Viscous {
                               *kSays = "a liquid film: shear traction viscosity × v/film, no dry friction";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = true;
-  double viscosity = 0, film = 1;  ///< η, Pa s; h, m
+  double viscosity{}, film = 1;  ///< η, Pa s; h, m
 
   template <class Keys>
   void describe(Keys& map) {
@@ -175,9 +176,9 @@ struct Interface {
                               *kSays = "joined by springs: traction = stiffness × displacement jump";
   static constexpr LawScope scope = LawScope::bridged;
   static constexpr bool uses_area = true;
-  double normal_stiffness = 0, shear_stiffness = 0, compression_stiffness = 0;  ///< Pa/m
+  double normal_stiffness{}, shear_stiffness{}, compression_stiffness{};  ///< Pa/m
   Pressed compression = Pressed::spring;
-  double friction = 0, static_friction = 0;  ///< where contact holds them apart
+  double friction{}, static_friction{};  ///< where contact holds them apart
 
   template <class Keys>
   void describe(Keys& map) {
@@ -206,9 +207,9 @@ struct NonlinearInterface {
   static constexpr LawScope scope = LawScope::bridged;
   static constexpr bool uses_area = true;
   TractionCurve normal_curve{{0}, {0}}, shear_curve{{0}, {0}};  ///< of the opening and of the slip
-  double compression_stiffness = 0;                             ///< Pa/m
+  double compression_stiffness{};                               ///< Pa/m
   Pressed compression = Pressed::spring;
-  double friction = 0, static_friction = 0;  ///< where contact holds them apart
+  double friction{}, static_friction{};  ///< where contact holds them apart
 
   template <class Keys>
   void describe(Keys& map) {
@@ -251,7 +252,8 @@ inline constexpr bool kDryFriction =
     std::is_same_v<Law, Coulomb> || std::is_same_v<Law, Frictionless> || std::is_same_v<Law, Ignore>;
 
 /// Does it join surfaces by springs or a bond?
-inline bool joins(const AnyLaw& law) {
+template <std::same_as<AnyLaw> Law>
+bool joins(const Law& law) {
   return std::visit([](const auto& one) { return one.scope == LawScope::bridged; }, law);
 }
 

@@ -18,8 +18,8 @@ namespace mpmfast {
 template <int Dim>
 struct Margin {
   Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit, from a to b; zero where the hulls meet or a class is empty
-  double distance = 0;                 ///< between the hulls, cells
-  int iterations = 0;                  ///< passes over the cloud
+  double distance{};                   ///< between the hulls, cells
+  int iterations{};                    ///< passes over the cloud
 };
 
 namespace detail {

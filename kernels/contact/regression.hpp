@@ -22,9 +22,9 @@ enum class Fit {
 /// What to fit and when to end. The defaults are N20's.
 struct RegressionRule {
   Fit fit = Fit::least_squares;
-  double penalty = 1e-7;      ///< λ of the normal's components, cell units
-  double offset_penalty = 0;  ///< λ of the offset (NN §3.4.5)
-  double tolerance = 1e-5;    ///< on 1 − n'·n of two successive normals
+  double penalty = 1e-7;    ///< λ of the normal's components, cell units
+  double offset_penalty{};  ///< λ of the offset (NN §3.4.5)
+  double tolerance = 1e-5;  ///< on 1 − n'·n of two successive normals
   int max_iterations = 15;
 };
 
@@ -38,7 +38,7 @@ struct Regression {
   };
   Vec<Dim> normal = Vec<Dim>::Zero();  ///< unit, from a to b
   double plane[Dim + 1] = {};          ///< φ, to start from in the next step; zero after a fallback
-  int iterations = 0;                  ///< logistic steps after the start
+  int iterations{};                    ///< logistic steps after the start
   Outcome outcome = Outcome::failed;
 };
 

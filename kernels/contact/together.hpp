@@ -46,7 +46,7 @@ struct FieldContact {
   int a, b;
   Vec<Dim> normal;                       ///< unit, from a to b
   double reduced;                        ///< 1/(1/m_a + 1/m_b), kg
-  double closing = 0;                    ///< the approach that closes a gap within the step, and is left, m/s
+  double closing{};                      ///< the approach that closes a gap within the step, and is left, m/s
   bool both_ways = false;                ///< it pulls as it presses
   Hinders hinders = Hinders::nothing;    ///< found, as the law says
   Vec<Dim> impulse = Vec<Dim>::Zero();   ///< found: Δp_a, N s; b takes −Δp_a
@@ -343,8 +343,8 @@ class ContactsTogether {
   }
 
   Hindrances<Dim> hindrances_;
-  double noise_ = 0, motion_ = 0;  ///< N s
-  double largest_ = 0;             ///< |J|², N² s²
+  double noise_{}, motion_{};      ///< N s
+  double largest_{};               ///< |J|², N² s²
   bool lags_ = false;              ///< friction is given
   std::vector<Vec<Dim>> start_;    ///< velocities, m/s
   std::vector<Vec<Dim>> changes_;  ///< of the contacts' impulses, or the fields' momenta

@@ -17,7 +17,7 @@ struct PairContact {
   Vec<Dim> normal;                      ///< unit, from a to b
   Vec<Dim> jump;                        ///< v_b − v_a before, m/s
   double inverse_mass;                  ///< 1/m_a + 1/m_b, 1/kg
-  double area_time = 0;                 ///< A_c Δt, m² s
+  double area_time{};                   ///< A_c Δt, m² s
   Vec<Dim> impulse = Vec<Dim>::Zero();  ///< found: Δp_a, N s; b takes −Δp_a
   Vec<Dim> slip = Vec<Dim>::Zero();     ///< found: v_b − v_a after, m/s
 };

@@ -14,7 +14,7 @@ struct TipSample {
   Mat<2> slope;                            ///< u_i,j
   Mat<2> stress;                           ///< Cauchy, Pa
   double energy;                           ///< W by the volume now, J/m³
-  double density = 0;                      ///< kg/m³
+  double density{};                        ///< kg/m³
   Vec<2> velocity = Vec<2>::Zero();        ///< m/s
   Mat<2> velocity_slope = Mat<2>::Zero();  ///< v_i,j, 1/s
   Vec<2> acceleration = Vec<2>::Zero();    ///< by stresses, m/s²

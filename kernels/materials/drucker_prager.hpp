@@ -29,12 +29,12 @@ struct DruckerPrager {
   static constexpr bool kElasticVolume = true;  ///< elastic_strain has the volume in it
   static constexpr double start_temperature = 293;  ///< K, of no account
   static constexpr double heat_share = 1;           ///< of what it dissipates
-  double density = 0;                               ///< kg/m³, undeformed
-  double bulk = 0, shear = 0;                       ///< K, G, Pa
-  double friction_angle = 0, dilation_angle = 0;    ///< φ, ψ, rad
-  double cohesion = 0;                              ///< c, Pa
-  double tension = 0;                               ///< T, Pa
-  double heating = 0;  ///< K m³/J, by dissipated work where a scene has temperatures
+  double density{};                                 ///< kg/m³, undeformed
+  double bulk{}, shear{};                           ///< K, G, Pa
+  double friction_angle{}, dilation_angle{};        ///< φ, ψ, rad
+  double cohesion{};                                ///< c, Pa
+  double tension{};                                 ///< T, Pa
+  double heating{};  ///< K m³/J, by dissipated work where a scene has temperatures
   Cone cone = Cone::compression;
 
   template <class Keys>

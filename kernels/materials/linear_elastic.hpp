@@ -14,9 +14,9 @@ namespace mpmfast {
 /// this order τ = σ.
 struct LinearElastic {
   static constexpr const char *kModel = "linear_elastic", *kSays = "infinitesimal strains and turns only";
-  double density = 0;  ///< kg/m³
-  double young = 0;    ///< E, Pa
-  double poisson = 0;  ///< ν
+  double density{};  ///< kg/m³
+  double young{};    ///< E, Pa
+  double poisson{};  ///< ν
 
   template <class Keys>
   void describe(Keys& map) {

@@ -13,9 +13,9 @@ namespace mpmfast {
 struct LogarithmicNeoHookean {
   static constexpr const char *kModel = "logarithmic_neo_hookean",
                               *kSays = "large elastic strains, pressure by ln J";
-  double density = 0;  ///< kg/m³, undeformed
-  double lambda = 0;   ///< Lamé's first constant, Pa
-  double shear = 0;    ///< μ, Pa
+  double density{};  ///< kg/m³, undeformed
+  double lambda{};   ///< Lamé's first constant, Pa
+  double shear{};    ///< μ, Pa
 
   template <class Keys>
   void describe(Keys& map) {

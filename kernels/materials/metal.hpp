@@ -21,14 +21,14 @@ struct Metal {
   static constexpr const char* kWith = Volume::kHeats && Yield::kPlastic ? "equation_of_state" : "";
   static constexpr StateColumns kColumns{Volume::kHeats || Yield::kPlastic, Volume::kHeats, Yield::kPlastic,
                                          Volume::kHeats || Yield::kThermal, Yield::kPlastic};
-  double density = 0;  ///< kg/m³, undeformed
-  double shear = 0;    ///< G, Pa
+  double density{};  ///< kg/m³, undeformed
+  double shear{};    ///< G, Pa
   Volume volume{};
   Yield yield{};
   double heat_capacity = 1;        ///< c_v, J/(kg K)
   double heat_share = 0.9;         ///< of plastic work that becomes heat (Taylor and Quinney)
   double start_temperature = 293;  ///< K
-  double heating = 0;  ///< K m³/J, by plastic work where the law has no temperature and the scene has
+  double heating{};  ///< K m³/J, by plastic work where the law has no temperature and the scene has
 
   template <class Keys>
   void describe(Keys& map) {

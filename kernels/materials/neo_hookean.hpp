@@ -14,9 +14,9 @@ namespace mpmfast {
 /// has B_zz = 1.
 struct NeoHookean {
   static constexpr const char *kModel = "neo_hookean", *kSays = "large elastic strains";
-  double density = 0;  ///< kg/m³, undeformed
-  double bulk = 0;     ///< K, Pa
-  double shear = 0;    ///< G, Pa
+  double density{};  ///< kg/m³, undeformed
+  double bulk{};     ///< K, Pa
+  double shear{};    ///< G, Pa
 
   template <class Keys>
   void describe(Keys& map) {

@@ -20,7 +20,7 @@ struct VolumeResponse {
 /// The volumetric part of N20 Eq. 18: W = ½K(½(J² − 1) − ln J).
 struct ElasticVolume {
   static constexpr bool kHeats = false;
-  double bulk = 0;  ///< K, Pa
+  double bulk{};  ///< K, Pa
 
   template <int Dim, class V>
   VolumeResponse<V> respond(const StrainStep<Dim, V>& step, double, double, V, V,
@@ -45,12 +45,12 @@ struct ElasticVolume {
 /// closes.
 struct GruneisenVolume {
   static constexpr bool kHeats = true;
-  double bulk = 0;                 ///< K, Pa
-  double gamma = 0;                ///< γ0; ρ γ is constant
-  double slope = 0;                ///< S1
-  double linear_viscosity = 0;     ///< A1
-  double quadratic_viscosity = 0;  ///< A2
-  double cell = 0;                 ///< Δx, m; of the grid, not of the material
+  double bulk{};                 ///< K, Pa
+  double gamma{};                ///< γ0; ρ γ is constant
+  double slope{};                ///< S1
+  double linear_viscosity{};     ///< A1
+  double quadratic_viscosity{};  ///< A2
+  double cell{};                 ///< Δx, m; of the grid, not of the material
 
   template <class Keys>
   void describe(Keys& map) {

@@ -28,8 +28,8 @@ struct LinearHardening {
                                   "metal with linear hardening at large strains; with heat_capacity under an "
                                   "equation of state";
   static constexpr bool kPlastic = true, kThermal = false;
-  double yield = 0;      ///< Y, Pa
-  double hardening = 0;  ///< H, Pa
+  double yield{};      ///< Y, Pa
+  double hardening{};  ///< H, Pa
 
   template <class Keys>
   void describe(Keys& map, double) {
@@ -53,8 +53,8 @@ struct JohnsonCook {
   static constexpr const char *kModel = "johnson_cook",
                               *kSays = "metal whose strength depends on strain, rate and heat";
   static constexpr bool kPlastic = true, kThermal = true;
-  double yield = 0, hardening = 0, exponent = 1;       ///< A, B (Pa), n
-  double rate_factor = 0, reference_rate = 1;          ///< C, ε̇0 (1/s)
+  double yield{}, hardening{}, exponent = 1;           ///< A, B (Pa), n
+  double rate_factor{}, reference_rate = 1;            ///< C, ε̇0 (1/s)
   double softening = 1, reference = 293, melt = 1000;  ///< m, T0, T_m (K)
 
   /// @param temperature  at the start, K

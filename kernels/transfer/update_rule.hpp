@@ -24,8 +24,8 @@ inline constexpr int update_vectors(ParticleUpdate u) { return u == ParticleUpda
 
 /// What an update reports of a tile.
 struct TileReport {
-  double fastest = 0;     ///< max_p (c_p + |v_p|), m/s
-  double speed = 0;       ///< max_p |V_p| and |mean velocity of its motion|, m/s
+  double fastest{};       ///< max_p (c_p + |v_p|), m/s
+  double speed{};         ///< max_p |V_p| and |mean velocity of its motion|, m/s
   bool inverted = false;  ///< some J is no positive number
   bool lost = false;      ///< a particle is not finite or outside the allowed box
 };

@@ -23,7 +23,7 @@ namespace mpmfast {
 /// An end of a crack: where it starts, or ends.
 struct CrackEnd {
   bool grows = false;          ///< it lies in its body, and what drives it is asked
-  double due = 0;              ///< when that is asked next, s
+  double due{};                ///< when that is asked next, s
   double straight = HUGE_VAL;  ///< so far back it has not turned, m
   double grown = 0;            ///< m
   bool fresh = false;          ///< in the last step
@@ -32,8 +32,8 @@ struct CrackEnd {
 /// A crack: its points, from one end to the other.
 template <int Dim>
 struct CrackLine {
-  int field = 0;                 ///< of the body that it is in
-  double node_mass = 0;          ///< of a node inside of it, at the start, kg
+  int field{};                   ///< of the body that it is in
+  double node_mass{};            ///< of a node inside of it, at the start, kg
   std::vector<Vec<Dim>> points;  ///< m, between its sides
   /// Of those, where the material is that was there: on the left, on the right; m.
   std::array<std::vector<Vec<Dim>>, 2> sides;
@@ -63,7 +63,7 @@ template <int Dim>
 struct Supports {
   /// (particle, way) → the first, if it were farther by the way along each axis, m
   std::function<NodeIndex<Dim>(std::size_t, double)> first;
-  int nodes = 0;
+  int nodes{};
 };
 
 /// One for each node of a window.

@@ -14,11 +14,11 @@ namespace mpmfast {
 /// About the end of a crack, or of one that grows about the foremost bond that softens: its end leads that.
 struct TipLoad {
   Vec<2> place = Vec<2>::Zero();   ///< m
-  double release = 0;              ///< J, J/m²
+  double release{};                ///< J, J/m²
   double opening = 0;              ///< K_I, Pa √m; 0 where the law of the body has no shear modulus
-  double sliding = 0;              ///< K_II, positive where the left side moves out of the crack
+  double sliding{};                ///< K_II, positive where the left side moves out of the crack
   double modulus = 0;              ///< E′, Pa; 0 likewise
-  double lead = 0;                 ///< from there on to the end, m
+  double lead{};                   ///< from there on to the end, m
   Vec<2> ahead = Vec<2>::Zero();   ///< unit, out of the crack at its end
   Vec<2> across = Vec<2>::Zero();  ///< σ_tn and σ_nn on what is straight behind that, Pa
   bool through = false;            ///< there is nothing ahead of the end: it has come to the outline

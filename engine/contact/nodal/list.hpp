@@ -32,20 +32,20 @@ struct ListedEntry {
 /// All that a step knows of it.
 template <int Dim>
 struct ContactEntry : ListedEntry<Dim> {
-  double separation = 0;      ///< m, negative: overlap
-  double advanced = 0;        ///< the separation that a correction judges by, m
-  double closing = 0;         ///< the approach that closes its gap by the end of the step, m/s
+  double separation{};        ///< m, negative: overlap
+  double advanced{};          ///< the separation that a correction judges by, m
+  double closing{};           ///< the approach that closes its gap by the end of the step, m/s
   double plane[Dim + 1]{};    ///< of the regression, cells; zero: none
   bool touched = false;       ///< in contact at the end of the last step
   bool lasts = false;         ///< it stays in contact until a force pulls it apart
   bool held = false;          ///< by the first correction
   bool touching = false;      ///< in contact at the second correction
   bool stuck = false;         ///< the second correction leaves no slip
-  double spring = 0;          ///< m: how far the surfaces would come together if nothing pressed them apart
-  double spring_before = 0;   ///< at the end of the last step
+  double spring{};            ///< m: how far the surfaces would come together if nothing pressed them apart
+  double spring_before{};     ///< at the end of the last step
   bool parts = false;         ///< its law knows no tie
   bool stuck_before = false;  ///< the second correction of the last step left no slip
-  double friction_work = 0;   ///< J, of this step
+  double friction_work{};     ///< J, of this step
   Vec<Dim> impulse = Vec<Dim>::Zero();  ///< Δp_a of the last correction
   Vec<Dim> first = Vec<Dim>::Zero();    ///< Δp_a of the first correction
   Vec<Dim> second = Vec<Dim>::Zero();   ///< Δp_a of the second, with what that passes on of the first
@@ -61,7 +61,7 @@ struct KeptFit {
   Vec<Dim> raw = Vec<Dim>::Zero();               ///< normal of the node's own cloud
   Vec<Dim> normal = Vec<Dim>::Zero();            ///< the mean over the nodes around, where that is asked for
   std::array<std::int32_t, 2> foremost{-1, -1};  ///< particles: of a furthest along the normal, of b back
-  double drift = 0;                              ///< what the fields have moved since, slides times 30, m
+  double drift{};                                ///< what the fields have moved since, slides times 30, m
   bool known = false;
   bool touches = false, doubted = false;  ///< as RawNormal
 };
@@ -79,13 +79,13 @@ struct Bridge {
   Vec<Dim> rate = Vec<Dim>::Zero();         ///< v_b − v_a at the start, m/s
   Vec<Dim> pulls = Vec<Dim>::Zero();        ///< what forces change of it, m/s²
   int a = -1, b = -1;                       ///< which of the node's fields
-  double inverse_a = 0, inverse_b = 0;      ///< of their masses, 1/kg; a rigid one has none
-  double own_area = 0, mean_area = 0;       ///< of the surface at the node: the lighter side's, the mean, m²
-  double area = 0;                          ///< that the springs have, m²
+  double inverse_a{}, inverse_b{};          ///< of their masses, 1/kg; a rigid one has none
+  double own_area{}, mean_area{};           ///< of the surface at the node: the lighter side's, the mean, m²
+  double area{};                            ///< that the springs have, m²
   Springs springs{};                        ///< there, where they are straight or a bond unharmed, N/m
   Vec<Dim> impulse = Vec<Dim>::Zero();      ///< Δp_a, N s
   Vec<Dim> friction = Vec<Dim>::Zero();     ///< of it: of friction where springs press
-  double friction_work = 0;                 ///< J, of this step
+  double friction_work{};                   ///< J, of this step
 };
 
 /// What lasts of a bond at an entry whose law breaks (kernels/contact/cohesive.hpp): how much of it is worn,
@@ -96,9 +96,9 @@ struct Bond {
   Vec<Dim> offset = Vec<Dim>::Zero();  ///< of that material from the node, cells
   double before = -1;                  ///< the way at the end of the last step; negative: none was here
   Vec<Dim> offset_before = Vec<Dim>::Zero();
-  double area = 0;        ///< of the surface at the node, also where it is broken, m²
-  double least_area = 0;  ///< with less, it has hardly any of the surface, and does as the nodes around, m²
-  double lost = 0;        ///< J, in this step
+  double area{};        ///< of the surface at the node, also where it is broken, m²
+  double least_area{};  ///< with less, it has hardly any of the surface, and does as the nodes around, m²
+  double lost{};        ///< J, in this step
   bool broken() const { return way >= 1; }
   bool follows() const { return area < least_area; }
 };
@@ -107,7 +107,7 @@ struct Bond {
 template <int Dim>
 struct BridgesAround {
   Vec<Dim> told = Vec<Dim>::Zero();
-  double own_area = 0, mean_area = 0;
+  double own_area{}, mean_area{};
   bool recalls = false;  ///< of jumps that the nodes have had
 };
 
@@ -120,7 +120,7 @@ struct ContactNode {
   int pair_begin;  ///< entries from here on are the explicit pairs of a node of three or more fields
   int rigid;       ///< which of its fields is the rigid one; −1: none
   int held_combination = -1;  ///< of its fields, see Conditions::Held
-  unsigned held_axes = 0;
+  unsigned held_axes{};
   bool constrained = false;  ///< by either: contact acts along what is left free
 };
 

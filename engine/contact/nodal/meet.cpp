@@ -52,7 +52,7 @@ int Contact<Dim>::partner(const State<Dim>& state, const ContactNode<Dim>& node,
   if (entry.b >= 0) return entry.b;
   if (node.rigid >= 0) return node.rigid;
   const double* volume = state.nodes.column(Nodal::volume);
-  int largest = -1;
+  int largest{};
   double most = -1;
   for (int k = 0; k < node.field_end - node.field_begin; ++k) {
     const double v = volume[list_.fields[static_cast<std::size_t>(node.field_begin + k)].slot];

@@ -85,7 +85,7 @@ NodeIndex<Dim> Penalty<Dim>::cell_of(const Vec<Dim>& x) const {
 template <int Dim>
 std::size_t Penalty<Dim>::bucket_of(const NodeIndex<Dim>& cell) const {
   constexpr std::uint32_t kPrimes[3] = {73856093u, 19349663u, 83492791u};
-  std::uint32_t hash = 0;
+  std::uint32_t hash{};
   for (int d = 0; d < Dim; ++d) hash ^= static_cast<std::uint32_t>(cell[d]) * kPrimes[d];
   hash ^= hash >> 15;
   return hash & (static_cast<std::uint32_t>(bucket_begin_.size()) - 2);

@@ -94,7 +94,7 @@ class Penalty {
   static constexpr int kHolds = 4;  ///< pieces that a point touches at once
   static constexpr int kNear = 8;   ///< pieces of a body within reach of a point
   struct Holds {
-    std::uint64_t step = 0;  ///< when they were
+    std::uint64_t step{};  ///< when they were
     std::array<Hold, kHolds> of;
   };
   struct Candidate;
@@ -131,7 +131,7 @@ class Penalty {
   struct Room {
     std::vector<Touch> touches;
     std::vector<Pushed> pushed;   ///< as touches
-    std::size_t pressed = 0;      ///< points that touch
+    std::size_t pressed{};        ///< points that touch
     std::vector<double> squared;  ///< m², of a listing: from each point to each middle
     std::vector<Around> around;   ///< of a listing, by body
     std::vector<Listing> listing;
@@ -201,7 +201,7 @@ class Penalty {
   std::vector<AnyLaw> laws_;  ///< the default, then those of ContactSpec::pairs
 
   std::vector<Vec<Dim>> now_, before_;            ///< positions by number of the point, m
-  double time_before_ = 0;                        ///< s
+  double time_before_{};                          ///< s
   std::vector<Holds> holds_;                      ///< by number
   std::vector<int> near_points_, near_facets_;    ///< that another field's nodes are near
   std::vector<std::uint8_t> is_near_, near_now_;  ///< by number

@@ -11,8 +11,8 @@ namespace mpmfast {
 
 struct Diagnostic {
   std::string file;
-  int line = 0, column = 0;  ///< 1-based; 0 when the file as a whole is meant
-  std::string path;          ///< dotted path of the key, e.g. materials.steel.young
+  int line{}, column{};  ///< 1-based; 0 when the file as a whole is meant
+  std::string path;      ///< dotted path of the key, e.g. materials.steel.young
   std::string message;
   std::string hint;  ///< e.g. "Did you mean 'GPa'?"; may be empty
 

@@ -13,8 +13,8 @@ namespace mpmfast {
 /// Where a piece of the scene was written: source 0 is the file, k the k-th override; then come included
 /// files.
 struct Place {
-  int line = 0, column = 0;  ///< 1-based
-  int source = 0;
+  int line{}, column{};  ///< 1-based
+  int source{};
 };
 
 class Problems {

@@ -49,7 +49,7 @@ std::optional<Node> parse_tree(const std::string& text, int source, Problems& pr
 
 /// What a node and all that is in it take.
 struct TreeSize {
-  std::size_t nodes = 0, text = 0, levels = 0;
+  std::size_t nodes{}, text{}, levels{};
 };
 TreeSize size_of(const Node& node);
 
