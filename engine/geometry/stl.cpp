@@ -139,16 +139,16 @@ class TextReader {
 
 /// Corners at the same place (to the bit) become one point; triangles without three corners are left out, as
 /// their neighbours meet where they were.
-struct Mesh {
+struct StlMesh {
   std::vector<Vec3> points;
   std::vector<Surface::Triangle> triangles;
 };
-Mesh join_corners(const Corners& corners) {
+StlMesh join_corners(const Corners& corners) {
   std::vector<std::uint32_t> order(corners.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = static_cast<std::uint32_t>(k);
   std::sort(order.begin(), order.end(),
             [&](std::uint32_t a, std::uint32_t b) { return corners[a] < corners[b]; });
-  Mesh mesh;
+  StlMesh mesh;
   std::vector<std::uint32_t> point_of(corners.size());
   for (const std::uint32_t k : order) {
     if (mesh.points.empty() || mesh.points.back() != corners[k]) mesh.points.push_back(corners[k]);
@@ -189,7 +189,7 @@ std::shared_ptr<const Surface> decode_stl(std::span<const unsigned char> bytes, 
     for (const double x : corners[k])
       if (!std::isfinite(x))
         return refuse(fmt::format("triangle {} has a corner at {} (finite numbers)", k / 3, x));
-  Mesh mesh = join_corners(corners);
+  StlMesh mesh = join_corners(corners);
   if (std::string fault = Surface::fault(mesh.points, mesh.triangles); !fault.empty())
     return refuse(std::move(fault));
   return std::make_shared<Surface>(std::move(mesh.points), std::move(mesh.triangles));

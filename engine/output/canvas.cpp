@@ -19,7 +19,7 @@
 namespace mpmfast {
 namespace {
 
-using Surface = CairoPointer<cairo_surface_t>;
+using CairoSurface = CairoPointer<cairo_surface_t>;
 
 constexpr double kFontSize = 18, kCapital = 0.73 * kFontSize;  // pixels
 constexpr double kPointsOfPixel = 0.5;                         // in a PDF: as wide as a page of text
@@ -45,16 +45,16 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned size) {
   }
 }
 
-Surface open_surface(int width, int height, PictureFormat format, std::string* bytes) {
+CairoSurface open_surface(int width, int height, PictureFormat format, std::string* bytes) {
   if (format == PictureFormat::png)
-    return Surface(
+    return CairoSurface(
         cairo_image_surface_create(CAIRO_FORMAT_RGB24, width * Canvas::kSamples, height * Canvas::kSamples));
   if (format == PictureFormat::svg) {
-    Surface surface(cairo_svg_surface_create_for_stream(append, bytes, width, height));
+    CairoSurface surface(cairo_svg_surface_create_for_stream(append, bytes, width, height));
     cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
     return surface;
   }
-  Surface surface(
+  CairoSurface surface(
       cairo_pdf_surface_create_for_stream(append, bytes, width * kPointsOfPixel, height * kPointsOfPixel));
   // Of one run always the same bytes.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
@@ -261,7 +261,7 @@ void Canvas::write(const std::filesystem::path& path) {
     const std::vector<std::uint8_t> rgb = pixels();
     std::vector<unsigned char> pixel(rgb.size() / 3 * 4);
     for (std::size_t k = 0; k < rgb.size(); ++k) pixel[k / 3 * 4 + kRedGreenBlue[k % 3]] = rgb[k];
-    const Surface surface(
+    const CairoSurface surface(
         cairo_image_surface_create_for_data(pixel.data(), CAIRO_FORMAT_RGB24, width_, height_, 4 * width_));
     require(cairo_surface_write_to_png_stream(surface.get(), append, bytes_.get()));
   } else {

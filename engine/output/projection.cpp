@@ -13,7 +13,7 @@ namespace {
 constexpr double kAzimuth = 0.6, kElevation = 0.45;  // rad, of the eye from −y and above the horizon
 constexpr double kLeastMargin = 0.14;                // of the longer side of the view, beside the box
 constexpr double kMostBox = 700;  // pixels of a picture's side with its own margins and a bar taken off
-constexpr Colour kEdge{170, 170, 170}, kInk{30, 30, 30};
+constexpr Colour kBoxEdge{170, 170, 170}, kLabelInk{30, 30, 30};
 
 /// Corner c has the upper coordinate along axis d where bit d is set.
 Vec<3> corner(const Vec<3>& lower, const Vec<3>& upper, int c) {
@@ -62,7 +62,7 @@ void ViewBox::draw_edges(Picture& picture) const {
     for (int d = 0; d < 3; ++d)
       if ((c >> d & 1) == 0)
         picture.canvas().line(place(picture, corner(lower_, upper_, c)),
-                              place(picture, corner(lower_, upper_, c | 1 << d)), 1.5, kEdge);
+                              place(picture, corner(lower_, upper_, c | 1 << d)), 1.5, kBoxEdge);
 }
 
 std::vector<ViewBox::Label> ViewBox::labels() const {
@@ -94,7 +94,7 @@ std::vector<ViewBox::Label> ViewBox::labels() const {
 void ViewBox::draw_labels(Picture& picture) const {
   for (const Label& label : labels()) {
     const PixelPoint p = place(picture, label.at);
-    picture.canvas().text({p.x + label.shift.x, p.y + label.shift.y}, label.align, label.text, kInk);
+    picture.canvas().text({p.x + label.shift.x, p.y + label.shift.y}, label.align, label.text, kLabelInk);
   }
 }
 

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int refuse(const std::string& what) {
+int refuse_to_make(const std::string& what) {
   complain("mpmfast: {}\n", what);
   return kExitWrongInput;
 }
@@ -101,18 +101,18 @@ int new_command(const CommandLine& line) {
   }
   if (!starter) {
     const std::string hint = did_you_mean(kind, known);
-    return refuse(fmt::format("--like: not known here (one of {}), got '{}'{}", fmt::join(known, ", "), kind,
-                              hint.empty() ? "" : ". " + hint));
+    return refuse_to_make(fmt::format("--like: not known here (one of {}), got '{}'{}",
+                                      fmt::join(known, ", "), kind, hint.empty() ? "" : ". " + hint));
   }
   const auto file = file_of(line.scene);
   if (!file)
-    return refuse(
+    return refuse_to_make(
         fmt::format("not a name for a scene (such as impact or scenes/impact), got '{}'", line.scene));
   const std::vector<NewFile> files = files_of(*starter, *file);
   for (const NewFile& one : files) {
     std::error_code error;
     if (!line.force && fs::exists(fs::symlink_status(one.path, error)))
-      return refuse(fmt::format("{} exists (--force replaces it)", one.path.string()));
+      return refuse_to_make(fmt::format("{} exists (--force replaces it)", one.path.string()));
   }
   for (const NewFile& one : files) write_aside(one.path, one.text);
   print_next(files);

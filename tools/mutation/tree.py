@@ -55,7 +55,7 @@ class Tree:
     def configure(self):
         """Configures the build, once."""
         self.run(["cmake", "-S", self.tree, "-B", self.bin, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=None",
-                  f"-DCMAKE_CXX_FLAGS={FLAGS}", "-DMPMFAST_PRECOMPILE=ON", "-DMPMFAST_BENCH=OFF"], check=True)
+                  f"-DCMAKE_CXX_FLAGS={FLAGS}", "-DMPMFAST_PRECOMPILE=ON", "-DMPMFAST_UNITY=ON", "-DMPMFAST_BENCH=OFF"], check=True)
 
     def run(self, command, check=False):
         """Runs a command of the build; its output goes to the log, and is returned."""

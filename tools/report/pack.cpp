@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kQuick = 1, kThorough = 6;  // 9 takes three times as long for 1 % less
 
-std::string deflated(std::string_view bytes, int effort) {
+std::string deflated_at(int effort, std::string_view bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   std::string out(size, '\0');
   if (compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
@@ -111,7 +111,7 @@ Packed pack_levels(const std::vector<std::uint16_t>& levels, std::size_t width, 
   for (int time = 0; time <= (frames > 1 ? 2 : 0); ++time)
     for (int space = 0; space <= 1; ++space) {
       const Packed how{time, space, ""};
-      const std::size_t size = deflated(as_bytes(differences(sample, width, how), bits), kQuick).size();
+      const std::size_t size = deflated_at(kQuick, as_bytes(differences(sample, width, how), bits)).size();
       if (size >= least) continue;
       least = size;
       best = how;
@@ -120,7 +120,7 @@ Packed pack_levels(const std::vector<std::uint16_t>& levels, std::size_t width, 
   return best;
 }
 
-std::string deflated(std::string_view bytes) { return deflated(bytes, kThorough); }
+std::string deflated(std::string_view bytes) { return deflated_at(kThorough, bytes); }
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
