@@ -21,7 +21,10 @@ bool meet(const Point2& a, const Point2& b, const Point2& c, const Point2& d) {
 
 bool crosses_itself(const std::vector<Point2>& points) {
   for (std::size_t k = 1; k < points.size(); ++k) {
-    if (k + 1 < points.size() && between(points[k - 1], points[k], points[k + 1])) return true;  // back again
+    const auto back = [&](std::size_t from, std::size_t to) {
+      return between(points[from], points[k], points[to]);
+    };
+    if (k + 1 < points.size() && (back(k - 1, k + 1) || back(k + 1, k - 1))) return true;
     for (std::size_t m = 1; m + 1 < k; ++m)
       if (meet(points[m - 1], points[m], points[k - 1], points[k])) return true;
   }

@@ -33,12 +33,10 @@ bool all_digits(std::string_view text) {
   return std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+/// Of space, whose names hold those of the plane.
 bool is_field(std::string_view text) {
-  for (const int dimension : {2, 3}) {
-    const std::vector<std::string> known = field_names(dimension);
-    if (std::find(known.begin(), known.end(), text) != known.end()) return true;
-  }
-  return false;
+  const std::vector<std::string> known = field_names(3);
+  return std::find(known.begin(), known.end(), text) != known.end();
 }
 
 /// plot_energy.svg and the like; its script may have been edited.

@@ -20,6 +20,9 @@ namespace mpmfast {
 
 namespace {
 
+/// A whole number that is no less, but for round-off.
+double whole_above(double number) { return std::ceil(number - 1e-6); }
+
 /// Pairs of bodies at one place, a particle, beyond which no step is tried: some 64 bodies in a cell. Contact
 /// would take seconds and gigabytes for each.
 constexpr double kMostPairsTried = 8;
@@ -117,10 +120,10 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
       in_mebibytes(state.nodes.bytes()), in_mebibytes(state.tiling.bytes()), in_mebibytes(program));
   const std::string below = "\n" + std::string(18, ' ');
   if (step.plan().contact)
-    text +=
-        below +
-        fmt::format("{} of contact, should two fifths of the surfaces meet others ({:.0f} nodes; {} now),",
-                    in_mebibytes(contact.bytes), contact.nodes, step.contact_list().nodes.size());
+    text += below +
+            fmt::format(
+                "{} of contact, should two fifths of the surfaces meet others ({:.0f} nodes; {} now),",
+                in_mebibytes(contact.bytes), whole_above(contact.nodes), step.contact_list().nodes.size());
   if (surfaces > 0)
     text += below + fmt::format("{} of surfaces and what is near them now,", in_mebibytes(surfaces));
   if (extension > 0) text += below + fmt::format("{} of the extension of splines,", in_mebibytes(extension));

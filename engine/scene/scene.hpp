@@ -327,34 +327,17 @@ struct Scene {
 };
 
 /// Volume of a grid cell, m³.
-inline double cell_volume(const Scene& scene) {
-  const double h = scene.grid.cell;
-  return scene.dimension() == 3 ? h * h * h : h * h * scene.thickness;
-}
-
+double cell_volume(const Scene& scene);
 /// Density of the undeformed material, kg/m³.
-inline double density_of(const MaterialSpec& material) {
-  return std::visit([](const auto& law) { return law.density; }, material.model);
-}
-
+double density_of(const MaterialSpec& material);
 /// Is the body made of a rigid material?
-inline bool is_rigid(const Scene& scene, const BodySpec& body) {
-  return std::holds_alternative<Rigid>(scene.materials[static_cast<std::size_t>(body.material)].model);
-}
-
+bool is_rigid(const Scene& scene, const BodySpec& body);
 /// Do the particles of a body leave each other by its law?
-inline bool parts(const Scene& scene, const BodySpec& body) {
-  return std::visit(
-      []<class Law>(const Law&) {
-        return requires { Law::kParts; };
-      },
-      scene.materials[static_cast<std::size_t>(body.material)].model);
-}
-
+bool parts(const Scene& scene, const BodySpec& body);
+/// Is the body the right half of a shape that lies across the axis of an axisymmetric scene? A box begins
+/// there.
+bool is_halved(const Scene& scene, const BodySpec& body);
 /// The particles that fill a body.
-inline Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension) {
-  const CellLattice lattice{grid.origin, grid.size, grid.cell, body.particles_per_cell};
-  return fill(body.shape, body.seeding, lattice, dimension);
-}
+Seeds fill(const BodySpec& body, const GridSpec& grid, int dimension);
 
 }  // namespace mpmfast

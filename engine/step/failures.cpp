@@ -92,12 +92,12 @@ void Step<Dim>::fail(const char* otherwise) const {
     if (p == none)  // they are too far apart for a distance
       p = static_cast<std::size_t>(std::find(broken.begin(), broken.end(), true) - broken.begin());
     std::string cause = fmt::format("not a number any more ({})", not_finite(particles, p));
-    if (count > 1) cause += fmt::format(", nor are {} particles around it", count - 1);
+    if (count == 2) cause += ", nor is one particle around it";
+    if (count > 2) cause += fmt::format(", nor are {} particles around it", count - 1);
     fail_at(p, cause);
   }
-  const bool strained = particles.has(Quantity::deformation_gradient);
   const auto volume = [&](std::size_t p) {
-    return strained && !state_.bodies[particles.body()[p]].rigid ? particles.volume_ratio(p) : 1.0;
+    return !state_.bodies[particles.body()[p]].rigid ? particles.volume_ratio(p) : 1.0;
   };
   if (const std::size_t p = least(particles, std::numeric_limits<double>::min(), volume); p != none)
     fail_at(p, fmt::format("its volume became zero or negative (J = {:.3g})", volume(p)));
@@ -111,7 +111,7 @@ void Step<Dim>::fail(const char* otherwise) const {
                            other_ways_to_leave(scene_->grid)));
   if (!particles.has(Quantity::domain_edges) || particles.size() == 0)
     throw RunFailure(fmt::format("step {}, time {:.9g} s: {}", state_.step, state_.time, otherwise));
-  std::size_t widest = least(particles, kNever, [&](std::size_t p) {
+  const std::size_t widest = least(particles, kNever, [&](std::size_t p) {
     double squared = 0;
     for (int e = 0; e < Dim * Dim; ++e) {
       const double edge = particles.column(Quantity::domain_edges, e)[p];
@@ -119,7 +119,6 @@ void Step<Dim>::fail(const char* otherwise) const {
     }
     return -std::min(squared, std::numeric_limits<double>::max());
   });
-  if (widest == none) widest = 0;
   fail_at(widest, fmt::format("{}; of all domains its own is the largest", otherwise));
 }
 
@@ -139,7 +138,7 @@ void Step<Dim>::fail_collapsed(double dt, double share) const {
     throw RunFailure(fmt::format("step {}, time {:.9g} s: {}", state_.step, state_.time, what));
   fail_at(p, fmt::format("{}{}: its waves run at {:.4g} m/s, it moves at {:.4g} m/s, J = {:.3g}", what,
                          share < 1 ? " (time.collapse)" : "", wave_speed[p], speed(p),
-                         particles.has(Quantity::deformation_gradient) ? particles.volume_ratio(p) : 1.0));
+                         particles.volume_ratio(p)));
 }
 
 template <int Dim>

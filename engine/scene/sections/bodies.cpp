@@ -11,6 +11,8 @@ namespace mpmfast {
 
 namespace {
 
+std::string_view article_of(std::string_view shape) { return shape[0] == 'e' || shape == "stl" ? "an" : "a"; }
+
 /// A body has one of them.
 KeyGroups shape_keys() {
   KeyGroups groups;
@@ -46,14 +48,14 @@ void report_shapes(Keys& map) {
     map.report(fmt::format("a body needs a shape (one of {})", fmt::join(names_of(shape_kinds()), ", ")));
   else
     map.check(chosen[1], [&](Slot& slot) {
-      slot.report(fmt::format("a body has one shape, and it is already a {}", chosen[0]));
+      slot.report(
+          fmt::format("a body has one shape, and it is already {} {}", article_of(chosen[0]), chosen[0]));
     });
 }
 
 void describe_shape(Slot& slot, const ShapeKind& kind, const Scene& scene, BodyEntry& entry) {
   if (slot.reads() && !fits(kind, scene.dimension())) {
-    const bool vowel = kind.name[0] == 'e' || std::string_view(kind.name) == "stl";
-    slot.report(fmt::format("{} {} exists in {}-D only", vowel ? "an" : "a", kind.name, kind.dimension),
+    slot.report(fmt::format("{} {} exists in {}-D only", article_of(kind.name), kind.name, kind.dimension),
                 counterpart(kind));
     return;
   }

@@ -182,11 +182,7 @@ class Boundaries {
   }
 
   void describe_nodes_in(Slot& slot, VelocityBoxSpec& spec) const {
-    describe_corners(slot, scene_.dimension(), spec.lower, spec.upper);
-    const bool good = slot.reads() && slot.good();
-    for (std::size_t k = 0; good && k < 3; ++k)
-      if (spec.lower[k] > spec.upper[k])  // equal is a row of nodes
-        slot.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
+    describe_region(slot, scene_.dimension(), spec.lower, spec.upper);
   }
 
   bool grid_known_;

@@ -11,15 +11,12 @@ namespace mpmfast {
 
 namespace {
 
-/// Particles may only lie in the grid. A shape across the axis of an axisymmetric scene is its right half; a
-/// box can begin there.
+/// Particles may only lie in the grid.
 void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
   const Bounds box = bounds(body.shape);
   const double slack = 1e-6 * scene.grid.cell;
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
-    const bool halved = k == 0 && scene.space == Space::axisymmetric && scene.grid.origin[0] == 0 &&
-                        !std::holds_alternative<BoxShape>(body.shape);
-    const double below = halved ? 0 : scene.grid.origin[k] - box.lower[k];
+    const double below = k == 0 && is_halved(scene, body) ? 0 : scene.grid.origin[k] - box.lower[k];
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
     const auto report = [&](double by, const char* where) {
       const double size = scene.grid.size[k];

@@ -30,7 +30,8 @@ void check_bodies_behind(const Value& value, const BoundarySpec& boundary, const
   for (const BodySpec& body : scene.bodies) {
     if (is_rigid(scene, body) || std::holds_alternative<BitmapShape>(body.shape)) continue;
     const Bounds box = bounds(body.shape);
-    const double behind = wall.upper ? box.upper[axis] - wall.position : wall.position - box.lower[axis];
+    const double lower = axis == 0 && is_halved(scene, body) ? std::max(box.lower[0], 0.0) : box.lower[axis];
+    const double behind = wall.upper ? box.upper[axis] - wall.position : wall.position - lower;
     if (behind > (1 + 1e-6) * scene.grid.cell)
       value.report(fmt::format("body '{}' reaches {:.6g} m behind the {} wall, which is at {} = {:.6g} m",
                                body.name, behind, boundary.name, "xyz"[axis], wall.position));

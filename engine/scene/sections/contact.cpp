@@ -140,7 +140,7 @@ void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   describe_pairs(map, top, scene);
   map.at("crack", "Cohesive laws: surfaces in this box are not bonded at the start.", [&](Slot& slot) {
     if (slot.writes() && !contact.cracked) return;
-    describe_corners(slot, scene.dimension(), contact.crack_lower, contact.crack_upper);
+    describe_region(slot, scene.dimension(), contact.crack_lower, contact.crack_upper);
     contact.cracked = true;
   });
 }

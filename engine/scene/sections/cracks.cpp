@@ -114,10 +114,10 @@ void check_crack(Slot& slot, const Scene& scene, const CrackSpec& crack) {
   if (std::any_of(scene.bodies.begin(), scene.bodies.end(), shares))
     slot.report(
         fmt::format("'{}' shares its velocity field with other bodies, which it would part too", body.name));
-  if (crack.spacing > scene.grid.cell || crack.spacing < kFinest * scene.grid.cell)
-    slot.report(
-        fmt::format("a spacing of a hundredth of a cell to a cell ({} m) was expected", scene.grid.cell));
-  else if (length_of(crack.points) / crack.spacing > kMost)
+  const double cell = scene.grid.cell;  // 0 where the grid has a fault of its own
+  if (cell > 0 && (crack.spacing > cell || crack.spacing < kFinest * cell))
+    slot.report(fmt::format("a spacing of a hundredth of a cell to a cell ({} m) was expected", cell));
+  else if (cell > 0 && length_of(crack.points) / crack.spacing > kMost)
     slot.report("a crack of at most a million points was expected");
   if (!runs_through(body.shape, crack.points))
     slot.report(fmt::format("no part of it lies in '{}'", body.name));

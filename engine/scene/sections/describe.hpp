@@ -56,6 +56,8 @@ void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction);
 void take_unit_vector(Slot& slot, int dimension, Vec3& direction);
 /// {from, to}: the corners of a box along the axes.
 void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper);
+/// The same, of which `to` may lie beside `from`, as of a row of nodes, but not below.
+void describe_region(Slot& slot, int dimension, Vec3& lower, Vec3& upper);
 /// Points in the plane, at least so many. @return whether they are read and good
 bool take_points(Slot& slot, int least, const char* expected, std::vector<std::array<double, 2>>& points);
 /// A path as written; made absolute from the folder of the scene where it is read.

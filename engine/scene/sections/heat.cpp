@@ -64,10 +64,7 @@ void describe_condition(Slot& slot, const Scene& scene, HeatConditionSpec& condi
            [&](Keys& map) {
              if (!face)
                map.need_at("box", "All nodes in this box.", "a map {from, to}", [&](Slot& box) {
-                 describe_corners(box, scene.dimension(), condition.lower, condition.corner);
-                 for (std::size_t k = 0; box.reads() && box.good() && k < 3; ++k)
-                   if (condition.lower[k] > condition.corner[k])
-                     box.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
+                 describe_region(box, scene.dimension(), condition.lower, condition.corner);
                });
              describe_value(map, condition);
            });

@@ -33,6 +33,13 @@ void describe_corners(Slot& slot, int dimension, Vec3& lower, Vec3& upper) {
   });
 }
 
+void describe_region(Slot& slot, int dimension, Vec3& lower, Vec3& upper) {
+  describe_corners(slot, dimension, lower, upper);
+  const bool good = slot.reads() && slot.good();
+  for (std::size_t k = 0; good && k < 3; ++k)
+    if (lower[k] > upper[k]) slot.report(fmt::format("'to' lies below 'from' in {}", "xyz"[k]));
+}
+
 namespace {
 
 void describe_box(Slot& slot, Shape& shape, const Scene& scene) {
