@@ -67,6 +67,7 @@ TEST_CASE("a line that crosses or touches itself is found") {
   CHECK(crosses_itself({{0, 0}, {2, 0}, {2, 2}, {1, -1}}));
   CHECK(crosses_itself({{0, 0}, {2, 0}, {2, 2}, {1, 0}}));  // touches
   CHECK(crosses_itself({{0, 0}, {2, 0}, {1, 0}}));          // back over itself
+  CHECK(crosses_itself({{0, 0}, {1, 0}, {-1, 0}}));         // and past where it began
   CHECK(crosses_itself({{0, 0}, {1, 0}, {1, 1}, {0, 0}}));  // closed
 }
 
