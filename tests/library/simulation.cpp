@@ -232,4 +232,122 @@ TEST_CASE("run.json of a library's run has its settings as --set would give them
   CHECK(json.find("\"bodies.0.velocity=[3, 1]\"") != std::string::npos);
 }
 
+/// Two blocks that yield, rub and lose bonds under a ram and gravity.
+const char* const kWorked = R"(
+space: plane_strain
+grid: {size: [10 mm, 10 mm], cell: 1 mm}
+time: {end: 20 us}
+materials:
+  metal: {model: j2_plasticity, density: 2 g/cm^3, bulk: 50 MPa, shear: 30 MPa, yield: 50 kPa}
+bodies:
+  - {name: left, box: {from: [1 mm, 2 mm], to: [5 mm, 6 mm]}, material: metal, velocity: [20, 3]}
+  - {name: right, box: {from: [5 mm, 2 mm], to: [9 mm, 6 mm]}, material: metal}
+boundaries:
+  right: {piston: 1 m/s, direction: left}
+gravity: [0, -1000]
+contact:
+  {law: cohesive, shape: triangular, normal_strength: 10 kPa, shear_strength: 10 kPa,
+   normal_toughness: 0.001 J/m^2, shear_toughness: 0.001 J/m^2, friction: 0.3}
+output: {frames: 0, picture: none}
+)";
+
+double of_history(Simulation& simulation, const std::string& name) {
+  const std::vector<std::string> names = simulation.history_columns();
+  const std::vector<double> numbers = simulation.history();
+  REQUIRE(names.size() == numbers.size());
+  const auto found = std::find(names.begin(), names.end(), name);
+  REQUIRE(found != names.end());
+  return numbers[static_cast<std::size_t>(found - names.begin())];
+}
+
+TEST_CASE("energies are those of the history, and what was dissipated has the bonds' share") {
+  Simulation simulation = Simulation::from_text(kWorked);
+  simulation.advance_to(simulation.end());
+  const Energies e = simulation.energies();
+  CHECK(e.kinetic == of_history(simulation, "kinetic_J"));
+  CHECK(e.stored == of_history(simulation, "stored_J"));
+  CHECK(e.friction == of_history(simulation, "friction_J"));
+  CHECK(e.boundary_work == of_history(simulation, "boundary_work_J"));
+  CHECK(e.body_force_work == of_history(simulation, "body_force_work_J"));
+  const double plastic = of_history(simulation, "dissipated_J"),
+               bonds = of_history(simulation, "interface_J");
+  CHECK(plastic > 0);
+  CHECK(bonds > 0);
+  CHECK(e.dissipated == plastic + bonds);
+  CHECK(e.body_force_work != 0);
+  CHECK(e.boundary_work != 0);
+}
+
+TEST_CASE("a row of the history is of the step that was taken last, and its forces since the row before") {
+  Simulation simulation = Simulation::from_text(kWorked);
+  CHECK(of_history(simulation, "dt_s") == 0);
+  const double dt = 0.5 * simulation.stable_dt();
+  simulation.advance(dt);
+  simulation.advance(dt);
+  CHECK(simulation.steps() == 2);
+  CHECK(simulation.time() == doctest::Approx(2 * dt));
+  CHECK(of_history(simulation, "dt_s") == dt);
+  CHECK(of_history(simulation, "step") == 2);
+  CHECK(of_history(simulation, "time_s") == simulation.time());
+  const double last = simulation.step();
+  CHECK(of_history(simulation, "dt_s") == last);
+}
+
+TEST_CASE("columns are named after their quantities and components, in the plane and in space") {
+  const auto names_of = [](const Simulation& simulation, const std::string& quantity) {
+    std::string out;
+    for (const std::string& name : simulation.columns())
+      if (name == quantity || name.rfind(quantity + ".", 0) == 0) out += name.substr(quantity.size()) + " ";
+    return out;
+  };
+  const Simulation plane = Simulation::from_text(kWorked);
+  CHECK(plane.dimension() == 2);
+  CHECK(names_of(plane, "position") == ".x .y ");
+  CHECK(names_of(plane, "deformation_gradient") == ".xx .xy .yx .yy ");
+  CHECK(names_of(plane, "kirchhoff_stress") == ".xx .yy .zz .xy ");
+  CHECK(names_of(plane, "elastic_strain") == ".xx .yy .zz .xy ");
+  CHECK(names_of(plane, "mass") == " ");
+  const Simulation space = Simulation::from_text(R"(
+space: 3d
+grid: {size: [4 mm, 4 mm, 4 mm], cell: 1 mm}
+time: {end: 1 us}
+materials:
+  metal: {model: j2_plasticity, density: 2 g/cm^3, bulk: 50 MPa, shear: 30 MPa, yield: 50 kPa}
+bodies:
+  - {name: cube, box: {from: [1 mm, 1 mm, 1 mm], to: [3 mm, 3 mm, 3 mm]}, material: metal}
+output: {frames: 0, picture: none}
+)");
+  CHECK(space.dimension() == 3);
+  CHECK(space.particles() == 64);
+  CHECK(names_of(space, "position") == ".x .y .z ");
+  CHECK(names_of(space, "deformation_gradient") == ".xx .xy .xz .yx .yy .yz .zx .zy .zz ");
+  CHECK(names_of(space, "kirchhoff_stress") == ".xx .yy .zz .xy .yz .xz ");
+  CHECK(names_of(space, "elastic_strain") == ".xx .yy .zz .xy .yz .xz ");
+}
+
+TEST_CASE("spans show each particle once with its body, and a push from outside is work of body forces") {
+  Simulation simulation = Simulation::from_text(kWorked);
+  const std::size_t n = simulation.particles();
+  CHECK(n == 2 * 64);
+  CHECK(simulation.ids().size() == n);
+  CHECK(simulation.bodies().size() == n);
+  CHECK(simulation.body_names() == std::vector<std::string>{"left", "right"});
+  std::vector<bool> seen(n);
+  for (std::size_t p = 0; p < n; ++p) {
+    seen[simulation.ids()[p]] = true;
+    CHECK(simulation.bodies()[p] == (simulation.column("position.x")[p] < 5e-3 ? 0 : 1));
+  }
+  CHECK(std::all_of(seen.begin(), seen.end(), [](bool s) { return s; }));
+  const double before = simulation.energies().kinetic;
+  std::vector<double> change(n);
+  for (std::size_t p = 0; p < n; ++p) change[p] = 0.1 * static_cast<double>(p);
+  const std::vector<double> old(simulation.column("velocity.y").begin(),
+                                simulation.column("velocity.y").end());
+  simulation.add_velocity(1, change);
+  for (std::size_t p = 0; p < n; ++p) CHECK(simulation.column("velocity.y")[p] == old[p] + change[p]);
+  const Energies after = simulation.energies();
+  CHECK(after.kinetic > before);
+  CHECK(after.body_force_work == doctest::Approx(after.kinetic - before));
+}
+
 }  // namespace

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -76,6 +77,21 @@ TEST_CASE("a program without a standard input opens and makes files, and looks i
     REQUIRE(dup2(input, 0) == 0);
     close(input);
   }
+}
+
+TEST_CASE("a file ends where it ends, whatever call of the system was interrupted before") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "file";
+  const Descriptor file = Descriptor::create(path);
+  file.write_at("seven", 0, path);
+  file.write_at("ty", 5, path);
+  std::string text(9, '-');
+  errno = EINTR;
+  CHECK(file.read_at(text.data(), 9, 0, path) == 7);
+  CHECK(text == "seventy--");
+  CHECK(file.read_at(text.data(), 9, 7, path) == 0);
+  CHECK(file.read_at(text.data(), 2, 3, path) == 2);
+  CHECK(text == "enventy--");
 }
 
 TEST_CASE("an object of HDF5 is closed once, by the last handle that had it, whatever its number") {
