@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "engine/contact/cracks/cracks.hpp"
 #include "engine/contact/contact_basis.hpp"
+#include "engine/contact/cracks/cracks.hpp"
 #include "engine/heat/carrier.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"

@@ -10,30 +10,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "engine/output/canvas.hpp"
+#include "tests/random.hpp"
 #include "tests/unit/output_fixture.hpp"
 
 using namespace output_test;
+using mpmfast::test::Random;
 
 namespace {
 
 constexpr int kWidth = 30, kHeight = 22, kSide = Canvas::kSamples;
 constexpr Colour kBlue{40, 90, 200}, kGreen{20, 160, 31};
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 struct Polygon {
   std::vector<PixelPoint> corners;

@@ -6,30 +6,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <random>
 #include <set>
 #include <utility>
 #include <vector>
 
 #include "engine/output/first_overlaps.hpp"
 #include "engine/output/overlap.hpp"
+#include "tests/random.hpp"
 #include "tests/unit/output_fixture.hpp"
 
 using namespace output_test;
+using mpmfast::test::Random;
 
 namespace {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 std::vector<Vec<2>> corners_of(const ParticleDomain& domain) {
   std::vector<Vec<2>> out;

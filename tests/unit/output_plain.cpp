@@ -11,30 +11,19 @@
 #include <cstring>
 #include <limits>
 #include <map>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "engine/output/particle_access.hpp"
 #include "engine/output/read_frame.hpp"
 #include "engine/output/read_vtu.hpp"
+#include "tests/random.hpp"
 #include "tests/unit/output_fixture.hpp"
 
 using namespace output_test;
+using mpmfast::test::Random;
 
 namespace {
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(engine_() % n); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Every column with random values, ids in any order: 0 … n − 1, or with gaps.
 template <int Dim>

@@ -7,28 +7,18 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "engine/output/cover.hpp"
 #include "engine/output/scales.hpp"
+#include "tests/random.hpp"
 
 namespace mpmfast {
 namespace {
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
-
- private:
-  std::mt19937_64 engine_;
-};
+using test::Random;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN(),
                  kInfinity = std::numeric_limits<double>::infinity();

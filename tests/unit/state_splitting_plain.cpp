@@ -6,31 +6,19 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "engine/plan/seed.hpp"
 #include "engine/state/splitting.hpp"
+#include "tests/random.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
 namespace {
 
 using namespace test;
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(engine_() % n); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Two bodies whose domains differ, and one that is not split; of metals, whose state has many columns.
 Scene three_bodies(const std::string& space, const std::string& rest) {

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,6 +16,7 @@
 #include "engine/contact/nodal/list.hpp"
 #include "engine/plan/seed.hpp"
 #include "engine/step/crowding.hpp"
+#include "tests/random.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -26,18 +26,6 @@ using namespace test;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN(),
                  kInfinity = std::numeric_limits<double>::infinity();
-
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double in(double lower, double upper) {
-    return lower + (upper - lower) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(engine_() % n); }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 /// Two blocks of one velocity field and one of another, off the origin, with metals' columns.
 Scene three_blocks(int dimension, const std::string& basis) {
