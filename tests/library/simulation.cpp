@@ -232,7 +232,7 @@ TEST_CASE("run.json of a library's run has its settings as --set would give them
   CHECK(json.find("\"bodies.0.velocity=[3, 1]\"") != std::string::npos);
 }
 
-/// Two blocks that yield, rub and lose bonds under a ram and gravity.
+/// Two blocks that yield, slide with friction and lose bonds under a ram and gravity.
 const char* const kWorked = R"(
 space: plane_strain
 grid: {size: [10 mm, 10 mm], cell: 1 mm}
