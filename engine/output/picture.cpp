@@ -89,6 +89,9 @@ Sides sides_for(const Labels& labels, const Range& x, const Range& y, double sca
   return sides;
 }
 
+/// Round-off makes no pixel more.
+int whole_pixels(double length) { return static_cast<int>(std::ceil(length - 1e-6)); }
+
 }  // namespace
 
 double Picture::Layout::top() const { return top_of(lines); }
@@ -110,7 +113,7 @@ Picture::Layout Picture::make_layout(Range x, Range y, const Labels& labels) {
     fit();
     sides = sides_for(labels, layout.x, layout.y, layout.scale);
   }
-  layout.width = static_cast<int>(std::ceil(layout.left + layout.x.width() * layout.scale + layout.right));
+  layout.width = whole_pixels(layout.left + layout.x.width() * layout.scale + layout.right);
   const double room = layout.width - 2 * kMargin;
   const PictureText& longest = labels.longest;
   layout.note_below =
@@ -118,7 +121,7 @@ Picture::Layout Picture::make_layout(Range x, Range y, const Labels& labels) {
   layout.title_lines = text_lines(longest.title, room, kMostTitleLines).size();
   layout.lines = layout.title_lines + text_lines(longest.subtitle, room, kMostTitleLines).size();
   if (layout.note_below) layout.lines += text_lines(longest.note, room, kMostTitleLines).size();
-  layout.height = static_cast<int>(std::ceil(layout.top() + layout.y.width() * layout.scale + kBottom));
+  layout.height = whole_pixels(layout.top() + layout.y.width() * layout.scale + kBottom);
   return layout;
 }
 

@@ -144,8 +144,8 @@ bool same_item(const Item& a, const Item& b) {
   if (a.is_text) return same_text(a, b);
   for (std::size_t k = 0; k < a.numbers.size(); ++k) {
     double most = kRounding;
-    if (k < a.outline) most = 0.4;                  // a 255th, in per cent
-    if (a.words.starts_with("svg ")) most = 1.001;  // whole pixels, rounded up
+    if (k < a.outline) most = 0.4;              // a 255th, in per cent
+    if (a.words.starts_with("svg ")) most = 0;  // whole pixels
     if (std::abs(a.numbers[k] - b.numbers[k]) > most) return false;
   }
   return true;
