@@ -23,7 +23,8 @@ namespace mpmfast {
 ///
 /// The steps are those of ContactsTogether, contacts in the order of their fields: sweeps, and leaps between
 /// them, each lane until its own node has settled. A lane does the same whatever stands in the others. Nodes
-/// that do not settle within a few sweeps, one in a hundred, are left to ContactsTogether, from the start.
+/// that do not settle within a few sweeps are left to ContactsTogether, from the start: one in a hundred of
+/// pressed grains in the plane, most of random nodes of four and more fields in space.
 template <int Dim, int kFields>
 class NodesTogether {
  public:
