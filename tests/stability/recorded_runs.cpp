@@ -942,7 +942,6 @@ MPMFAST_RUN(
     "contact={law: stick, jumps: integrated, area: nodal_volume, pairs: [{between: [low, drawn], friction: "
     "0.2}, {materials: [hard, hard], law: ignore}]}; method={basis: ugimp, update: xpic(2)}")
 MPMFAST_RUN("law stick/joined3", 10, "joined3.yaml", "contact={law: stick}")
-MPMFAST_RUN("law stick/axisymmetric", 30, "joined_axis.yaml", "contact={law: stick}")
 MPMFAST_RUN("law stick/corner", 12, "corner.yaml", "contact={law: stick}")
 MPMFAST_RUN("law stick/crack", 24, "crack.yaml",
             "contact.friction=0.1; cracks.0={name: slit, body: plate, line: [[1 mm, 9.2 mm], [6 mm, 9.7 mm], "
