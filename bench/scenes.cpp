@@ -46,7 +46,7 @@ method: {basis: ugimp, update: flip}
 /// @param count_work reports the least bytes and flops of a step: of neo-Hookean particles without contact
 template <int Dim, class Prepare>
 void time_steps(benchmark::State& state, const Scene& scene, Prepare prepare, bool count_work = false) {
-  std::array<double, kPassNames.size()> seconds{};
+  std::array<double, kTimerNames.size()> seconds{};
   double particles = 0, contact_nodes = 0, regressions = 0, total = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -81,7 +81,7 @@ void time_steps(benchmark::State& state, const Scene& scene, Prepare prepare, bo
   state.counters["contact_nodes"] = contact_nodes;
   state.counters["regressions/s"] = benchmark::Counter(regressions, benchmark::Counter::kIsRate);
   for (std::size_t pass = 0; pass < seconds.size(); ++pass)
-    state.counters["%" + std::string(kPassNames[pass])] = 100 * seconds[pass] / total;
+    state.counters["%" + std::string(kTimerNames[pass])] = 100 * seconds[pass] / total;
 }
 
 template <int Dim>

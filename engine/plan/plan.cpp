@@ -5,6 +5,7 @@
 
 #include "engine/plan/contact_law.hpp"
 #include "engine/plan/materials.hpp"
+#include "engine/plan/step_table.hpp"
 #include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
@@ -185,69 +186,6 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.heat) plan_heat(scene, plan);
 }
 
-/// What nodal columns beside masses and momenta are for.
-std::string geometry_pass(const Plan& plan) {
-  const auto has = [&](Nodal q) {
-    return std::find(plan.nodal_columns.begin(), plan.nodal_columns.end(), q) != plan.nodal_columns.end();
-  };
-  std::string what;
-  for (const auto& [quantity, name] : {std::pair{Nodal::volume, "volumes"},
-                                       {Nodal::volume_gradient, "volume gradients"},
-                                       {Nodal::mass_position, "mean positions"},
-                                       {Nodal::mass_displacement, "mean displacements"},
-                                       {Nodal::mass_slope, "displacements with their slopes"}})
-    if (has(quantity)) what += (what.empty() ? "project " : ", ") + std::string(name);
-  return what;
-}
-
-/// As Step::advance goes through them.
-void list_passes(const Scene& scene, Plan& plan) {
-  auto& p = plan.passes;
-  const bool conditions = !scene.boundaries.empty();
-  const bool rigid =
-      std::find(plan.field_rigid.begin(), plan.field_rigid.end(), true) != plan.field_rigid.end();
-  const bool filtered = plan.order > 1 && !plan.full_mass && !plan.own_filter;
-  if (plan.split_edge > 0)
-    p.push_back("split particles whose domains have become too long, looked for every eighth of a cell");
-  p.push_back("sort, when a particle has moved by half a cell");
-  p.push_back(plan.force_with_mass ? "project mass, momentum and internal force"
-                                   : "project mass and momentum");
-  if (plan.occupation > 0) p.push_back("nodes with too little material near, which follow others");
-  if (plan.penalty) p.push_back("contact of surfaces: which points lie below which facets, and forces");
-  if (plan.geometry) p.push_back(geometry_pass(plan));
-  if (plan.contact) {
-    p.push_back("find contact nodes");
-    if (plan.contact_geometry) p.push_back("contact normals and separations");
-  }
-  if (plan.own_filter) p.push_back("keep each field's own velocities");
-  if (plan.contact && plan.first_correction) p.push_back("first contact correction");
-  if (plan.strain_first > 0 || filtered)
-    p.push_back(std::string("velocities for ") + (plan.strain_first > 0 ? "the strain" : "XPIC") +
-                (conditions ? ", with the boundaries' imposed" : ""));
-  if (!plan.force_with_mass)
-    p.push_back(plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
-  if (plan.gravity) p.push_back("body force");
-  p.push_back(conditions ? "momentum update with the boundaries' reactions" : "momentum update");
-  if (plan.contact) p.push_back("second contact correction");
-  if (conditions) p.push_back("boundaries' velocities imposed");
-  if (plan.order > 1)
-    p.push_back((plan.full_mass ? "FMPM: " : "XPIC: ") + std::to_string(plan.order - 1) +
-                (plan.order > 2 ? " passes" : " pass") + (plan.paired ? " over v* and dv*" : " over v*") +
-                (plan.filter_every > 1 ? ", every " + std::to_string(plan.filter_every) + " steps" : ""));
-  if (plan.re_extrapolate) {
-    p.push_back("re-extrapolate new momenta");
-    if (plan.contact) p.push_back("contact of the re-extrapolated momenta");
-    if (conditions) p.push_back("boundaries' velocities imposed on them");
-    if (plan.moves_as_strained())
-      p.push_back("velocities that move the particles: re-extrapolated where nothing presses");
-  }
-  if (plan.heat)
-    p.push_back(std::string("heat: temperatures to the nodes, conduction") +
-                (plan.contact ? ", surfaces that touch" : "") + ", back to the particles");
-  p.push_back(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
-  if (rigid) p.push_back("rigid bodies move");
-}
-
 }  // namespace
 
 Plan make_plan(const Scene& scene) {
@@ -296,7 +234,9 @@ Plan make_plan(const Scene& scene) {
     }
   plan_sides(scene, plan);
   plan_columns(scene, plan);
-  list_passes(scene, plan);
+  for (const TaskRow& row : step_table())
+    if (std::string said = row.said ? row.said(scene, plan) : ""; !said.empty())
+      plan.passes.push_back(std::move(said));
   return plan;
 }
 

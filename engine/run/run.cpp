@@ -345,8 +345,8 @@ class Run {
     s.failed_by = failed_by_;
     s.history = history_->mark();
     s.peak_memory_bytes = peak_memory_bytes();
-    for (std::size_t k = 0; k < kPassNames.size(); ++k)
-      s.seconds.emplace_back(kPassNames[k], step_.clock().seconds()[k]);
+    for (std::size_t k = 0; k < kTimerNames.size(); ++k)
+      s.seconds.emplace_back(kTimerNames[k], step_.clock().seconds()[k]);
     s.seconds.emplace_back("output", std::max(0.0, s.wall - counters_.stepping));
     s.overlap = counters_.overlap;
     s.outflow = outflow_of(step_, scene_);

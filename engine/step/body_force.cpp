@@ -11,6 +11,7 @@ namespace mpmfast {
 template <int Dim>
 void Step<Dim>::add_body_force(double dt) {
   if (!plan_.gravity) return;
+  const auto timed = clock_.enter(Task::body_force);
   const double ramp = scene_->gravity.ramp, middle = state_.time + 0.5 * dt;
   ramped_ = ramp > 0 ? std::min(1.0, middle / ramp) : 1.0;
   const double* mass = state_.nodes.column(Nodal::mass);

@@ -7,6 +7,7 @@ namespace mpmfast {
 
 template <int Dim>
 void Step<Dim>::book(double dt) {
+  const auto timed = clock_.enter(Task::book);
   sums_.boundary_work += conditions_.work();
   sums_.friction_work += conditions_.friction_work();
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)

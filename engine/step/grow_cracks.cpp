@@ -26,6 +26,7 @@ TipLoad Step<Dim>::tip_load(int crack, bool end) {
 template <int Dim>
 void Step<Dim>::grow_cracks() {
   if (!cracks_.growth_due(state_.time)) return;
+  const auto timed = clock_.enter(Task::grow_cracks);
   find_stresses();
   cracks_.grow(state_, [&](int crack, bool end) { return tip_load(crack, end); });
 }

@@ -11,6 +11,7 @@ namespace mpmfast {
 template <int Dim>
 void Step<Dim>::let_leave() {
   if (!lost_) return;
+  const auto timed = clock_.enter(Task::leave);
   lost_ = false;
   constexpr const char* kLost = "a particle left the grid or is not a number";
   if (scene_->grid.leaving != LeavingKind::outflow) fail(kLost);

@@ -21,7 +21,8 @@ void Step<Dim>::sort_if_due() {
                further = (looked_for ? 0.5 : 0.45) * cell;
   bool due = sort_due_;
   if (!due && travelled_ >= further) {
-    due = !clock_.time(Pass::sort, [&] { return passes_->near_home(state_, cell - near); });
+    const auto timed = clock_.enter(Task::sort);
+    due = !passes_->near_home(state_, cell - near);
     if (!due) travelled_ = 0;
   }
   if (due) sort();
@@ -30,7 +31,8 @@ void Step<Dim>::sort_if_due() {
 
 template <int Dim>
 void Step<Dim>::sort() {
-  clock_.time(Pass::sort, [&] { passes_->sort(state_); });
+  const auto timed = clock_.enter(Task::sort);
+  passes_->sort(state_);
   number_slots();
   sort_due_ = false;
   travelled_ = 0;
@@ -39,18 +41,16 @@ void Step<Dim>::sort() {
 /// Groups the particles anew where they see other sides than before.
 template <int Dim>
 void Step<Dim>::look_at_cracks(bool sorted) {
+  const auto timed = clock_.enter(Task::look_at_cracks);
   const Supports<Dim> supports = passes_->supports(state_);
-  const auto look = [&] {
-    return clock_.time(Pass::contact_nodes, [&] { return cracks_.look(state_, supports); });
-  };
-  Seen seen = look();
+  Seen seen = cracks_.look(state_, supports);
   if (seen == Seen::outside && !sorted) {
     sort();
     sorted = true;
-    seen = look();
+    seen = cracks_.look(state_, supports);
   }
   if (seen != Seen::same) {
-    clock_.time(Pass::sort, [&] { cracks_.group(state_); });
+    cracks_.group(state_);
     number_slots();
   }
   cracks_.mark(state_, supports);
@@ -101,28 +101,38 @@ void clear_near_cracks(State<Dim>& state, bool geometry) {
 
 }  // namespace
 
+/// Clears the nodes and gives them masses and momenta. @return whether all supports lie in the grid
+template <int Dim>
+bool Step<Dim>::project_masses(bool cracked) {
+  const auto timed = clock_.enter(Task::project);
+  auto& nodes = state_.nodes;
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    const std::int64_t count = end - begin;
+    clear(nodes, std::array{Nodal::mass, Nodal::momentum, Nodal::force, Nodal::occupied}, begin, count);
+    if (!plan_.cracks_alone) clear(nodes, kGeometry, begin, count);
+    if (!cracked) clear(nodes, kDisplacements, begin, count);
+    if (plan_.paired)
+      for (int d = 0; d < Dim; ++d)
+        std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0,
+                    static_cast<std::size_t>(count) * sizeof(double));
+  });
+  if (cracked) clear_near_cracks(state_, plan_.cracks_alone);
+  return passes_->project(state_, plan_.force_with_mass);
+}
+
 template <int Dim>
 void Step<Dim>::project() {
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const bool inside = clock_.time(Pass::project, [&] {
-      auto& nodes = state_.nodes;
-      const bool cracked = plan_.cracks_alone || (cracks_.active() && !plan_.bridges);  // those displaced
-      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-        const std::int64_t count = end - begin;
-        clear(nodes, std::array{Nodal::mass, Nodal::momentum, Nodal::force, Nodal::occupied}, begin, count);
-        if (!plan_.cracks_alone) clear(nodes, kGeometry, begin, count);
-        if (!cracked) clear(nodes, kDisplacements, begin, count);
-        if (plan_.paired)
-          for (int d = 0; d < Dim; ++d)
-            std::memset(nodes.column(Nodal::star, Dim + d) + begin, 0,
-                        static_cast<std::size_t>(count) * sizeof(double));
-      });
-      if (cracked) clear_near_cracks(state_, plan_.cracks_alone);
-      const bool all_inside = passes_->project(state_, plan_.force_with_mass);
-      if (all_inside && plan_.geometry) passes_->project_geometry(state_, plan_.cracks_alone, cracked);
-      if (all_inside && extension_.active()) passes_->occupy(state_);
-      return all_inside;
-    });
+    const bool cracked = plan_.cracks_alone || (cracks_.active() && !plan_.bridges);  // those displaced
+    const bool inside = project_masses(cracked);
+    if (inside && plan_.geometry) {
+      const auto timed = clock_.enter(Task::project_geometry);
+      passes_->project_geometry(state_, plan_.cracks_alone, cracked);
+    }
+    if (inside && extension_.active()) {
+      const auto timed = clock_.enter(Task::project);
+      passes_->occupy(state_);
+    }
     if (inside) return;
     sort_due_ = true;
     sort_if_due();
@@ -139,6 +149,8 @@ template void Step<2>::look_at_cracks(bool);
 template void Step<3>::look_at_cracks(bool);
 template void Step<2>::number_slots();
 template void Step<3>::number_slots();
+template bool Step<2>::project_masses(bool);
+template bool Step<3>::project_masses(bool);
 template void Step<2>::project();
 template void Step<3>::project();
 

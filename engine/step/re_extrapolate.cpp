@@ -14,33 +14,37 @@ void Step<Dim>::re_extrapolate(double dt) {
   if (!plan_.re_extrapolate) return;
   auto& nodes = state_.nodes;
   const double* mass = nodes.column(Nodal::mass);
-  clock_.time(Pass::re_extrapolate, [&] {
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      if (nodes.has(Nodal::pressed)) std::fill_n(nodes.column(Nodal::pressed) + begin, end - begin, 0.0);
-      for (int d = 0; d < Dim; ++d) {
-        double* momentum = nodes.column(Nodal::momentum, d);
-        for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
-          if (!is_rigid_slot(tile)) std::fill_n(momentum + tile, kTileNodes<Dim>, 0.0);
-        if (update_rule() != ParticleUpdate::xpic) continue;
-        double* star = nodes.column(Nodal::star, d);
-        const double *series = nodes.column(Nodal::series, d), *jump = nodes.column(Nodal::force, d);
-        for (std::int64_t i = begin; i < end; ++i) star[i] = series[i] + jump[i];
-      }
-    });
-    passes_->re_extrapolate(state_, update_rule());
+  const auto timed = clock_.enter(Task::re_extrapolate);
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    if (nodes.has(Nodal::pressed)) std::fill_n(nodes.column(Nodal::pressed) + begin, end - begin, 0.0);
+    for (int d = 0; d < Dim; ++d) {
+      double* momentum = nodes.column(Nodal::momentum, d);
+      for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
+        if (!is_rigid_slot(tile)) std::fill_n(momentum + tile, kTileNodes<Dim>, 0.0);
+      if (update_rule() != ParticleUpdate::xpic) continue;
+      double* star = nodes.column(Nodal::star, d);
+      const double *series = nodes.column(Nodal::series, d), *jump = nodes.column(Nodal::force, d);
+      for (std::int64_t i = begin; i < end; ++i) star[i] = series[i] + jump[i];
+    }
   });
+  passes_->re_extrapolate(state_, update_rule());
   restrict_columns({Nodal::momentum});
   if (nodes.has(Nodal::pressed)) restrict_columns({Nodal::pressed});
   correct_contact(Correction::strain, dt);
-  clock_.time(Pass::nodes, [&] {
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
-                       nodes.column(Nodal::re_extrapolated, d));
-    });
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d)
+      divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
+                     nodes.column(Nodal::re_extrapolated, d));
   });
-  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_, Nodal::re_extrapolated); });
+  impose_on_re_extrapolated();
   prolong({Nodal::re_extrapolated});
+}
+
+template <int Dim>
+void Step<Dim>::impose_on_re_extrapolated() {
+  if (scene_->boundaries.empty()) return;
+  const auto timed = clock_.enter(Task::impose);
+  conditions_.impose_velocity(state_, Nodal::re_extrapolated);
 }
 
 /// The particles of FLIP, XPIC and FMPM move with v′, which strains them too, and as far as they are pressed
@@ -52,47 +56,48 @@ void Step<Dim>::re_extrapolate(double dt) {
 template <int Dim>
 void Step<Dim>::find_moving_velocities() {
   if (!plan_.moves_as_strained()) return;
-  clock_.time(Pass::nodes, [&] {
-    auto& nodes = state_.nodes;
-    kept_slots_.clear();
-    if (plan_.contact) {
-      contact_.list_meeting_slots(state_.threads, kept_slots_);
-      contact_.share_pressed(state_);
-    }
-    const auto meeting = static_cast<std::int64_t>(kept_slots_.size());
-    conditions_.share_pressed(state_);
-    conditions_.list_held_slots(kept_slots_);
-    const auto kept = static_cast<std::int64_t>(kept_slots_.size());
-    kept_velocities_.resize(kept_slots_.size());
-    for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (kept_slots_[at] >= 0) kept_velocities_[at] = nodes.vector(Nodal::velocity, kept_slots_[at]);
-    });
-    const double *mass = nodes.column(Nodal::mass), *pressed = nodes.column(Nodal::pressed);
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d) {
-        const double* strained = nodes.column(Nodal::re_extrapolated, d);
-        double* moves = nodes.column(Nodal::velocity, d);
-        for (std::int64_t i = begin; i < end; i += kLanes) {
-          const Lanes m = load_lanes(mass + i), v = load_lanes(strained + i);
-          const Lanes share = m > 0.0 ? load_lanes(pressed + i) / m : 0.0;
-          store_lanes(moves + i, v + share * (load_lanes(moves + i) - v));
-        }
-      }
-    });
-    const auto restore = [&](std::int64_t k) {
-      const auto at = static_cast<std::size_t>(k);
-      if (kept_slots_[at] >= 0) nodes.set(Nodal::velocity, kept_slots_[at], kept_velocities_[at]);
-    };
-    for_each_of(meeting, state_.threads, 1024, restore);
-    for (std::int64_t k = meeting; k < kept; ++k) restore(k);  // some for the second time
+  const auto timed = clock_.enter(Task::moving_velocities);
+  auto& nodes = state_.nodes;
+  kept_slots_.clear();
+  if (plan_.contact) {
+    contact_.list_meeting_slots(state_.threads, kept_slots_);
+    contact_.share_pressed(state_);
+  }
+  const auto meeting = static_cast<std::int64_t>(kept_slots_.size());
+  conditions_.share_pressed(state_);
+  conditions_.list_held_slots(kept_slots_);
+  const auto kept = static_cast<std::int64_t>(kept_slots_.size());
+  kept_velocities_.resize(kept_slots_.size());
+  for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (kept_slots_[at] >= 0) kept_velocities_[at] = nodes.vector(Nodal::velocity, kept_slots_[at]);
   });
+  const double *mass = nodes.column(Nodal::mass), *pressed = nodes.column(Nodal::pressed);
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d) {
+      const double* strained = nodes.column(Nodal::re_extrapolated, d);
+      double* moves = nodes.column(Nodal::velocity, d);
+      for (std::int64_t i = begin; i < end; i += kLanes) {
+        const Lanes m = load_lanes(mass + i), v = load_lanes(strained + i);
+        const Lanes share = m > 0.0 ? load_lanes(pressed + i) / m : 0.0;
+        store_lanes(moves + i, v + share * (load_lanes(moves + i) - v));
+      }
+    }
+  });
+  const auto restore = [&](std::int64_t k) {
+    const auto at = static_cast<std::size_t>(k);
+    if (kept_slots_[at] >= 0) nodes.set(Nodal::velocity, kept_slots_[at], kept_velocities_[at]);
+  };
+  for_each_of(meeting, state_.threads, 1024, restore);
+  for (std::int64_t k = meeting; k < kept; ++k) restore(k);  // some for the second time
   prolong({Nodal::velocity});
 }
 
 // Here: the members that this file defines.
 template void Step<2>::re_extrapolate(double);
 template void Step<3>::re_extrapolate(double);
+template void Step<2>::impose_on_re_extrapolated();
+template void Step<3>::impose_on_re_extrapolated();
 template void Step<2>::find_moving_velocities();
 template void Step<3>::find_moving_velocities();
 

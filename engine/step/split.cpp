@@ -15,23 +15,22 @@ void Step<Dim>::split_if_due() {
   if (plan_.split_edge <= 0 || (state_.step > 0 && unlooked_ < kLookEvery * cell)) return;
   unlooked_ = 0;
   const SplitRule rule{plan_.split_edge * cell, plan_.body_splits};
-  clock_.time(Pass::sort, [&] {
-    const SplitCounters found = count_long_edges(state_, rule);
-    splits_.held = found.held;
-    if (found.splits == 0) return;
-    std::vector<std::uint32_t> changed;
-    for (int k = 0; k < Dim; ++k) {
-      const std::vector<std::uint32_t> parents = long_along(state_, rule, k);
-      changed.insert(changed.end(), parents.begin(), parents.end());
-      changed.resize(changed.size() + parents.size());
-      std::iota(changed.end() - std::ssize(parents), changed.end(),
-                static_cast<std::uint32_t>(halve(state_, parents, k)));
-      splits_.splits += parents.size();
-    }
-    passes_->shape_domains(state_, changed);
-    contact_.forget_fits();
-    sort_due_ = true;
-  });
+  const auto timed = clock_.enter(Task::split);
+  const SplitCounters found = count_long_edges(state_, rule);
+  splits_.held = found.held;
+  if (found.splits == 0) return;
+  std::vector<std::uint32_t> changed;
+  for (int k = 0; k < Dim; ++k) {
+    const std::vector<std::uint32_t> parents = long_along(state_, rule, k);
+    changed.insert(changed.end(), parents.begin(), parents.end());
+    changed.resize(changed.size() + parents.size());
+    std::iota(changed.end() - std::ssize(parents), changed.end(),
+              static_cast<std::uint32_t>(halve(state_, parents, k)));
+    splits_.splits += parents.size();
+  }
+  passes_->shape_domains(state_, changed);
+  contact_.forget_fits();
+  sort_due_ = true;
 }
 
 template void Step<2>::split_if_due();

@@ -110,7 +110,8 @@ void Step<Dim>::advance(double dt, bool stresses) {
 
 template <int Dim>
 void Step<Dim>::advance_gathered(double dt, bool stresses) {
-  rigid_.begin(state_, dt);
+  clock_.begin_step();
+  start_rigid(dt);
   if (plan_.displacements && state_.step == 0) lead_displacements(dt);
   split_if_due();
   sort_if_due();
@@ -119,18 +120,18 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   extend();            // K24 §3.3
   push_surfaces(dt);   // tools/manual/theory.md, "Penalty contact"
   if (plan_.force_with_mass) restrict_columns({Nodal::force});
-  rigid_.set_nodes(state_);
-  clock_.time(Pass::conditions, [&] { conditions_.prepare(state_, state_.time, dt); });
+  set_rigid_nodes();
+  prepare_conditions(dt);
   find_contact();
   keep_own_velocities();
   correct_contact(Correction::initial, dt);  // Eq. 26
   start_velocities();
   if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
   add_body_force(dt);
-  clock_.time(Pass::conditions, [&] { conditions_.react(state_, dt, wall_share()); });
+  react(dt);
   update_momenta(dt);                      // Eq. 30
   correct_contact(Correction::final, dt);  // Eq. 31, 33
-  clock_.time(Pass::conditions, [&] { conditions_.enforce(state_, dt); });
+  enforce(dt);
   end_velocities(dt);
   weigh_body_force(dt);
   filter_velocities();  // Eq. 42 to 44
@@ -138,9 +139,9 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
-  if (plan_.contact) clock_.time(Pass::contact_geometry, [&] { contact_.drift(state_, dt); });
+  drift(dt);
   move_rigid_end(dt);
-  if (cracks_.active()) cracks_.move(state_, dt);
+  move_cracks(dt);
   let_leave();
   book(dt);
   state_.time += dt;
@@ -163,16 +164,63 @@ void Step<Dim>::lead_displacements(double dt) {
   }
 }
 
+template <int Dim>
+void Step<Dim>::start_rigid(double dt) {
+  if (rigid_.empty()) return;
+  const auto timed = clock_.enter(Task::start_rigid);
+  rigid_.begin(state_, dt);
+}
+
+template <int Dim>
+void Step<Dim>::set_rigid_nodes() {
+  if (rigid_.empty()) return;
+  const auto timed = clock_.enter(Task::set_rigid_nodes);
+  rigid_.set_nodes(state_);
+}
+
+template <int Dim>
+void Step<Dim>::prepare_conditions(double dt) {
+  if (scene_->boundaries.empty()) return;
+  const auto timed = clock_.enter(Task::prepare_conditions);
+  conditions_.prepare(state_, state_.time, dt);
+}
+
+template <int Dim>
+void Step<Dim>::react(double dt) {
+  if (scene_->boundaries.empty()) return;
+  const auto timed = clock_.enter(Task::react);
+  conditions_.react(state_, dt, wall_share());
+}
+
+template <int Dim>
+void Step<Dim>::enforce(double dt) {
+  if (scene_->boundaries.empty()) return;
+  const auto timed = clock_.enter(Task::enforce);
+  conditions_.enforce(state_, dt);
+}
+
+template <int Dim>
+void Step<Dim>::drift(double dt) {
+  if (!plan_.keeps_fits) return;
+  const auto timed = clock_.enter(Task::drift);
+  contact_.drift(state_, dt);
+}
+
+template <int Dim>
+void Step<Dim>::move_cracks(double dt) {
+  if (!cracks_.active()) return;
+  const auto timed = clock_.enter(Task::move_cracks);
+  cracks_.move(state_, dt);
+}
+
 /// p/m, in `to`.
 template <int Dim>
 void Step<Dim>::find_velocities(Nodal to) {
-  clock_.time(Pass::nodes, [&] {
-    const double* mass = state_.nodes.column(Nodal::mass);
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d)
-        divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
-                       state_.nodes.column(to, d));
-    });
+  const double* mass = state_.nodes.column(Nodal::mass);
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d)
+      divide_by_mass(mass, state_.nodes.column(Nodal::momentum, d), 1, begin, end,
+                     state_.nodes.column(to, d));
   });
 }
 
@@ -180,6 +228,7 @@ void Step<Dim>::find_velocities(Nodal to) {
 template <int Dim>
 void Step<Dim>::keep_own_velocities() {
   if (!plan_.own_filter) return;
+  const auto timed = clock_.enter(Task::own_velocities);
   find_velocities(Nodal::star);
   prolong({Nodal::star});
 }
@@ -187,17 +236,17 @@ void Step<Dim>::keep_own_velocities() {
 template <int Dim>
 void Step<Dim>::press_surfaces(double dt) {
   if (!penalty_.active()) return;
-  clock_.time(Pass::surfaces, [&] {
-    if (const auto fold = penalty_.look(state_)) fail_folded(*fold);
-    penalty_.press(state_, rigid_.pivots(), dt);
-  });
+  const auto timed = clock_.enter(Task::press_surfaces);
+  if (const auto fold = penalty_.look(state_)) fail_folded(*fold);
+  penalty_.press(state_, rigid_.pivots(), dt);
 }
 
 /// From here on the nodes that follow others have no mass.
 template <int Dim>
 void Step<Dim>::extend() {
   if (!extension_.active()) return;
-  clock_.time(Pass::extension, [&] { extension_.find(state_); });
+  const auto timed = clock_.enter(Task::follow);
+  extension_.find(state_);
   restrict_columns({Nodal::mass, Nodal::momentum});
 }
 
@@ -209,14 +258,14 @@ void Step<Dim>::extend() {
 template <int Dim>
 void Step<Dim>::push_surfaces(double dt) {
   if (!penalty_.active()) return;
+  const auto timed = clock_.enter(Task::push_surfaces);
   if (update_rule() != ParticleUpdate::flip) {
-    if (penalty_.pressed() > 0)
-      clock_.time(Pass::surfaces, [&] { passes_->push(state_, penalty_.forces()); });
+    if (penalty_.pressed() > 0) passes_->push(state_, penalty_.forces());
     return;
   }
   find_velocities(Nodal::velocity);
   prolong({Nodal::velocity});
-  clock_.time(Pass::surfaces, [&] { passes_->settle(state_, penalty_.forces(), dt); });
+  passes_->settle(state_, penalty_.forces(), dt);
   restrict_columns({Nodal::momentum});
 }
 
@@ -224,24 +273,30 @@ void Step<Dim>::push_surfaces(double dt) {
 template <int Dim>
 void Step<Dim>::restrict_columns(std::initializer_list<Nodal> quantities) {
   if (!extension_.active()) return;
-  clock_.time(Pass::extension, [&] { extension_.restrict_columns(state_, quantities); });
+  const auto timed = clock_.enter(Task::follow);
+  extension_.restrict_columns(state_, quantities);
 }
 
 /// What particles will read of nodes that follow others.
 template <int Dim>
 void Step<Dim>::prolong(std::initializer_list<Nodal> quantities) {
   if (!extension_.active()) return;
-  clock_.time(Pass::extension, [&] { extension_.prolong(state_, quantities); });
+  const auto timed = clock_.enter(Task::follow);
+  extension_.prolong(state_, quantities);
 }
 
 template <int Dim>
 void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
-  clock_.time(Pass::contact_nodes, [&] { contact_.find_nodes(state_); });
-  clock_.time(Pass::contact_geometry, [&] {
+  {
+    const auto timed = clock_.enter(Task::contact_nodes);
+    contact_.find_nodes(state_);
+  }
+  if (plan_.contact_geometry) {
+    const auto timed = clock_.enter(Task::contact_geometry);
     contact_.find_geometry(state_, *passes_);
-    contact_.leave_to(conditions_, state_.threads);
-  });
+  }
+  contact_.leave_to(conditions_, state_.threads);
 }
 
 template <int Dim>
@@ -252,7 +307,10 @@ void Step<Dim>::correct_contact(Correction correction, double dt) {
     contact_.set_crossing(scene_->grid.cell / fastest());
     if (!plan_.first_correction) return;
   }
-  clock_.time(Pass::contact_resolve, [&] { contact_.resolve(state_, correction, dt); });
+  const auto timed = clock_.enter(correction == Correction::initial ? Task::first_correction
+                                  : correction == Correction::final ? Task::second_correction
+                                                                    : Task::third_correction);
+  contact_.resolve(state_, correction, dt);
 }
 
 /// v = p/m after the first contact correction: for XPIC as it is, for a strain that comes first with
@@ -261,9 +319,10 @@ template <int Dim>
 void Step<Dim>::start_velocities() {
   const bool filtered = plan_.order > 1 && !plan_.full_mass && !plan_.own_filter;
   if (plan_.strain_first == 0 && !filtered) return;
+  const auto timed = clock_.enter(Task::start_velocities);
   find_velocities(Nodal::velocity);
   if (filtered) find_velocities(Nodal::star);
-  clock_.time(Pass::conditions, [&] { conditions_.impose_velocity(state_); });
+  conditions_.impose_velocity(state_);
   prolong({Nodal::velocity});
   if (filtered) prolong({Nodal::star});
 }
@@ -271,10 +330,9 @@ void Step<Dim>::start_velocities() {
 template <int Dim>
 void Step<Dim>::strain_and_force(double dt) {
   stresses_wait_ = plan_.strain_first > 0;
-  const bool sound = clock_.time(Pass::strain_force, [&] {
-    return passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms);
-  });
-  if (!sound) fail("a volume became zero or negative (J <= 0)");
+  const auto timed = clock_.enter(Task::strain_and_force);
+  if (!passes_->strain_and_force(state_, plan_.strain_first * dt, plan_.deformation_terms))
+    fail("a volume became zero or negative (J <= 0)");
   restrict_columns({Nodal::force});
 }
 
@@ -286,31 +344,29 @@ std::size_t Step<Dim>::field_of_slot(std::int64_t slot) const {
 
 template <int Dim>
 void Step<Dim>::update_momenta(double dt) {
-  clock_.time(Pass::nodes, [&] {
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d) {
-        const double* f = state_.nodes.column(Nodal::force, d);
-        double* p = state_.nodes.column(Nodal::momentum, d);
-        for (std::int64_t i = begin; i < end; ++i) p[i] += f[i] * dt;
-      }
-    });
+  const auto timed = clock_.enter(Task::momenta);
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d) {
+      const double* f = state_.nodes.column(Nodal::force, d);
+      double* p = state_.nodes.column(Nodal::momentum, d);
+      for (std::int64_t i = begin; i < end; ++i) p[i] += f[i] * dt;
+    }
   });
 }
 
 /// v⁺ = p⁺/m, and a Δt = f Δt/m in place of the force.
 template <int Dim>
 void Step<Dim>::end_velocities(double dt) {
-  clock_.time(Pass::nodes, [&] {
-    const double* mass = state_.nodes.column(Nodal::mass);
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d) {
-        const double* p = state_.nodes.column(Nodal::momentum, d);
-        double* v = state_.nodes.column(Nodal::velocity, d);
-        double* f = state_.nodes.column(Nodal::force, d);
-        divide_by_mass(mass, p, 1, begin, end, v);
-        divide_by_mass(mass, f, dt, begin, end, f);
-      }
-    });
+  const auto timed = clock_.enter(Task::end_velocities);
+  const double* mass = state_.nodes.column(Nodal::mass);
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d) {
+      const double* p = state_.nodes.column(Nodal::momentum, d);
+      double* v = state_.nodes.column(Nodal::velocity, d);
+      double* f = state_.nodes.column(Nodal::force, d);
+      divide_by_mass(mass, p, 1, begin, end, v);
+      divide_by_mass(mass, f, dt, begin, end, f);
+    }
   });
   prolong({Nodal::velocity, Nodal::force});
 }
@@ -323,48 +379,43 @@ void Step<Dim>::end_velocities(double dt) {
 template <int Dim>
 void Step<Dim>::filter_velocities() {
   if (plan_.order < 2 || !filters()) return;
+  const auto timed = clock_.enter(Task::filter);
   auto& nodes = state_.nodes;
   const double* mass = nodes.column(Nodal::mass);
   const int m = plan_.order;
   // Without a contact node, Δv is zero everywhere.
   const bool paired = plan_.paired && !contact_.list().nodes.empty();
-  clock_.time(Pass::nodes, [&] {
-    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-      for (int d = 0; d < Dim; ++d) {
-        double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
-        const double *v = nodes.column(Nodal::velocity, d), *jump = nodes.column(Nodal::force, d);
-        if (plan_.full_mass) std::copy(v + begin, v + end, star + begin);
-        for (std::int64_t i = begin; i < end; ++i) series[i] = m * star[i] - (plan_.full_mass ? jump[i] : 0);
-      }
-    });
+  for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+    for (int d = 0; d < Dim; ++d) {
+      double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
+      const double *v = nodes.column(Nodal::velocity, d), *jump = nodes.column(Nodal::force, d);
+      if (plan_.full_mass) std::copy(v + begin, v + end, star + begin);
+      for (std::int64_t i = begin; i < end; ++i) series[i] = m * star[i] - (plan_.full_mass ? jump[i] : 0);
+    }
   });
   for (int k = 2; k <= m; ++k) {
-    clock_.time(Pass::xpic, [&] {
-      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-        for (int d = 0; d < (paired ? 2 : 1) * Dim; ++d)
-          std::fill(nodes.column(Nodal::next, d) + begin, nodes.column(Nodal::next, d) + end, 0.0);
-      });
-      passes_->xpic(state_, paired);
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < (paired ? 2 : 1) * Dim; ++d)
+        std::fill(nodes.column(Nodal::next, d) + begin, nodes.column(Nodal::next, d) + end, 0.0);
     });
+    passes_->xpic(state_, paired);
     restrict_columns({Nodal::next});
     const double sign = k % 2 == 0 ? m : -m;  // with the factor m of Eq. 41
     const double share = static_cast<double>(m - 1) / m;
     const double star_factor = static_cast<double>(m + 1 - k) / k,
                  change_factor = static_cast<double>(m - k) / k;
-    clock_.time(Pass::nodes, [&] {
-      for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-        for (int d = 0; d < Dim; ++d) {
-          double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
-          const double* next = nodes.column(Nodal::next, d);
-          divide_by_mass(mass, next, star_factor, begin, end, star);
-          for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * star[i];
-          if (!paired) continue;
-          double* change = nodes.column(Nodal::star, Dim + d);
-          const double* change_next = nodes.column(Nodal::next, Dim + d);
-          for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * share * change[i];
-          divide_by_mass(mass, change_next, change_factor, begin, end, change);
-        }
-      });
+    for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
+      for (int d = 0; d < Dim; ++d) {
+        double *star = nodes.column(Nodal::star, d), *series = nodes.column(Nodal::series, d);
+        const double* next = nodes.column(Nodal::next, d);
+        divide_by_mass(mass, next, star_factor, begin, end, star);
+        for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * star[i];
+        if (!paired) continue;
+        double* change = nodes.column(Nodal::star, Dim + d);
+        const double* change_next = nodes.column(Nodal::next, Dim + d);
+        for (std::int64_t i = begin; i < end; ++i) series[i] -= sign * share * change[i];
+        divide_by_mass(mass, change_next, change_factor, begin, end, change);
+      }
     });
     prolong({Nodal::star});
   }
@@ -374,17 +425,17 @@ void Step<Dim>::filter_velocities() {
 template <int Dim>
 void Step<Dim>::conduct_heat(double dt) {
   if (!heat_.active()) return;
-  const bool sound = clock_.time(Pass::heat, [&] { return heat_.advance(state_, *passes_, contact_, dt); });
-  if (!sound) fail_warmed();
+  const auto timed = clock_.enter(Task::heat);
+  if (!heat_.advance(state_, *passes_, contact_, dt)) fail_warmed();
 }
 
 template <int Dim>
 void Step<Dim>::update_particles(double dt) {
+  const auto timed = clock_.enter(Task::update);
   const bool stresses = plan_.strain_first == 0;  // else the next step makes its own
   const UpdateRule rule{update_rule(),           plan_.position, dt, (1 - plan_.strain_first) * dt,
                         plan_.deformation_terms, stresses};
-  const TileReport report =
-      clock_.time(Pass::update, [&] { return passes_->update(state_, rule, lower_, upper_); });
+  const TileReport report = passes_->update(state_, rule, lower_, upper_);
   fastest_ = report.fastest;
   count_path(report.speed * dt);
   cracks_.drift(report.speed * dt);
@@ -395,6 +446,7 @@ void Step<Dim>::update_particles(double dt) {
 template <int Dim>
 void Step<Dim>::move_rigid_end(double dt) {
   if (rigid_.empty()) return;
+  const auto timed = clock_.enter(Task::move_rigid);
   const RigidReport report = rigid_.end(state_, dt, lower_, upper_);
   lost_ |= report.lost;
   count_path(report.fastest * dt);

@@ -76,7 +76,7 @@ class Step {
   const Plan& plan() const { return plan_; }
   const Sums<Dim>& sums() const { return sums_; }
   Sums<Dim>& sums() { return sums_; }
-  const PassClock& clock() const { return clock_; }
+  const StepClock& clock() const { return clock_; }
   const ContactCounters& contact_counters() const { return contact_.list().counters; }
   const Penalty<Dim>& penalty() const { return penalty_; }
   const Extension<Dim>& extension() const { return extension_; }
@@ -116,6 +116,14 @@ class Step {
   void number_slots();
   void lead_displacements(double dt);
   void project();
+  bool project_masses(bool cracked);
+  void start_rigid(double dt);
+  void set_rigid_nodes();
+  void prepare_conditions(double dt);
+  void react(double dt);
+  void enforce(double dt);
+  void drift(double dt);
+  void move_cracks(double dt);
   void press_surfaces(double dt);
   void push_surfaces(double dt);
   void find_velocities(Nodal to);
@@ -139,6 +147,7 @@ class Step {
   void weigh_body_force(double dt);
   void filter_velocities();
   void re_extrapolate(double dt);
+  void impose_on_re_extrapolated();
   void conduct_heat(double dt);
   void find_moving_velocities();
   void update_particles(double dt);
@@ -165,7 +174,7 @@ class Step {
   Penalty<Dim> penalty_;
   Heat<Dim> heat_;
   Sums<Dim> sums_;
-  PassClock clock_;
+  StepClock clock_;
   Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
   TipSamples tip_samples_;
   double dt_{};               ///< of the last step, s

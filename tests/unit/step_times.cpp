@@ -110,33 +110,53 @@ TEST_CASE("a push of any one particle makes the stable step as short as its spee
     }
 }
 
-double of_pass(const PassClock& clock, Pass pass) { return clock.seconds()[static_cast<std::size_t>(pass)]; }
+double of(const StepClock& clock, Timer timer) { return clock.seconds()[static_cast<std::size_t>(timer)]; }
 
-TEST_CASE("a clock adds what time has passed to the pass that took it, also where that failed") {
-  PassClock clock;
+TEST_CASE("a clock gives each second to the innermost task that runs, also where one fails") {
+  StepClock clock;
   const auto wait = [] { std::this_thread::sleep_for(std::chrono::milliseconds(2)); };
-  clock.time(Pass::heat, wait);
-  const double once = of_pass(clock, Pass::heat);
-  CHECK(once >= 2e-3);
-  const int seven = clock.time(Pass::heat, [&] {
+  const auto start = std::chrono::steady_clock::now();
+  {
+    const auto heat = clock.enter(Task::heat);
     wait();
-    return 7;
-  });
-  CHECK(seven == 7);
-  CHECK(of_pass(clock, Pass::heat) >= once + 2e-3);
-  CHECK_THROWS_AS(clock.time(Pass::sort,
-                             [&] {
-                               wait();
-                               throw std::runtime_error("in a pass");
-                             }),
-                  std::runtime_error);
-  CHECK(of_pass(clock, Pass::sort) >= 2e-3);
-  for (std::size_t k = 0; k < kPassNames.size(); ++k)
-    if (k != static_cast<std::size_t>(Pass::heat) && k != static_cast<std::size_t>(Pass::sort))
+    {
+      const auto sort = clock.enter(Task::sort);
+      wait();
+    }
+    wait();
+  }
+  wait();
+  const double heat = of(clock, Timer::heat), sort = of(clock, Timer::sort);
+  CHECK(heat >= 4e-3);
+  CHECK(sort >= 2e-3);
+  const auto fails = [&] {
+    const auto timed = clock.enter(Task::update);
+    wait();
+    throw std::runtime_error("in a task");
+  };
+  CHECK_THROWS_AS(fails(), std::runtime_error);
+  wait();
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  CHECK(of(clock, Timer::update) >= 2e-3);
+  CHECK(of(clock, Timer::heat) == heat);
+  CHECK(heat + sort + of(clock, Timer::update) <= wall - 4e-3);
+  for (std::size_t k = 0; k < kTimerNames.size(); ++k)
+    if (const auto timer = static_cast<Timer>(k);
+        timer != Timer::heat && timer != Timer::sort && timer != Timer::update)
       CHECK(clock.seconds()[k] == 0);
 }
 
-TEST_CASE("passes take no longer than the steps, and those that a scene lacks take no time") {
+TEST_CASE("a clock tells the tasks of a step in the order in which they were entered first") {
+  StepClock clock;
+  for (const Task task : {Task::update, Task::sort, Task::update, Task::grow_cracks}) (void)clock.enter(task);
+  CHECK(std::ranges::equal(clock.tasks(), std::array{Task::update, Task::sort, Task::grow_cracks}));
+  clock.begin_step();
+  CHECK(clock.tasks().empty());
+  (void)clock.enter(Task::sort);
+  CHECK(std::ranges::equal(clock.tasks(), std::array{Task::sort}));
+}
+
+TEST_CASE("tasks take no longer than the steps, and those that a scene lacks take no time") {
   const Scene scene = scene_from(kBlock, {{"method", "{update: flip}"}});
   Step<2> step(scene);
   const auto start = std::chrono::steady_clock::now();
@@ -148,11 +168,11 @@ TEST_CASE("passes take no longer than the steps, and those that a scene lacks ta
     sum += seconds;
   }
   CHECK(sum <= wall);
-  for (const Pass pass : {Pass::sort, Pass::project, Pass::strain_force, Pass::nodes, Pass::update})
-    CHECK(of_pass(step.clock(), pass) > 0);
-  for (const Pass pass :
-       {Pass::extension, Pass::surfaces, Pass::contact_nodes, Pass::contact_resolve, Pass::xpic, Pass::heat})
-    CHECK(of_pass(step.clock(), pass) == 0);
+  for (const Timer timer : {Timer::sort, Timer::project, Timer::strain_force, Timer::nodes, Timer::update})
+    CHECK(of(step.clock(), timer) > 0);
+  for (const Timer timer : {Timer::extension, Timer::surfaces, Timer::contact_nodes, Timer::contact_resolve,
+                            Timer::xpic, Timer::heat})
+    CHECK(of(step.clock(), timer) == 0);
 }
 
 }  // namespace
