@@ -105,7 +105,7 @@ TEST_CASE("a step comes to the tasks of the table that its plan needs, in its or
            {{"contact.refit", "0.1"}},
            {{"contact.corrections", "1"}},
            {{"boundaries", "{bottom: wall}"}, {"gravity", "[0, -9.81 m/s^2]"}}}) {
-    CAPTURE(overrides.empty() ? std::string("as it is") : overrides[0].key + ": " + overrides[0].value);
+    CAPTURE(overrides.empty() ? std::string("as it is") : overrides[0].first + ": " + overrides[0].second);
     check_follows_table(scene_file("oblique_impact.yaml", overrides));
   }
   for (const char* name : {"rolling_disk.yaml", "crack_wave.yaml", "heat_contact.yaml", "sphere_axis.yaml",
@@ -114,7 +114,8 @@ TEST_CASE("a step comes to the tasks of the table that its plan needs, in its or
     check_follows_table(scene_file(name, {}));
   }
   check_follows_table(scene_file(
-      "oblique_impact.yaml", {{"contact.family", "penalty"}, {"method", "{basis: bspline2, extend: true}"}}));
+      "oblique_impact.yaml",
+      {{"contact.family", "penalty"}, {"method", "{basis: bspline2, extension: {occupation: 0.6}}"}}));
 }
 
 TEST_CASE("the manual shows the table") {
