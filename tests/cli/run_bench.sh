@@ -53,6 +53,11 @@ check_run() {
   run 1 compare both/old both/new
   says out 'SLOWER  -20.0 %  project/ugimp/2d, 1 thread'
   says out '2 compared: 1 changed beyond noise, 1 slower by more than 5 %.'
+  cp -r "$source_dir/bench" recorded
+  checks=$((checks + 1))
+  python3 recorded/run old --out figures --repetitions 1 --readme >out 2>err || fail 'bench/run --readme ends with an error'
+  says recorded/README.md '| project/ugimp/2d | 100, 60 | 50.0 | 50 % |  |'
+  says recorded/results/tables/bounds.csv ',1,10,20'
   run 1 run nowhere --out none
   says err 'nowhere/bench/benchmarks: No such file or directory'
 }
@@ -111,20 +116,35 @@ check_beside() {
   says copy/bench/results/beside.md '| bare loop | 2-D, 10^5 | double | uGIMP, 9 nodes; FLIP | neo-Hookean | 49 [44 to 58] | 95 [76 to 110] | 0.5 |'
 }
 
-check_history() {
-  run 0 history --check
+check_tables() {
+  run 0 tables --check
   mkdir -p other
   cp -r "$source_dir/bench" other
-  printf '2026-11-29,abc,"Xeon E, 2 cores","ellipses, whole",2,13.1,0.162\n' >>other/bench/results/speed_history.csv
+  local results=other/bench/results
+  printf '2026-11-29,abc,"Xeon E, 2 cores","ellipses, whole",2,13.1,0.162\n' >>$results/speed_history.csv
   checks=$((checks + 1))
-  python3 other/bench/history --check 2>err && fail 'a newer measurement is not missed in the tables'
-  python3 other/bench/history --readme || fail 'bench/history --readme ends with an error'
+  python3 other/bench/tables --check 2>err && fail 'a newer measurement is not missed in the tables'
+  python3 other/bench/tables --write || fail 'bench/tables --write ends with an error'
+  python3 other/bench/tables --check || fail 'bench/tables --check refuses what --write wrote'
   says other/bench/README.md '| ellipses, whole | Xeon E, 2 cores |  | 13.1 |  | 0.162 |'
+  printf 'benchmark,figure\none,2\n' >$results/tables/benchmarks.csv
+  python3 other/bench/tables --write || fail 'bench/tables --write ends with an error'
+  says other/bench/README.md '| benchmark | figure |'
+  cp $results/tables/benchmarks.csv $results/tables/nowhere.csv
+  python3 other/bench/tables --check 2>err && fail 'a CSV file that no table shows is accepted'
+  says err 'no place for nowhere'
+  rm $results/tables/nowhere.csv
+  printf 'one,2,3\n' >>$results/tables/benchmarks.csv
+  python3 other/bench/tables --check 2>err && fail 'rows of different lengths are accepted'
+  says err 'its rows differ in length'
+  rm $results/tables/benchmarks.csv
+  python3 other/bench/tables --check 2>err && fail 'a table without its CSV file is accepted'
+  says err 'no such file'
 }
 
 check_run
 check_compare
 check_beside
-check_history
+check_tables
 printf '%d checks, %d failures\n' "$checks" "$failures"
 [[ $failures == 0 ]]
