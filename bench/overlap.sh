@@ -35,6 +35,6 @@ echo "| contact | reaches | overlap | inside | mean axial stress | energy error 
 echo "|---|---|---|---|---|---|---|---|"
 row "smoothed_max_margin (default)" contact.normal=smoothed_max_margin
 row "smoothed_logistic_regression" contact.normal=smoothed_logistic_regression
-row "logistic_regression" contact.normal=logistic_regression
-row "average_gradient, position_power (DF)" contact.normal=average_gradient contact.separation=position_power
-row "average_gradient, position_offset (CP)" contact.normal=average_gradient contact.separation=position_offset
+row "logistic_regression (N20)" contact.as=N20
+row "average_gradient, position_power (DF)" contact.as=DF
+row "average_gradient, position_offset (CP)" contact.as=CP

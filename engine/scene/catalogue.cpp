@@ -78,6 +78,7 @@ constexpr Topic kTopics[] = {
     {"strains", [] { return words_of(kStrains); }},
     {"deformation_terms", [] { return words_of(kDeformationTerms); }},
     {"positions", [] { return words_of(kPositions); }},
+    {"published", [] { return words_of(kPublishedContacts); }},
     {"normals", [] { return words_of(kNormals); }},
     {"separations", [] { return words_of(kSeparations); }},
     {"detections", [] { return words_of(kDetections); }},

@@ -105,6 +105,7 @@ check_lists() {
   run 2 list law
   says err "Did you mean 'laws'?"
   run 0 list contact
+  says out '- `N20`: normal: logistic_regression'
   says out '| `friction` |'
   grep -q '| `cfl` |' out && fail 'list contact lists the keys of time'
 }

@@ -76,6 +76,25 @@ inline constexpr std::array<Word<ContactFamily>, 2> kFamilies{{
      "between surfaces that points follow: springs push out what overlaps (K24)"},
 }};
 
+/// Normals and separations of contact on nodes as publications have them.
+struct PublishedContact {
+  NormalKind normal;
+  SeparationKind separation;
+  constexpr bool operator==(const PublishedContact&) const = default;
+};
+
+inline constexpr std::array<Word<PublishedContact>, 3> kPublishedContacts{{
+    {{NormalKind::logistic_regression, SeparationKind::ellipsoid},
+     "N20",
+     "normal: logistic_regression, separation: ellipsoid (N20 Eq. 20 to 25)"},
+    {{NormalKind::average_gradient, SeparationKind::position_power},
+     "DF",
+     "normal: average_gradient, separation: position_power (N20 section 2.3)"},
+    {{NormalKind::average_gradient, SeparationKind::position_offset},
+     "CP",
+     "normal: average_gradient, separation: position_offset (N20 Eq. 16 with 0.8 cells)"},
+}};
+
 inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
     {NormalKind::smoothed_max_margin, "smoothed_max_margin",
      "the mean of max_margin over the touching nodes around; with all that follows (default)"},

@@ -1,3 +1,5 @@
+#include <optional>
+
 #include "engine/scene/sections/describe.hpp"
 
 namespace mpmfast {
@@ -34,6 +36,27 @@ void set_defaults(ContactSpec& contact) {
   contact.advance_separation = contact.warm_start = contact.persistent = ours;
   contact.fields = ours ? ManyFields::simultaneous : ManyFields::lump;
   if (is_gradient(contact.normal)) contact.separation = SeparationKind::position_offset;
+}
+
+/// The published method that `as` names; its keys are resolved, so that `as` itself is not written.
+std::optional<PublishedContact> describe_published(Keys& map) {
+  std::optional<PublishedContact> named;
+  map.at("as",
+         "A published contact method: its normal and separation; fields is lump, and warm_start, "
+         "advance_separation and persistent are false. Keys beside it override it.",
+         [&](Slot& slot) {
+           std::size_t index = 0;
+           if (!slot.writes() && slot.choose(index, kPublishedContacts))
+             named = kPublishedContacts[index].value;
+         });
+  return map.reads() ? named : std::nullopt;
+}
+
+/// The keys of a published method, but for the normal.
+void set_published(const PublishedContact& method, ContactSpec& contact) {
+  contact.separation = method.separation;
+  contact.advance_separation = contact.warm_start = contact.persistent = false;
+  contact.fields = ManyFields::lump;
 }
 
 void describe_normal(Keys& map, int dimension, ContactSpec& contact) {
@@ -96,8 +119,11 @@ void check_fields(Slot& fields, const ContactSpec& contact) {
 
 /// Where the normal and the gap of contact on nodes come from.
 void describe_geometry(Keys& map, int dimension, ContactSpec& contact) {
+  const std::optional<PublishedContact> published = describe_published(map);
+  if (published) contact.normal = published->normal;
   map.key("normal", "Where the normal of contact comes from.", contact.normal, kNormals);
   if (!map.writes()) set_defaults(contact);
+  if (published) set_published(*published, contact);
   describe_normal(map, dimension, contact);
   map.key("separation", "How the gap between two bodies is measured.", contact.separation, kSeparations);
   map.key("position_offset", "Cells that position_offset takes off the gap.", contact.position_offset,
