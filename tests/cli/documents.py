@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Keeps the Markdown files of the repository true: what they tell a reader to type is typed, and where they point
-to is looked up.
+to is looked up. A file of the sources that they name in backticks exists, and so does one named in a comment of the
+sources.
 
 usage: documents.py MPMFAST SOURCE_DIR [--slow] [--only FILE.md]
        documents.py --links FOLDER    of all pages in a folder, such as an installed one, the links alone
@@ -43,6 +44,10 @@ MARK = re.compile(r"^\s*<!--\s*(not run|run|output|scene|file)\s*(?::\s*(.*?))?\
 LINK = re.compile(r"!?\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)|<img[^>]*\bsrc=\"([^\"]+)\"")
 LONGEST = {"README.md": 120}    # lines: what a reader who does not know the project yet takes in at once
 NOT_OURS = {"build", "runs", ".git", "node_modules"}
+SOURCE_FOLDERS = ("bench", "cmake", "configs", "engine", "kernels", "tests", "tools")
+NAMED_FILE = re.compile(r"(?:\.{1,2}/)*[A-Za-z0-9_.+-]+(?:/[A-Za-z0-9_.+-]+)*/?")
+INSTALLED, HEADERS = "mpmfast", "engine/library"    # where programs find the headers of the library
+CODE = (".cpp", ".hpp", ".py", ".sh", ".in", ".cmake")
 
 failures = []
 checks = 0
@@ -236,6 +241,61 @@ def check_links(path, name, prose, source):
                 expect(anchor in anchors_of(there), f"{name}:{number}", f"no such heading: {target}")
 
 
+def files_of(source):
+    """The paths of all files of the tree, with slashes before them, and of its folders with slashes around them."""
+    found = set()
+    for folder, folders, names in os.walk(source):
+        inside = pathlib.Path(folder).relative_to(source)
+        folders[:] = [one for one in folders if one not in NOT_OURS and one != "__pycache__"]
+        found |= {f"/{(inside / one).as_posix()}" for one in names}
+        found |= {f"/{(inside / one).as_posix()}/" for one in folders}
+    return found
+
+
+def is_named_file(word):
+    """Does the word name a file of the sources? It has the ending of code, or begins with a folder of the tree."""
+    if not NAMED_FILE.fullmatch(word) or word.startswith(".") or "NAME" in word:
+        return False
+    return word.endswith(CODE) or "/" in word.rstrip("/") and word.split("/")[0] in SOURCE_FOLDERS
+
+
+def is_in_tree(word, page, files):
+    """Is it there from the root or from a folder above the page? A bare name may stand in any folder, but one of a test
+    only on pages about tests and their results."""
+    if "/" not in word:
+        tests = page.startswith(("tests/", "bench/", "configs/", "CHANGELOG"))
+        return any(file.endswith("/" + word) and (tests or not file.startswith("/tests/")) for file in files)
+    if word.startswith(f"{INSTALLED}/") and word.endswith(".hpp"):
+        word = f"{HEADERS}/{word.partition('/')[2]}"
+    folders = ["", *(f"/{folder.as_posix()}" for folder in pathlib.PurePosixPath(page).parents if folder.name)]
+    path = "/" + word.rstrip("/")
+    return any(folder + path in files or f"{folder}{path}/" in files for folder in folders)
+
+
+def check_files(name, prose, written, files):
+    """Files of the sources that stand in backticks exist, but for those that the page's blocks write."""
+    for number, line in prose:
+        for text in re.findall(r"`([^`]+)`", line):
+            for word in text.split():
+                word = word.strip("(),;:\"'")
+                if is_named_file(word) and word not in written:
+                    expect(is_in_tree(word, name, files), f"{name}:{number}", f"no such file: {word}")
+
+
+def check_comments(source, files):
+    """Paths of files of the tree that stand in comments of the sources exist."""
+    for folder in SOURCE_FOLDERS:
+        for path in sorted((source / folder).rglob("*")):
+            if path.suffix not in (*CODE, ".txt", ".yaml", "") or not path.is_file():
+                continue
+            for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
+                comment = re.search(r"(?://|#(?!include))\s(.*)$", line)
+                for word in re.findall(r"[\w./+-]+", comment[1]) if comment else ():
+                    word = word.rstrip(".")
+                    if word.split("/")[0] in SOURCE_FOLDERS and re.search(r"/.*\.\w+$", word):
+                        expect(f"/{word}" in files, f"{path.relative_to(source)}:{number}", f"no such file: {word}")
+
+
 def check_length(path, name):
     """A page of LONGEST has no more lines than stand there."""
     lines = len(path.read_text(encoding="utf-8").splitlines())
@@ -342,8 +402,8 @@ def main():
     only = words.pop() if "--only" in options else ""
     program, source = os.path.abspath(words[0]), pathlib.Path(words[1]).resolve()
     listed = subprocess.run([program, "list"], capture_output=True, text=True).stdout
-    known = set(re.findall(r"[a-z0-9_]+\+?", listed))
-    ran, left_out = 0, []
+    known = set(re.findall(r"\w+\+?", listed))
+    ran, left_out, files = 0, [], files_of(source)
     with tempfile.TemporaryDirectory(prefix="documents-") as root:
         root = pathlib.Path(root)
         keys = keys_of_scenes(program, source, root)
@@ -357,6 +417,7 @@ def main():
                 continue
             blocks, prose = read_page(path, name)
             check_links(path, name, prose, source)
+            check_files(name, prose, {word for block in blocks for word in block.words}, files)
             check_length(path, name)
             if name.startswith("tools/manual/") or name == "README.md":
                 check_keys(name, prose, keys)
@@ -370,6 +431,7 @@ def main():
             ran += runner.ran
             left_out += runner.left_out
         if not only:
+            check_comments(source, files)
             expect(not checks_of_page, "tools/manual", f"pages are missing: {', '.join(checks_of_page)}")
     for what in left_out:
         print(f"left out: {what}")
