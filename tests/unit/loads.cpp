@@ -54,10 +54,10 @@ TEST_CASE("a pressure on a part of the surface has the resultant of that part") 
                "{pressure: [{body: block, value: 1 kPa, along: y, where: {box: {from: [0, 5 mm], to: [20 mm, "
                "10 mm]}}}]}",
                0, -6},
-           // From 5 to 7 mm of the upper face: along straight edges the shares add up to the box.
-           Case{"{pressure: [{body: block, value: 1 kPa, where: {box: {from: [5 mm, 5 mm], to: [7 mm, 20 "
+           // A part of the upper face: along straight edges the shares of the cells add up to it.
+           Case{"{pressure: [{body: block, value: 1 kPa, where: {box: {from: [5.1 mm, 5 mm], to: [7.6 mm, 20 "
                 "mm]}}}]}",
-                0, -2},
+                0, -2.5},
            Case{"{pressure: [{body: block, value: [[0, 1 kPa], [1, 1 kPa]], along: [3, 4], where: {box: "
                 "{from: "
                 "[6 mm, 0], to: [20 mm, 10 mm]}}}]}",
@@ -147,6 +147,21 @@ TEST_CASE("a pressure stays on the material that it was given to") {
   while (step.state().time < 1.02e-3) step.advance(std::min(step.stable_dt(), 1.02e-3 - step.state().time));
   CHECK(particles.column(Quantity::position, 0)[0] > 12e-3);  // beyond the box
   CHECK(next_force(step)[0] == doctest::Approx(-4).epsilon(0.01));
+}
+
+TEST_CASE("the work of a pressure in a step from rest is the energy of the nodes") {
+  const Scene scene =
+      block("plane_strain",
+            "{pressure: [{body: block, value: 1 kPa, where: {box: {from: [6 mm, 0], to: [20 mm, 10 "
+            "mm]}}}]}");
+  Step<2> step(scene);
+  advance(step, 1);
+  const auto& nodes = step.state().nodes;
+  double energy = 0;
+  for (int slot = 0; slot < step.state().tiling.slots(); ++slot)
+    energy += 0.5 * nodes.column(Nodal::mass)[slot] * nodes.vector(Nodal::force, slot).squaredNorm();
+  CHECK(energy > 0);
+  CHECK(step.sums().body_force_work == doctest::Approx(energy).epsilon(1e-12));
 }
 
 TEST_CASE("the work of a pressure is the energy of the block that it moves") {
