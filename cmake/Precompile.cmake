@@ -15,7 +15,7 @@ if(TARGET mpmfast_program)
   set(program mpmfast_program)
 endif()
 reuse_headers(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_state mpmfast_conditions
-  mpmfast_contact mpmfast_step mpmfast_core mpmfast_study mpmfast_report ${program})
+  mpmfast_contact mpmfast_loads mpmfast_step mpmfast_core mpmfast_study mpmfast_report ${program})
 if(MPMFAST_TESTS)
   target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "engine/plan/contact_law.hpp"
 #include "engine/plan/materials.hpp"
@@ -166,6 +167,19 @@ void plan_heat(const Scene& scene, Plan& plan) {
   if (plan.contact) need_column(Nodal::volume, plan);  // which of several fields a lump stands for
 }
 
+/// The columns that loads read.
+void plan_loads(const Scene& scene, Plan& plan) {
+  for (const LoadSpec& load : scene.loads) {
+    const LoadNeeds needs = std::visit([](const auto& spec) { return spec.needs(); }, load);
+    if (needs.surface) need_column(Nodal::volume_gradient, plan);
+    if (!needs.displacement) continue;
+    need_column(Nodal::mass_displacement, plan);
+    auto& columns = plan.particle_columns;
+    if (std::find(columns.begin(), columns.end(), Quantity::reference_position) == columns.end())
+      columns.push_back(Quantity::reference_position);
+  }
+}
+
 void plan_columns(const Scene& scene, Plan& plan) {
   plan.particle_columns = {Quantity::position,         Quantity::velocity, Quantity::deformation_gradient,
                            Quantity::kirchhoff_stress, Quantity::mass,     Quantity::initial_volume,
@@ -184,6 +198,7 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
   plan_areas(scene, plan);
   if (plan.heat) plan_heat(scene, plan);
+  plan_loads(scene, plan);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 namespace mpmfast {
 
@@ -50,6 +51,15 @@ std::string heat_said(const Plan& plan) {
   if (!plan.heat) return "";
   return std::string("heat: temperatures to the nodes, conduction") +
          (plan.contact ? ", surfaces that touch" : "") + ", back to the particles";
+}
+
+std::string loads_said(const Scene& scene, const Plan& plan) {
+  std::string what = when(plan.gravity, "body force");
+  for (const LoadSpec& load : scene.loads) {
+    const char* const said = std::visit([](const auto& spec) { return spec.kSays; }, load);
+    if (what.find(said) == std::string::npos) what += (what.empty() ? "" : ", ") + std::string(said);
+  }
+  return what;
 }
 
 using S = const Scene&;
@@ -124,8 +134,8 @@ const std::array<TaskRow, kTasks> kTable{{
        return when(!plan.force_with_mass,
                    plan.strain_first > 0 ? "strain, stress and internal force" : "internal force");
      }},
-    {Task::body_force, "body_force", Timer::nodes, "body force", "", "Step::add_body_force", false,
-     [](S, P plan) { return when(plan.gravity, "body force"); }},
+    {Task::loads, "loads", Timer::nodes, "loads: body force, pressure on surfaces", "", "Loads::add_force",
+     false, loads_said},
     {Task::react, "react", Timer::conditions, "reactions of the conditions", "NN Eq. 2.7 to 2.11",
      "Conditions::react", false,
      [](S scene, P) { return when(has_conditions(scene), "the boundaries' reactions"); }},

@@ -31,7 +31,7 @@ enum class Task : std::uint8_t {
   first_correction,
   start_velocities,
   strain_and_force,
-  body_force,
+  loads,
   react,
   momenta,
   second_correction,

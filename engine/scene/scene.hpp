@@ -15,6 +15,7 @@
 
 #include "engine/geometry/fill.hpp"
 #include "engine/quantities/time_table.hpp"
+#include "engine/scene/loads.hpp"
 #include "kernels/basis/bases.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/contact/penalty_spec.hpp"
@@ -322,6 +323,7 @@ struct Scene {
   std::vector<CrackSpec> cracks;
   HeatSpec heat;
   OutputSpec output;
+  std::vector<LoadSpec> loads;  ///< beside gravity
   std::string resolved_yaml;  ///< the scene with every default written out; reading it gives this scene again
   int dimension() const { return space == Space::three_dimensional ? 3 : 2; }
 };

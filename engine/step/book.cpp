@@ -14,7 +14,7 @@ void Step<Dim>::book(double dt) {
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) book(contact_.books());
   if (plan_.penalty) book(penalty_.books());
-  if (plan_.gravity) sums_.body_force_work += body_force_work_;
+  if (loads_.active()) sums_.body_force_work += loads_.work();
 }
 
 template <int Dim>

@@ -8,7 +8,6 @@ template <int Dim>
 TipLoad Step<Dim>::tip_load(int crack, bool end) {
   if constexpr (Dim == 2) {
     const CrackLine<Dim>& line = cracks_.lines()[static_cast<std::size_t>(crack)];
-    const Vec3& fall = plan_.field_acceleration[static_cast<std::size_t>(line.field)];
     const TipQuestion question{
         crack,
         end,
@@ -16,7 +15,7 @@ TipLoad Step<Dim>::tip_load(int crack, bool end) {
         scene_->thickness,
         dt_,
         std::holds_alternative<Cohesive>(scene_->cracks[static_cast<std::size_t>(crack)].law.acts),
-        ramped_ * Vec<2>(fall[0], fall[1])};
+        loads_.acceleration(line.field)};
     return mpmfast::tip_load(state_, contact_.list(), line, question, tip_samples_);
   } else {
     return {};

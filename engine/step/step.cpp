@@ -28,7 +28,8 @@ Step<Dim>::Step(const Scene& scene)
       contact_(scene, plan_, cracks_),
       rigid_(scene, plan_, seeded(scene)),
       penalty_(scene, plan_, state_),
-      heat_(scene, plan_) {
+      heat_(scene, plan_),
+      loads_(scene, plan_) {
   choose_threads();
   passes_->shape_domains(state_);
   state_.nodes.plan(plan_.nodal_columns, plan_.paired);
@@ -127,13 +128,13 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   correct_contact(Correction::initial, dt);  // Eq. 26
   start_velocities();
   if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
-  add_body_force(dt);
+  add_loads(dt);
   react(dt);
   update_momenta(dt);                      // Eq. 30
   correct_contact(Correction::final, dt);  // Eq. 31, 33
   enforce(dt);
   end_velocities(dt);
-  weigh_body_force(dt);
+  find_work_of_loads(dt);
   filter_velocities();  // Eq. 42 to 44
   re_extrapolate(dt);   // NN §2.8
   conduct_heat(dt);
@@ -340,6 +341,18 @@ template <int Dim>
 std::size_t Step<Dim>::field_of_slot(std::int64_t slot) const {
   const auto tile = static_cast<std::size_t>(slot / kTileNodes<Dim>);
   return static_cast<std::size_t>(state_.tiling.node_tiles[tile].field);
+}
+
+template <int Dim>
+void Step<Dim>::add_loads(double dt) {
+  if (!loads_.active()) return;
+  const auto timed = clock_.enter(Task::loads);
+  loads_.add_force(state_, dt);
+}
+
+template <int Dim>
+void Step<Dim>::find_work_of_loads(double dt) {
+  if (loads_.active()) loads_.find_work(state_, dt);
 }
 
 template <int Dim>

@@ -13,6 +13,7 @@
 #include "engine/contact/cracks/tip_load.hpp"
 #include "engine/contact/penalty/penalty.hpp"
 #include "engine/heat/heat.hpp"
+#include "engine/loads/loads.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
@@ -61,7 +62,7 @@ class Step {
   void find_stresses();
 
   /// Adds to one component of the particles' velocities, m/s, in the order of the columns; the energy that
-  /// this brings is booked as work of body forces.
+  /// this brings is booked as work of loads.
   void add_velocity(int axis, std::span<const double> change);
 
   /// Throws the RunFailure of a time step that collapsed to dt: who holds it, and why.
@@ -137,14 +138,14 @@ class Step {
   void strain_and_force(double dt);
   std::size_t field_of_slot(std::int64_t slot) const;
   bool is_rigid_slot(std::int64_t slot) const { return state_.field_rigid[field_of_slot(slot)]; }
-  void add_body_force(double dt);
+  void add_loads(double dt);
   void update_momenta(double dt);
   void end_velocities(double dt);
   /// Do XPIC and FMPM filter in this step? Between, particles are updated as FLIP's.
   bool filters() const { return (state_.step + 1) % plan_.filter_every == 0; }
   ParticleUpdate update_rule() const { return filters() ? plan_.update : ParticleUpdate::flip; }
   double wall_share() const { return update_rule() == ParticleUpdate::flip ? plan_.wall_share : 1; }
-  void weigh_body_force(double dt);
+  void find_work_of_loads(double dt);
   void filter_velocities();
   void re_extrapolate(double dt);
   void impose_on_re_extrapolated();
@@ -173,16 +174,15 @@ class Step {
   RigidBodies<Dim> rigid_;
   Penalty<Dim> penalty_;
   Heat<Dim> heat_;
+  Loads<Dim> loads_;
   Sums<Dim> sums_;
   StepClock clock_;
   Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
   TipSamples tip_samples_;
-  double dt_{};               ///< of the last step, s
-  double fastest_{};          ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;      ///< bound on paths since the last sort, or since all were near their places, m
-  double unlooked_ = 0;       ///< likewise since domains were looked at, m (split_if_due)
-  double ramped_ = 1;         ///< share of the body forces in this step
-  double body_force_work_{};  ///< of this step, J
+  double dt_{};           ///< of the last step, s
+  double fastest_{};      ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;  ///< bound on paths since the last sort, or since all were near their places, m
+  double unlooked_ = 0;   ///< likewise since domains were looked at, m (split_if_due)
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s
   bool sort_due_ = true;

@@ -55,6 +55,9 @@ TEST_CASE("contact, boundaries and gravity are passes where there are some") {
   for (const char* part : {"first contact correction", "second contact correction", "body force",
                            "the boundaries' reactions", "boundaries' velocities imposed"})
     CHECK(has(walls, part));
+  const auto pressed = passes_of({{"loads", "{pressure: [{body: left, value: 1 kPa}]}"}});
+  CHECK(has(pressed, "pressure on surfaces"));
+  CHECK_FALSE(has(pressed, "body force"));
 }
 
 TEST_CASE("what contact projects to the nodes beside masses is one pass, which names all of it") {
@@ -104,7 +107,8 @@ TEST_CASE("a step comes to the tasks of the table that its plan needs, in its or
            {{"contact", "none"}, {"boundaries", "{}"}},
            {{"contact.refit", "0.1"}},
            {{"contact.corrections", "1"}},
-           {{"boundaries", "{bottom: wall}"}, {"gravity", "[0, -9.81 m/s^2]"}}}) {
+           {{"boundaries", "{bottom: wall}"}, {"gravity", "[0, -9.81 m/s^2]"}},
+           {{"loads", "{pressure: [{body: left, value: 1 kPa}]}"}}}) {
     CAPTURE(overrides.empty() ? std::string("as it is") : overrides[0].first + ": " + overrides[0].second);
     check_follows_table(scene_file("oblique_impact.yaml", overrides));
   }

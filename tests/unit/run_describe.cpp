@@ -142,6 +142,6 @@ TEST_CASE("check names what particles and nodes carry, each with what asks for i
     momentum              (every scene)
     force                 (every scene)
     velocity              (every scene)
-    volume_gradient       (gradient normals)
+    volume_gradient       (surfaces: normals, areas, loads)
 )"));
 }

@@ -77,6 +77,9 @@ std::vector<std::string> small_scenes() {
   const auto cracked = [&](const std::string& law) {
     return plain + "cracks: [{body: one, line: [[0, 2 mm], [3 mm, 2 mm]]" + law + "}]\n";
   };
+  const auto pressed = [](const std::string& place) {
+    return "loads: {pressure: [{body: one, value: 1, where: {" + place + "}}]}\n";
+  };
   return {plain,
           plain + "boundaries: {left: {wall: sliding, at: surface}}\n",
           material("model: mie_gruneisen, density: 8, bulk: 1, " + heat + state),
@@ -85,6 +88,9 @@ std::vector<std::string> small_scenes() {
                    "hardening: 1 GPa, exponent: 1, melt: 1300 K, equation_of_state: {" + state + "}"),
           material("model: drucker_prager, density: 1, bulk: 1, shear: 1, friction_angle: 30 deg"),
           plain + "gravity: {acceleration: [0, 1 m/s^2]}\ncontact: {}\nboundaries: {left: {piston: 1 m/s}}\n",
+          plain + pressed("ellipse: {centre: [0, 0], radii: [1, 1]}"),
+          solid("box: {from: [1 mm, 1 mm, 1 mm], to: [4 mm, 4 mm, 4 mm]}", "3d") +
+              pressed("ellipsoid: {centre: [0, 0, 0], radii: [1, 1, 1]}"),
           plain + "contact: {" + bond + "}\n",
           replaced(plain, "method: {}", "method: {basis: bspline2, extension: {}}"),
           replaced(plain, "method: {}", "method: {basis: lcpdi, split: {}}"),

@@ -25,6 +25,8 @@ std::string write_scene(const Scene& scene);
 bool describe_grid(Keys& top, int dimension, GridSpec& grid);
 void describe_time(Keys& top, TimeSpec& time);
 void describe_gravity(Keys& top, int dimension, GravitySpec& gravity);
+/// Needs the bodies.
+void describe_loads(Keys& top, Scene& scene);
 /// Needs the grid.
 void describe_heat(Keys& top, bool grid_known, Scene& scene);
 void describe_output(Keys& top, int dimension, OutputSpec& output);
@@ -71,6 +73,8 @@ void check_walls(const Value& top, const Scene& scene);
 void close_faces(const Value& top, Scene& scene);
 /// Refuses laws that plane stress cannot have.
 void check_plane_stress(const Value& top, const Scene& scene);
+/// Refuses loads on surfaces where these are not known.
+void check_loads(const Value& top, const Scene& scene);
 /// Refuses what cracks do not know.
 void check_cracks(const Value& top, const Scene& scene);
 /// Refuses what heat does not know, and materials that it knows too little of.

@@ -107,6 +107,7 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
   if (scene.method.split) check_split(top, scene);
   check_heat(top, scene, places);
   if (!scene.cracks.empty()) check_cracks(top, scene);
+  check_loads(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
   if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
@@ -126,6 +127,7 @@ std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene) {
   const std::vector<BodyPlace> places = describe_bodies(top, scene);
   describe_boundaries(top, grid_known, scene);
   describe_gravity(top, scene.dimension(), scene.gravity);
+  describe_loads(top, scene);
   describe_contact(top, strain_stated, scene);
   describe_cracks(top, scene);
   describe_output(top, scene.dimension(), scene.output);
