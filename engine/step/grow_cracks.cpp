@@ -1,4 +1,4 @@
-/// Cracks: what drives them, and their growth.
+/// Loads at crack tips, and growth of cracks.
 
 #include "engine/step/step.hpp"
 
@@ -8,16 +8,16 @@ template <int Dim>
 TipLoad Step<Dim>::tip_load(int crack, bool end) {
   if constexpr (Dim == 2) {
     const CrackLine<Dim>& line = cracks_.lines()[static_cast<std::size_t>(crack)];
-    const Vec3& fall = plan_.field_acceleration[static_cast<std::size_t>(line.field)];
-    const TipQuestion question{
+    const Vec3& gravity = plan_.field_acceleration[static_cast<std::size_t>(line.field)];
+    const TipLoadInput input{
         crack,
         end,
         scene_->cracks[static_cast<std::size_t>(crack)].contour * scene_->grid.cell,
         scene_->thickness,
         dt_,
         std::holds_alternative<Cohesive>(scene_->cracks[static_cast<std::size_t>(crack)].law.acts),
-        ramped_ * Vec<2>(fall[0], fall[1])};
-    return mpmfast::tip_load(state_, contact_.list(), line, question, tip_samples_);
+        ramped_ * Vec<2>(gravity[0], gravity[1])};
+    return mpmfast::tip_load(state_, contact_.list(), line, input, tip_samples_);
   } else {
     return {};
   }
