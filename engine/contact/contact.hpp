@@ -10,7 +10,7 @@
 
 #include "engine/contact/books.hpp"
 #include "engine/contact/contact_basis.hpp"
-#include "engine/contact/cracks/cracks.hpp"
+#include "engine/cracks/cracks.hpp"
 #include "engine/contact/nodal/list.hpp"
 #include "engine/contact/nodal/motion.hpp"
 #include "engine/plan/plan.hpp"

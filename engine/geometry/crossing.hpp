@@ -45,13 +45,13 @@ inline bool is_left(const Point2& a, const Point2& b, const Point2& x) {
   return side != 0 ? side > 0 : is_left_of_own(a, b);
 }
 
-/// The ways from one point to many. Which of them cross a segment a → b, and to which side? Where n lies on
-/// the line, or the way meets an end of the segment, it is as if n were moved as in is_left: of a line of
-/// segments a way crosses one where it would cross two, or none, with rounding. What is asked for a segment
-/// has a bit for each n, in the order in which they came.
-class Ways {
+/// The straight lines from one point to many ends. Which of them cross a segment a → b, and to which side?
+/// Where an end lies on the line a b, or a line meets an end of the segment, the end is shifted as in
+/// is_left. A line through a corner of a polyline thus crosses one segment, never none or two, whatever the
+/// round-off. Results have a bit for each end, in the order in which they were added.
+class LineCrossings {
  public:
-  static constexpr int kMost = 40;  ///< of the points n
+  static constexpr int kMost = 40;  ///< ends
   using Bits = std::uint64_t;
 
   void start(const Point2& from) {
@@ -64,18 +64,19 @@ class Ways {
     y_[count_++] = to[1];
   }
 
-  /// Is x on the left of the way?
-  Bits left_of_ways(const Point2& x) const {
+  /// Is x on the left of the line?
+  Bits point_is_left(const Point2& x) const {
     const bool on = x[1] != from_[1] ? x[1] > from_[1] : x[0] <= from_[0];
     const double along = x[0] - from_[0], up = x[1] - from_[1];
     return bits([&](Lanes to_x, Lanes to_y) { return turn(to_x - from_[0], to_y - from_[1], along, up); },
                 on);
   }
-  /// Does it go from one side of the line a b to the other, and its end lie on the left?
-  struct Across {
-    Bits other, left;
+  /// The ends of the lines, relative to a segment.
+  struct Ends {
+    Bits other_side;  ///< not on the side of a b where the lines start
+    Bits left;        ///< on the left of a b
   };
-  Across across(const Point2& a, const Point2& b) const {
+  Ends ends(const Point2& a, const Point2& b) const {
     const double along = b[0] - a[0], up = b[1] - a[1];
     const Bits left =
         bits([&](Lanes x, Lanes y) { return turn(along, up, x - a[0], y - a[1]); }, is_left_of_own(a, b));
@@ -99,14 +100,14 @@ class Ways {
   alignas(64) double x_[kMost] = {}, y_[kMost] = {};
 };
 
-/// Does the way from p to n cross the segment a → b? +1: to its left, −1: to its right, 0: no.
+/// Does the line from p to n cross the segment a → b? +1: to its left, −1: to its right, 0: no.
 inline int crossing(const Point2& p, const Point2& n, const Point2& a, const Point2& b) {
-  Ways way;
-  way.start(p);
-  way.add(n);
-  if (way.left_of_ways(a) == way.left_of_ways(b)) return 0;
-  const auto [other, left] = way.across(a, b);
-  return other == 0 ? 0 : left != 0 ? 1 : -1;
+  LineCrossings line;
+  line.start(p);
+  line.add(n);
+  if (line.point_is_left(a) == line.point_is_left(b)) return 0;
+  const auto [other_side, left] = line.ends(a, b);
+  return other_side == 0 ? 0 : left != 0 ? 1 : -1;
 }
 
 /// Has an open polyline two segments that cross, or touch elsewhere than neighbours do?

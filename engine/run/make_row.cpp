@@ -64,8 +64,9 @@ void fill_tips(Step<Dim>& step, const Scene& scene, HistoryRow& row) {
   for (const CrackLine<Dim>& line : step.cracks().lines()) row.crack_lengths.push_back(line.length());
   for (const CrackTip& tip : crack_tips(scene)) {
     const TipLoad load = step.tip_load(tip.crack, tip.end);
-    row.tips.push_back({load.place[0], load.place[1], load.release, load.opening, load.sliding});
-    row.crack_lengths[static_cast<std::size_t>(tip.crack)] -= load.lead;
+    row.tips.push_back(
+        {load.position[0], load.position[1], load.energy_release_rate, load.mode_i, load.mode_ii});
+    row.crack_lengths[static_cast<std::size_t>(tip.crack)] -= load.bonded_length;
   }
 }
 

@@ -19,7 +19,7 @@
 
 namespace mpmfast {
 
-/// What sides of cracks the particles of a group see at the nodes of their window (engine/contact/cracks).
+/// What sides of cracks the particles of a group see at the nodes of their window (engine/cracks).
 template <int Dim>
 struct SideMap {
   std::array<std::int8_t, kWindowNodes<Dim>> side;

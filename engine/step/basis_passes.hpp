@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/geometry/crossing.hpp"
 #include "engine/state/team.hpp"
 #include "engine/step/passes.hpp"
 #include "engine/step/tile_loops.hpp"
@@ -62,7 +63,7 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   Supports<Dim> supports(const State<Dim>& state) const override {
-    static_assert(power(Basis::kMaxSupport + 1, 2) <= Ways::kMost);  // of all that a look ahead reaches
+    static_assert(power(Basis::kMaxSupport + 1, 2) <= LineCrossings::kMost);  // of nodes_ahead
     return {[all = geometry_of(const_cast<State<Dim>&>(state).view(), state)](std::size_t p, double way) {
               ChunkGeometry<Dim> behind = all;  // farther from an origin that lies so much behind
               for (double& x : behind.origin) x -= way;

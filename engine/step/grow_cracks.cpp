@@ -1,4 +1,4 @@
-/// Cracks: what drives them, and their growth.
+/// Loads at crack tips, and growth of cracks.
 
 #include "engine/step/step.hpp"
 
@@ -8,7 +8,7 @@ template <int Dim>
 TipLoad Step<Dim>::tip_load(int crack, bool end) {
   if constexpr (Dim == 2) {
     const CrackLine<Dim>& line = cracks_.lines()[static_cast<std::size_t>(crack)];
-    const TipQuestion question{
+    const TipLoadInput input{
         crack,
         end,
         scene_->cracks[static_cast<std::size_t>(crack)].contour * scene_->grid.cell,
@@ -16,7 +16,7 @@ TipLoad Step<Dim>::tip_load(int crack, bool end) {
         dt_,
         std::holds_alternative<Cohesive>(scene_->cracks[static_cast<std::size_t>(crack)].law.acts),
         loads_.acceleration(line.field)};
-    return mpmfast::tip_load(state_, contact_.list(), line, question, tip_samples_);
+    return mpmfast::tip_load(state_, contact_.list(), line, input, tip_samples_);
   } else {
     return {};
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/contact/contact_basis.hpp"
-#include "engine/contact/cracks/cracks.hpp"
+#include "engine/cracks/supports.hpp"
 #include "engine/heat/carrier.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"

@@ -26,7 +26,7 @@ void Step<Dim>::sort_if_due() {
     if (!due) travelled_ = 0;
   }
   if (due) sort();
-  if (cracks_.active() && (due || cracks_.look_due(state_.grid.cell))) look_at_cracks(due);
+  if (cracks_.active() && (due || cracks_.classification_due(state_.grid.cell))) look_at_cracks(due);
 }
 
 template <int Dim>
@@ -43,17 +43,17 @@ template <int Dim>
 void Step<Dim>::look_at_cracks(bool sorted) {
   const auto timed = clock_.enter(Task::look_at_cracks);
   const Supports<Dim> supports = passes_->supports(state_);
-  Seen seen = cracks_.look(state_, supports);
-  if (seen == Seen::outside && !sorted) {
+  SideChange change = cracks_.classify(state_, supports);
+  if (change == SideChange::sort_first && !sorted) {
     sort();
     sorted = true;
-    seen = cracks_.look(state_, supports);
+    change = cracks_.classify(state_, supports);
   }
-  if (seen != Seen::same) {
+  if (change != SideChange::none) {
     cracks_.group(state_);
     number_slots();
   }
-  cracks_.mark(state_, supports);
+  cracks_.mark_tiles(state_, supports);
 }
 
 /// What follows from slots that have been numbered anew.

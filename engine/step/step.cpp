@@ -451,7 +451,7 @@ void Step<Dim>::update_particles(double dt) {
   const TileReport report = passes_->update(state_, rule, lower_, upper_);
   fastest_ = report.fastest;
   count_path(report.speed * dt);
-  cracks_.drift(report.speed * dt);
+  cracks_.add_displacement(report.speed * dt);
   if (report.inverted) fail("a volume became zero or negative (J <= 0)");
   lost_ = report.lost;
 }

@@ -10,7 +10,7 @@
 #include "engine/conditions/conditions.hpp"
 #include "engine/conditions/rigid_bodies.hpp"
 #include "engine/contact/contact.hpp"
-#include "engine/contact/cracks/tip_load.hpp"
+#include "engine/cracks/tip_load.hpp"
 #include "engine/contact/penalty/penalty.hpp"
 #include "engine/heat/heat.hpp"
 #include "engine/loads/loads.hpp"

@@ -219,7 +219,7 @@ void Step<Dim>::visit(Archive& archive) {
   // Where particles lie in other windows than their tiles', nothing may count on these: the next step sorts.
   const bool placed = passes_->near_home(state_, 0);
   sort_due_ |= !placed;
-  if (cracks_.active() && placed) cracks_.mark(state_, passes_->supports(state_));
+  if (cracks_.active() && placed) cracks_.mark_tiles(state_, passes_->supports(state_));
 }
 
 template void Contact<2>::visit_fits(Archive&);

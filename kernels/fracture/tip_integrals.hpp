@@ -1,23 +1,28 @@
 #pragma once
 
-/// @file What drives a crack at its tip: J by its domain form over a disk about it, and its share in each
-/// mode by how the sides are apart behind the tip (NN's own code does so too).
+/// @file Energy release rate J at a crack tip by its domain form over a disk, and its share in each mode by
+/// the opening behind the tip.
 ///
-/// With q the direction of the crack, as long as 1 near the tip and falling smoothly to 0 at the rim,
+/// The weight q has the direction of the crack; |q| is 1 near the tip and falls smoothly to 0 at the rim.
+/// Then
 ///
-///   J = ∫ [(σ_ij u_i,k − (W + T) δ_jk) q_k,j + ρ (a_i u_i,k − v_i v_i,k) q_k] dA − ∫ t_i [u_i],k q_k ds,
+///   J = ∫ [(σ_ij u_i,k − (W + T) δ_jk) q_k,j + ρ (a_i u_i,k − v_i v_i,k) q_k] dA − ∫ t_i [u_i],k q_k ds
 ///
-/// T = ρ v²/2, v best from that of the material at the tip (J is the same for whoever flies along, sums over
-/// particles are not), a what stresses accelerate, t the traction on one side and [u] what that is ahead of
-/// the other (Nakamura, Shih and Freund 1985). On each circle about the tip q is the direction that the crack
-/// has where it crosses that: so it lies along the sides of a crack that bends, and these add nothing else.
+/// with the kinetic energy density T = ρ v²/2, the acceleration a by stresses, the traction t on one crack
+/// side and the jump [u] of the displacement from the other side to it (Nakamura, Shih and Freund 1985). On
+/// each circle around the tip q has the direction of the crack where the crack crosses the circle. Thus q is
+/// tangent to the sides of a crack that bends, and these contribute no other terms.
 ///
-/// Both jumps grow as √r behind a tip, so that K_I : K_II = δ_n : δ_t however far one looks, and a crack that
-/// is pressed closed has none of mode I.
+/// J does not depend on a uniform velocity of the frame, but sums over particles do. Velocities are therefore
+/// given relative to the mean velocity of the samples.
+///
+/// Behind a tip both components of the opening δ grow as √r, so K_I : K_II = δ_n : δ_t at any distance. A
+/// crack that is pressed closed has no mode I.
 
 #include <cmath>
 
 #include "kernels/dimension.hpp"
+#include "kernels/fracture/constants.hpp"
 #include "kernels/fracture/tip_path.hpp"
 #include "kernels/fracture/tip_sample.hpp"
 
@@ -26,78 +31,81 @@ namespace mpmfast {
 class TipIntegrals {
  public:
   /// @param radius   of the disk, m
-  /// @param modulus  E′: of the plane, Pa; 0: unknown, no stress intensities
-  /// @param reach    back along the crack that it is straight, m: no farther is asked how its sides are apart
-  /// @param beside   so far beside the crack its sides are looked for at least, m
-  TipIntegrals(const TipPath& path, double radius, double modulus, double reach = HUGE_VAL, double beside = 0)
+  /// @param modulus  E′ of the plane, Pa; 0: unknown, no stress intensities
+  /// @param straight length of the crack behind the tip within which its opening may be measured, m
+  /// @param width    distance from the crack within which its sides are measured, at least, m
+  TipIntegrals(const TipPath& path, double radius, double modulus, double straight = HUGE_VAL,
+               double width = 0)
       : path_(&path),
         radius_(radius),
         modulus_(modulus),
-        reach_(std::min(kReach * radius, reach)),
-        beside_(std::max(kBeside * radius, beside)) {}
+        length_(std::min(fracture_constants::kOpeningLength * radius, straight)),
+        width_(std::max(fracture_constants::kOpeningWidth * radius, width)) {}
 
   void add(const TipSample& one) {
-    const double r = one.place.norm();
+    const double r = one.position.norm();
     if (r >= radius_) return;
-    see_opening(one);
-    const Vec<2> along = path_->along(r);
-    const auto [weight, fall] = plateau(r);
-    const Vec<2> pull =
-        one.slope.transpose() * one.acceleration - one.velocity_slope.transpose() * one.velocity;
-    release_ += one.area * one.density * weight * pull.dot(along);
+    add_side(one);
+    const Vec<2> direction = path_->direction(r);
+    const auto [weight, slope] = weight_at(r);
+    const Vec<2> inertia =
+        one.gradient.transpose() * one.acceleration - one.velocity_gradient.transpose() * one.velocity;
+    release_rate_ += one.area * one.density * weight * inertia.dot(direction);
     if (!(r > 0)) return;
-    const Mat<2> gradient = (fall * along + weight * path_->bend(r)) * (one.place / r).transpose();  // q_k,j
+    const Mat<2> q_gradient =
+        (slope * direction + weight * path_->direction_slope(r)) * (one.position / r).transpose();  // q_k,j
     const double kinetic = 0.5 * one.density * one.velocity.squaredNorm();
-    release_ += one.area * ((one.slope.transpose() * one.stress).cwiseProduct(gradient).sum() -
-                            (one.energy + kinetic) * gradient.trace());
+    release_rate_ += one.area * ((one.gradient.transpose() * one.stress).cwiseProduct(q_gradient).sum() -
+                                 (one.energy + kinetic) * q_gradient.trace());
   }
 
   void add(const TipTraction& one) {
-    const double r = one.place.norm();
-    if (r < radius_) release_ -= plateau(r).first * one.force.dot(one.slope * path_->along(r));
+    const double r = one.position.norm();
+    if (r < radius_)
+      release_rate_ -= weight_at(r).first * one.force.dot(one.gradient_jump * path_->direction(r));
   }
 
-  double release() const { return release_; }  ///< J, J/m²
-  /// δ_t and δ_n, the left side less the right, m; zero where none was seen.
+  /// J, J/m²
+  double energy_release_rate() const { return release_rate_; }
+  /// δ_t and δ_n: displacement of the left side less that of the right, m; zero where a side has no samples
   Vec<2> opening() const {
     if (!(area_[0] > 0) || !(area_[1] > 0)) return Vec<2>::Zero();
-    return face_[1] / area_[1] - face_[0] / area_[0];
+    return side_[1] / area_[1] - side_[0] / area_[0];
   }
-  /// K_II and K_I, Pa √m; all of mode I where no sides were seen
-  Vec<2> intensities() const {
-    const Vec<2> apart = opening();
-    const double length = apart.norm();
-    if (!(release_ > 0)) return Vec<2>::Zero();
-    if (!(area_[0] > 0) || !(area_[1] > 0)) return {0, std::sqrt(modulus_ * release_)};
+  /// K_II and K_I, Pa √m, with K_I² + K_II² = E′ J; mode I alone where a side has no samples
+  Vec<2> stress_intensities() const {
+    const Vec<2> jump = opening();
+    const double length = jump.norm();
+    if (!(release_rate_ > 0)) return Vec<2>::Zero();
+    if (!(area_[0] > 0) || !(area_[1] > 0)) return {0, std::sqrt(modulus_ * release_rate_)};
     if (!(length > 0)) return Vec<2>::Zero();
-    return std::sqrt(modulus_ * release_) / length * apart;
+    return std::sqrt(modulus_ * release_rate_) / length * jump;
   }
 
  private:
-  /// |q| and d|q|/dr
-  std::pair<double, double> plateau(double r) const {
-    const double inner = kInner * radius_;
+  /// |q| and d|q|/dr: a cubic from 1 at the plateau to 0 at the rim
+  std::pair<double, double> weight_at(double r) const {
+    const double inner = fracture_constants::kPlateau * radius_;
     if (r <= inner) return {1, 0};
     const double width = radius_ - inner, share = (r - inner) / width;
     return {1 - share * share * (3 - 2 * share), -6 * share * (1 - share) / width};
   }
 
-  /// Displacements are led to the sides along their slopes.
-  void see_opening(const TipSample& one) {
-    const TipPath::Beside at = path_->beside(one.place);
-    if (at.behind < kFrom * reach_ || at.behind > reach_ || std::abs(at.offset) > beside_) return;
-    const bool left = at.offset > 0;
-    face_[left] += one.area * (one.moved - at.offset * (one.slope * at.left));
+  /// Adds the displacement of a sample to its crack side, extrapolated to the crack by its gradient.
+  void add_side(const TipSample& one) {
+    const TipPath::Projection on = path_->project(one.position);
+    if (on.behind < fracture_constants::kOpeningStart * length_ || on.behind > length_ ||
+        std::abs(on.offset) > width_)
+      return;
+    const bool left = on.offset > 0;
+    side_[left] += one.area * (one.displacement - on.offset * (one.gradient * on.left));
     area_[left] += one.area;
   }
 
-  static constexpr double kInner = 0.4;                  ///< of the radius: |q| is 1 within
-  static constexpr double kReach = 0.7, kBeside = 0.18;  ///< of the radius: where the sides are looked at
-  static constexpr double kFrom = 0.25 / kReach;         ///< of the reach
   const TipPath* path_;
-  double radius_, modulus_, reach_, beside_;
-  double release_ = 0;
-  Vec<2> face_[2] = {Vec<2>::Zero(), Vec<2>::Zero()};  ///< right, left: Σ u dA
+  double radius_, modulus_, length_, width_;
+  double release_rate_ = 0;
+  Vec<2> side_[2] = {Vec<2>::Zero(), Vec<2>::Zero()};  ///< right, left: Σ u dA
   double area_[2] = {0, 0};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file A crack behind one of its ends.
+/// @file The path of a crack behind its tip.
 
 #include <algorithm>
 #include <array>
@@ -9,66 +9,71 @@
 #include <vector>
 
 #include "kernels/dimension.hpp"
+#include "kernels/fracture/constants.hpp"
 
 namespace mpmfast {
 
-/// In axes out of the crack at its end and to the left of that: the end is the origin.
+/// In axes along the crack at its tip and to its left. The tip is the origin.
 class TipPath {
  public:
-  /// @param points  of the crack from its end on, m; two or more
-  /// @param radius  how far from the end it is asked, m
-  /// @param blur    over which corners count as bends, m
-  TipPath(std::vector<Vec<2>> points, double radius, double blur)
+  /// @param points     of the crack, from its tip on, m; two or more
+  /// @param radius     largest distance from the tip that is evaluated, m
+  /// @param smoothing  length to each side over which corners are smoothed, m
+  TipPath(std::vector<Vec<2>> points, double radius, double smoothing)
       : points_(std::move(points)), step_(radius / kSteps) {
     for (int k = 0; k <= kSteps + 1; ++k)
-      along_[static_cast<std::size_t>(k)] = (at(step_ * k - blur) - at(step_ * k + blur)).normalized();
+      directions_[static_cast<std::size_t>(k)] =
+          (point(step_ * k - smoothing) - point(step_ * k + smoothing)).normalized();
   }
 
-  /// Unit vector towards the end, of the crack where it is so far from it.
-  Vec<2> along(double r) const {
-    const auto [k, share] = place(r);
-    return (1 - share) * along_[k] + share * along_[k + 1];
+  /// Direction of the crack where it crosses the circle of radius r around the tip: unit, towards the tip.
+  Vec<2> direction(double r) const {
+    const auto [k, share] = step_of(r);
+    return (1 - share) * directions_[k] + share * directions_[k + 1];
   }
-  /// d(along)/dr, 1/m
-  Vec<2> bend(double r) const {
-    const auto k = place(r).first;
-    return (along_[k + 1] - along_[k]) / step_;
+  /// d(direction)/dr, 1/m
+  Vec<2> direction_slope(double r) const {
+    const auto k = step_of(r).first;
+    return (directions_[k + 1] - directions_[k]) / step_;
   }
 
-  struct Beside {
-    double behind;  ///< from the end back along the crack to what is nearest, m; infinite: that is the end
-    double offset;  ///< from there, positive on the left, m
-    Vec<2> left;    ///< unit normal there
+  /// The closest-point projection on the path.
+  struct Projection {
+    double behind;  ///< length of the path from the tip to the closest point, m; infinite: ahead of the tip
+    double offset;  ///< distance from the path, positive on the left, m
+    Vec<2> left;    ///< unit normal of the path at the closest point
   };
-  Beside beside(const Vec<2>& x) const {
-    Beside nearest{HUGE_VAL, 0, Vec<2>::Zero()};
+  Projection project(const Vec<2>& x) const {
+    Projection closest{HUGE_VAL, 0, Vec<2>::Zero()};
     double least = HUGE_VAL, before = 0;
     for (std::size_t k = 1; k < points_.size() && before < 2 * kSteps * step_; ++k) {
-      const Vec<2> way = points_[k] - points_[k - 1];
-      const double length = way.norm(), share = (x - points_[k - 1]).dot(way) / (length * length);
-      const double held = std::clamp(share, 0.0, 1.0);
-      const double far = (x - points_[k - 1] - held * way).squaredNorm();
-      if (far < least) {
-        const Vec<2> left = Vec<2>(way[1], -way[0]) / length;  // of the way back
-        least = far;
-        nearest = {k == 1 && share < 0 ? HUGE_VAL : before + held * length, (x - points_[k - 1]).dot(left),
+      const Vec<2> back = points_[k] - points_[k - 1];
+      const double length = back.norm(), share = (x - points_[k - 1]).dot(back) / (length * length);
+      const double inside = std::clamp(share, 0.0, 1.0);
+      const double distance = (x - points_[k - 1] - inside * back).squaredNorm();
+      if (distance < least) {
+        const Vec<2> left = Vec<2>(back[1], -back[0]) / length;
+        least = distance;
+        closest = {k == 1 && share < 0 ? HUGE_VAL : before + inside * length, (x - points_[k - 1]).dot(left),
                    left};
       }
       before += length;
     }
-    return nearest;
+    return closest;
   }
 
  private:
-  static constexpr int kSteps = 64;
+  static constexpr int kSteps = fracture_constants::kPathSteps;
 
-  std::pair<std::size_t, double> place(double r) const {
-    const double at = std::min(r / step_, kSteps + 0.5);
-    const auto k = static_cast<std::size_t>(at);
-    return {k, at - static_cast<double>(k)};
+  /// The step of the table in which a radius lies, and the share of the step.
+  std::pair<std::size_t, double> step_of(double r) const {
+    const double steps = std::min(r / step_, kSteps + 0.5);
+    const auto k = static_cast<std::size_t>(steps);
+    return {k, steps - static_cast<double>(k)};
   }
-  /// Where the crack is so far from its end; straight on beyond what is known of it, and ahead.
-  Vec<2> at(double r) const {
+  /// The point of the path at a distance from the tip. The path is continued straight beyond its last point
+  /// and, for a negative distance, ahead of the tip.
+  Vec<2> point(double r) const {
     if (r <= 0) return Vec<2>(-r, 0);
     std::size_t k = 1;
     while (k + 1 < points_.size() && points_[k].norm() < r) ++k;
@@ -79,7 +84,7 @@ class TipPath {
 
   std::vector<Vec<2>> points_;
   double step_;
-  std::array<Vec<2>, kSteps + 2> along_;
+  std::array<Vec<2>, kSteps + 2> directions_;
 };
 
 }  // namespace mpmfast

@@ -1,30 +1,30 @@
 #pragma once
 
-/// @file What is asked of the material and of the sides of a crack near its tip (tip_integrals.hpp).
+/// @file Input of the integrals at a crack tip (tip_integrals.hpp), in axes along the crack and to its left.
 
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
 
-/// A piece of the plane near a tip, in axes along the crack and to the left of it.
+/// A small area of material near the tip.
 struct TipSample {
-  Vec<2> place;                            ///< from the tip, m
-  double area;                             ///< m²
-  Vec<2> moved;                            ///< u, m
-  Mat<2> slope;                            ///< u_i,j
-  Mat<2> stress;                           ///< Cauchy, Pa
-  double energy;                           ///< W by the volume now, J/m³
-  double density{};                        ///< kg/m³
-  Vec<2> velocity = Vec<2>::Zero();        ///< m/s
-  Mat<2> velocity_slope = Mat<2>::Zero();  ///< v_i,j, 1/s
-  Vec<2> acceleration = Vec<2>::Zero();    ///< by stresses, m/s²
+  Vec<2> position;                            ///< from the tip, m
+  double area;                                ///< m²
+  Vec<2> displacement;                        ///< u, m
+  Mat<2> gradient;                            ///< u_i,j
+  Mat<2> stress;                              ///< σ, Cauchy, Pa
+  double energy;                              ///< W per current volume, J/m³
+  double density{};                           ///< ρ, kg/m³
+  Vec<2> velocity = Vec<2>::Zero();           ///< v, m/s
+  Mat<2> velocity_gradient = Mat<2>::Zero();  ///< v_i,j, 1/s
+  Vec<2> acceleration = Vec<2>::Zero();       ///< a, by stresses alone, m/s²
 };
 
-/// A piece of a crack that carries a force across.
+/// A piece of a crack whose sides exert a force on each other.
 struct TipTraction {
-  Vec<2> place;  ///< from the tip, m
-  Vec<2> force;  ///< on one side, N/m
-  Mat<2> slope;  ///< u_i,j of that side less that of the other
+  Vec<2> position;       ///< from the tip, m
+  Vec<2> force;          ///< on one side, N/m
+  Mat<2> gradient_jump;  ///< u_i,j of this side less u_i,j of the other
 };
 
 }  // namespace mpmfast

@@ -453,11 +453,11 @@ TEST_CASE("ways between places of a grid cross segments of it as if their ends w
     for (const Point& b : grid)
       for (const Point& p : grid) {
         if (a == b || p == a || p == b) continue;
-        Ways ways;
-        ways.start(p);
-        for (const Point& n : grid) ways.add(n);
-        const Ways::Bits of_a = ways.left_of_ways(a), of_b = ways.left_of_ways(b);
-        const auto across = ways.across(a, b);
+        LineCrossings lines;
+        lines.start(p);
+        for (const Point& n : grid) lines.add(n);
+        const LineCrossings::Bits of_a = lines.point_is_left(a), of_b = lines.point_is_left(b);
+        const auto ends = lines.ends(a, b);
         for (std::size_t k = 0; k < grid.size(); ++k) {
           const Point &n = grid[k], to = moved(n);
           if (n == p) continue;
@@ -465,13 +465,13 @@ TEST_CASE("ways between places of a grid cross segments of it as if their ends w
                      p_left = left(a, b, moved(p));
           REQUIRE((of_a >> k & 1) == a_left);
           REQUIRE((of_b >> k & 1) == b_left);
-          REQUIRE((across.left >> k & 1) == n_left);
-          REQUIRE((across.other >> k & 1) == (n_left != p_left));
+          REQUIRE((ends.left >> k & 1) == n_left);
+          REQUIRE((ends.other_side >> k & 1) == (n_left != p_left));
           REQUIRE(is_left(a, b, n) == n_left);
           const int wanted = a_left == b_left || n_left == p_left ? 0 : n_left ? 1 : -1;
           REQUIRE(crossing(p, n, a, b) == wanted);
         }
-        REQUIRE(((of_a | of_b | across.left | across.other) >> grid.size()) == 0);
+        REQUIRE(((of_a | of_b | ends.left | ends.other_side) >> grid.size()) == 0);
       }
 }
 

@@ -290,13 +290,13 @@ boundaries:
   for (const auto& line : step.cracks().lines()) lengths.push_back(line.length());
   for (std::size_t k = 0; k < 3; ++k) {
     const TipLoad load = step.tip_load(tips[k].crack, tips[k].end);
-    CHECK(row.tips[k][0] == load.place[0]);
-    CHECK(row.tips[k][1] == load.place[1]);
-    CHECK(row.tips[k][2] == load.release);
-    CHECK(row.tips[k][3] == load.opening);
-    CHECK(row.tips[k][4] == load.sliding);
-    CHECK(load.release > 0);
-    lengths[static_cast<std::size_t>(tips[k].crack)] -= load.lead;
+    CHECK(row.tips[k][0] == load.position[0]);
+    CHECK(row.tips[k][1] == load.position[1]);
+    CHECK(row.tips[k][2] == load.energy_release_rate);
+    CHECK(row.tips[k][3] == load.mode_i);
+    CHECK(row.tips[k][4] == load.mode_ii);
+    CHECK(load.energy_release_rate > 0);
+    lengths[static_cast<std::size_t>(tips[k].crack)] -= load.bonded_length;
   }
   CHECK(row.crack_lengths == lengths);
   CHECK(row.crack_lengths[0] < step.cracks().lines()[0].length());  // bonds lead the slit
