@@ -14,6 +14,9 @@ namespace {
 using Point = std::array<double, 2>;
 using Loop = std::vector<Point>;  ///< counter-clockwise about the material
 
+/// Least segments of a quarter of an ellipse, –: the coarsest outline is an octagon.
+constexpr long kLeastPerQuarter = 2;
+
 double length(const Point& a, const Point& b) { return std::hypot(b[0] - a[0], b[1] - a[1]); }
 
 double signed_area(const Loop& loop) {
@@ -23,8 +26,8 @@ double signed_area(const Loop& loop) {
   return 0.5 * twice;
 }
 
-/// The edges of a polygon, each in as many even segments as its length has room for.
-Loop divided(Loop corners, double spacing) {
+/// Divides the edges of a polygon into equal segments of about `spacing`.
+Loop divide_edges(Loop corners, double spacing) {
   if (signed_area(corners) < 0) std::reverse(corners.begin(), corners.end());
   Loop loop;
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -38,17 +41,17 @@ Loop divided(Loop corners, double spacing) {
   return loop;
 }
 
-/// Points of an ellipse at even distances along it, as many in each quarter.
-Loop around(const EllipsoidShape& shape, double spacing) {
-  constexpr long kSteps = 4096;  // of a quarter, for its length
+/// Equidistant points of an ellipse, equally many in each quarter.
+Loop ellipse(const EllipsoidShape& shape, double spacing) {
+  constexpr long kSteps = 4096;  // per quarter, for the arc length: a circle has it to 1e-8
   constexpr double kQuarter = std::numbers::pi / 2;
   const auto at = [&](double t) { return Point{shape.radii[0] * std::cos(t), shape.radii[1] * std::sin(t)}; };
   std::vector<double> path{0};
   for (long k = 1; k <= kSteps; ++k)
     path.push_back(path.back() + length(at(kQuarter * static_cast<double>(k - 1) / kSteps),
                                         at(kQuarter * static_cast<double>(k) / kSteps)));
-  const long quarter = std::max(std::lround(path.back() / spacing), 2L);
-  std::vector<double> angle;  // of the first quarter
+  const long quarter = std::max(std::lround(path.back() / spacing), kLeastPerQuarter);
+  std::vector<double> angle;  // parameters of the points in the first quarter
   for (long k = 0; k < quarter; ++k) {
     const double wanted = path.back() * static_cast<double>(k) / static_cast<double>(quarter);
     const auto next =
@@ -63,7 +66,7 @@ Loop around(const EllipsoidShape& shape, double spacing) {
   Loop loop;
   for (int q = 0; q < 4; ++q)
     for (long k = 0; k < quarter; ++k) {
-      // Mirrored quarters, so that the outline has the symmetry of the shape.
+      // Quarters are mirrored, so that the outline has the symmetry of the shape.
       const bool back = q % 2 == 1;
       if (back && k == 0) {
         loop.push_back(at(kQuarter * q));
@@ -81,17 +84,18 @@ Loop around(const EllipsoidShape& shape, double spacing) {
 }
 
 Loop circle(const Vec3& centre, double radius, double spacing) {
-  return around(EllipsoidShape{centre, {radius, radius, 0}, 0}, spacing);
+  return ellipse(EllipsoidShape{centre, {radius, radius, 0}, 0}, spacing);
 }
 
+/// Makes the loops of a plane shape.
 struct Loops {
-  double spacing;
+  double spacing;  ///< m
 
   std::vector<Loop> operator()(const BoxShape& box) const {
     const Vec3 &a = box.lower, &b = box.upper;
-    return {divided({{a[0], a[1]}, {b[0], a[1]}, {b[0], b[1]}, {a[0], b[1]}}, spacing)};
+    return {divide_edges({{a[0], a[1]}, {b[0], a[1]}, {b[0], b[1]}, {a[0], b[1]}}, spacing)};
   }
-  std::vector<Loop> operator()(const EllipsoidShape& shape) const { return {around(shape, spacing)}; }
+  std::vector<Loop> operator()(const EllipsoidShape& shape) const { return {ellipse(shape, spacing)}; }
   std::vector<Loop> operator()(const RingShape& ring) const {
     std::vector<Loop> loops{circle(ring.centre, ring.outer, spacing)};
     if (ring.inner > 0) {
@@ -101,19 +105,20 @@ struct Loops {
     return loops;
   }
   std::vector<Loop> operator()(const PolygonShape& polygon) const {
-    return {divided(polygon.points, spacing)};
+    return {divide_edges(polygon.points, spacing)};
   }
   std::vector<Loop> operator()(const BitmapShape& bitmap) const { return bitmap_loops(bitmap, spacing); }
   std::vector<Loop> operator()(const StlShape&) const { return {}; }
 };
 
-/// What the outline is at b, coming from a and going on to c.
+/// The joint at b between the segments from a and to c.
 Joint joint_at(const Point& a, const Point& b, const Point& c) {
   const double u = b[0] - a[0], v = b[1] - a[1], x = c[0] - b[0], y = c[1] - b[1];
   const double turning = std::atan2(u * y - v * x, u * x + v * y);
   return std::abs(turning) <= kCrease ? Joint::smooth : turning > 0 ? Joint::convex : Joint::reentrant;
 }
 
+/// Appends a loop. Facets begin behind a crease, where there is one, so that no patch is in two parts.
 void add_loop(const Loop& loop, Outline& out) {
   const std::size_t n = loop.size();
   std::vector<Joint> joints;
@@ -125,11 +130,11 @@ void add_loop(const Loop& loop, Outline& out) {
   for (const Point& p : loop) out.points.push_back({p[0], p[1], 0});
   for (std::size_t k = 0; k < n; ++k) {
     const std::size_t i = (k + first) % n, j = (i + 1) % n;
-    if (k > 0 && joints[i] != Joint::smooth) ++out.pieces;
+    if (k > 0 && joints[i] != Joint::smooth) ++out.patches;
     out.facets.push_back(
-        {{base + static_cast<int>(i), base + static_cast<int>(j), -1}, {joints[i], joints[j]}, out.pieces});
+        {{base + static_cast<int>(i), base + static_cast<int>(j), -1}, {joints[i], joints[j]}, out.patches});
   }
-  ++out.pieces;
+  ++out.patches;
 }
 
 }  // namespace

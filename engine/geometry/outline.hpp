@@ -9,27 +9,29 @@
 
 namespace mpmfast {
 
-/// What a facet is at one of its ends (2-D) or edges (3-D): it goes over smoothly into its neighbour, or
-/// there is a crease between them that sticks out or is sunk in.
+/// The joint of two neighbouring facets, at an end in 2-D or an edge in 3-D: smooth, or a convex or reentrant
+/// crease.
 enum class Joint : std::uint8_t { smooth, convex, reentrant };
 
-/// A closed surface: in 2-D segments a → b with the material on their left, in 3-D triangles that turn
-/// counter-clockwise seen from outside.
+/// A closed surface. In 2-D it consists of segments a → b with the material on their left, in 3-D of
+/// triangles that turn counter-clockwise seen from outside.
 struct Outline {
   struct Facet {
-    std::array<int, 3> point{-1, -1, -1};  ///< of 2-D the first two
+    std::array<int, 3> point{-1, -1, -1};  ///< in 2-D the first two
     std::array<Joint, 3> joint{};          ///< 2-D: at these points; 3-D: of the edges opposite them
-    int piece{};                           ///< smooth parts between creases
+    int patch{};                           ///< the smooth part between creases that it belongs to
   };
   std::vector<Vec3> points;  ///< m
   std::vector<Facet> facets;
-  int pieces{};
+  int patches{};  ///< how many there are
 };
 
-/// Facets whose normals are further apart than this meet in a crease, rad.
+/// Least angle between the normals of facets at a crease, rad. A larger value rounds sharp edges off; a
+/// smaller one makes creases of coarsely divided arcs. Range: (0, π/2).
 inline constexpr double kCrease = 0.5;
 
-/// Points at about `spacing` (m) along the surface, corners kept.
+/// The surface of a shape, with its corners.
+/// @param spacing  about the distance of neighbouring points, m
 Outline outline(const Shape& shape, double spacing, int dimension);
 
 }  // namespace mpmfast

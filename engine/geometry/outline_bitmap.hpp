@@ -8,9 +8,10 @@
 
 namespace mpmfast {
 
-/// Closed lines with the level on their left, at even distances of about `spacing` (m): where the level's
-/// share of the pixels around, softened over two of them, is one half. So outlines of neighbouring levels
-/// follow one line, and have no staircase.
+/// Closed lines with the grey level on their left. The level's share of the pixels is smoothed over two
+/// pixels; the line is where it is one half. Outlines of neighbouring levels follow one line, without a
+/// staircase.
+/// @param spacing  about the distance of neighbouring points, m
 std::vector<std::vector<std::array<double, 2>>> bitmap_loops(const BitmapShape& shape, double spacing);
 
 }  // namespace mpmfast

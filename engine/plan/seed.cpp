@@ -260,7 +260,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     if (plan.heat) view.heat = body_heat(scene, scene.bodies[b]);
     state.bodies.push_back(view);
   }
-  if (!surfaces.empty()) join(state.surfaces);
+  if (!surfaces.empty()) connect_facets(state.surfaces);
   const std::vector<double> areas = tributary_areas(state.surfaces);
 
   auto& particles = state.particles;

@@ -8,18 +8,20 @@
 
 namespace mpmfast {
 
-/// The outline of each body; empty where the plan follows none.
+/// The outline of each body of the scene; empty without penalty contact.
 std::vector<Outline> outlines(const Scene& scene, const Plan& plan);
 
-/// Enters the outline of the next body. @param first_id  of its boundary points
+/// Appends the surface of the next body. Normal cones are missing until connect_facets().
+/// @param first_id   of its boundary points
+/// @param thickness  of a plane body, m
 template <int Dim>
 void add_surface(const Outline& outline, std::uint32_t first_id, double thickness, Surfaces<Dim>& out);
 
-/// Numbers what adjoins what: after the last body.
+/// Builds the vertex normal cones of all bodies, once their surfaces are added.
 template <int Dim>
-void join(Surfaces<Dim>& surfaces);
+void connect_facets(Surfaces<Dim>& surfaces);
 
-/// Undeformed area of the surface that belongs to each point, m².
+/// Undeformed surface area of each boundary point, m²: equal shares of the facets at it.
 template <int Dim>
 std::vector<double> tributary_areas(const Surfaces<Dim>& surfaces);
 

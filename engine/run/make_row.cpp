@@ -30,7 +30,7 @@ void fill_forces(const Step<Dim>& step, const Scene& scene, const RunCounters<Di
   for (std::size_t k = 0; k < sums.pair_impulse.size(); ++k)
     row.pair_force.push_back(mean_force(sums.pair_impulse[k], last.pair_impulse[k]));
   row.pair_friction = sums.pair_friction_work;
-  row.pair_area = step.penalty().books().pair_area;
+  row.pair_area = step.penalty().ledger().pair_area;
 }
 
 template <int Dim>

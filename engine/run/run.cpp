@@ -322,7 +322,7 @@ class Run {
         c.regressions > 0 ? static_cast<double>(c.iterations) / static_cast<double>(c.regressions) : 0;
     s.contact = {c.nodes_peak, c.regressions, c.fallbacks,      c.unconverged, mean_iterations, c.touching,
                  c.doubtful,   c.pair_nodes,  c.pair_fallbacks, c.meetings,    c.screened};
-    s.contact.points_peak = step_.penalty().pressed_peak();
+    s.contact.points_peak = step_.penalty().contact_points_peak();
     s.energy_error = counters_.balance.error();
     s.settings = settings_of(scene_);
     s.spacing = counters_.spacing.cells;

@@ -13,7 +13,7 @@ void Step<Dim>::book(double dt) {
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
   if (plan_.contact) book(contact_.books());
-  if (plan_.penalty) book(penalty_.books());
+  if (plan_.penalty) book(penalty_.ledger());
   if (loads_.active()) sums_.body_force_work += loads_.work();
 }
 

@@ -62,7 +62,7 @@ void Step<Dim>::number_slots() {
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
   extension_.forget_nodes();
-  penalty_.forget_tiles();
+  penalty_.invalidate_tiles();
   heat_.forget_nodes();
   contact_.follow(state_.tiling);
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));

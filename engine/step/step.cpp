@@ -76,7 +76,7 @@ double Step<Dim>::fastest() const {
 
 template <int Dim>
 double Step<Dim>::stable_dt() const {
-  const double share = std::min(scene_->time.cfl, penalty_.stable_share());
+  const double share = std::min(scene_->time.cfl, penalty_.courant_limit());
   const double stable = std::min(scene_->time.max_step, share * scene_->grid.cell / fastest());
   return heat_.active() ? std::min(stable, heat_.stable_dt()) : stable;
 }
@@ -238,8 +238,8 @@ template <int Dim>
 void Step<Dim>::press_surfaces(double dt) {
   if (!penalty_.active()) return;
   const auto timed = clock_.enter(Task::press_surfaces);
-  if (const auto fold = penalty_.look(state_)) fail_folded(*fold);
-  penalty_.press(state_, rigid_.pivots(), dt);
+  if (const auto fold = penalty_.find_contacts(state_)) fail_folded(*fold);
+  penalty_.compute_forces(state_, rigid_.pivots(), dt);
 }
 
 /// From here on the nodes that follow others have no mass.
@@ -261,7 +261,7 @@ void Step<Dim>::push_surfaces(double dt) {
   if (!penalty_.active()) return;
   const auto timed = clock_.enter(Task::push_surfaces);
   if (update_rule() != ParticleUpdate::flip) {
-    if (penalty_.pressed() > 0) passes_->push(state_, penalty_.forces());
+    if (penalty_.contact_points() > 0) passes_->push(state_, penalty_.forces());
     return;
   }
   find_velocities(Nodal::velocity);

@@ -215,7 +215,7 @@ void Step<Dim>::visit(Archive& archive) {
   check_places(state_, lower_, upper_);
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
   conditions_.forget_nodes();
-  penalty_.forget_tiles();
+  penalty_.invalidate_tiles();
   // Where particles lie in other windows than their tiles', nothing may count on these: the next step sorts.
   const bool placed = passes_->near_home(state_, 0);
   sort_due_ |= !placed;

@@ -307,7 +307,7 @@ void list_counters(const Step<Dim>& step, const Step<Dim>* before, std::vector<F
   add("extension nodes", [](const Step<Dim>& s) { return s.extension().counters().nodes; });
   add("extension lowered", [](const Step<Dim>& s) { return s.extension().counters().lowered; });
   add("extension alone", [](const Step<Dim>& s) { return s.extension().counters().alone; });
-  out.push_back({"pressed points", static_cast<double>(step.penalty().pressed()), 0});
+  out.push_back({"pressed points", static_cast<double>(step.penalty().contact_points()), 0});
 }
 
 template <int Dim>

@@ -1,4 +1,4 @@
-// Surfaces that are followed, and the forces between them.
+// Penalty contact: outlines, boundary points and forces between surfaces.
 
 #include <Eigen/Geometry>
 
@@ -57,14 +57,14 @@ TEST_CASE("outlines of plane shapes close, keep their corners and have the mater
   CHECK(box.points.size() == 40);
   CHECK(length_of(box) == doctest::Approx(10));
   CHECK(area_of(box) == doctest::Approx(6));
-  CHECK(box.pieces == 4);
+  CHECK(box.patches == 4);
   CHECK(joints(box, Joint::convex) == 4);
   CHECK(joints(box, Joint::reentrant) == 0);
 
   const Outline disk = outline(EllipsoidShape{{0, 0, 0}, {2, 2, 0}, 0}, 0.05, 2);
   CHECK(length_of(disk) == doctest::Approx(4 * pi).epsilon(1e-4));
   CHECK(area_of(disk) == doctest::Approx(4 * pi).epsilon(1e-3));
-  CHECK(disk.pieces == 1);
+  CHECK(disk.patches == 1);
   CHECK(joints(disk, Joint::smooth) == static_cast<int>(disk.facets.size()));
 
   const Outline turned = outline(EllipsoidShape{{1, 1, 0}, {3, 1, 0}, 0.7}, 0.05, 2);
@@ -79,7 +79,7 @@ TEST_CASE("outlines of plane shapes close, keep their corners and have the mater
   CHECK(longest < 1.01 * shortest);
 
   const Outline ring = outline(RingShape{{0, 0, 0}, 1, 2, 0}, 0.05, 2);
-  CHECK(ring.pieces == 2);
+  CHECK(ring.patches == 2);
   CHECK(area_of(ring) == doctest::Approx(3 * pi).epsilon(1e-3));
   CHECK(length_of(ring) == doctest::Approx(6 * pi).epsilon(1e-3));
 
@@ -87,7 +87,7 @@ TEST_CASE("outlines of plane shapes close, keep their corners and have the mater
   const Outline angle =
       outline(PolygonShape{{{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}}, 0, 0}, 0.25, 2);
   CHECK(area_of(angle) == doctest::Approx(3));
-  CHECK(angle.pieces == 6);
+  CHECK(angle.patches == 6);
   CHECK(joints(angle, Joint::convex) == 5);
   CHECK(joints(angle, Joint::reentrant) == 1);
 
@@ -98,7 +98,7 @@ TEST_CASE("outlines of plane shapes close, keep their corners and have the mater
     for (int column = 0; column < 60; ++column)
       image->pixel.push_back(std::hypot(column - 29.5, row - 29.5) < 20 ? 7 : 200);
   const Outline pixels = outline(BitmapShape{"", {0, 0, 0}, {6, 6, 0}, 7, image}, 0.05, 2);
-  CHECK(pixels.pieces == 1);
+  CHECK(pixels.patches == 1);
   CHECK(area_of(pixels) == doctest::Approx(4 * pi).epsilon(0.01));
   CHECK(length_of(pixels) == doctest::Approx(4 * pi).epsilon(0.01));
   const Outline around = outline(BitmapShape{"", {0, 0, 0}, {6, 6, 0}, 200, image}, 0.05, 2);
@@ -131,21 +131,20 @@ TEST_CASE(
   CHECK_THROWS_AS(left_of("-2e-9 m"), SceneError);
 }
 
-/// Surfaces of a scene as it stands, with forces between them.
-struct Pressed {
+/// Penalty contact of a scene whose bodies are moved by hand.
+struct Moved {
   Scene scene;
   Step<2> step;
   std::unique_ptr<Passes<2>> passes;
   Penalty<2> penalty;
 
-  explicit Pressed(const std::string& yaml)
+  explicit Moved(const std::string& yaml)
       : scene(scene_from(yaml)),
         step(scene),
         passes(make_passes<2>(scene.method.basis)),
         penalty(scene, step.plan(), step.state()) {}
 
-  /// Moves body b, by the order of the scene, to its first place and `by`, m, turned by `angle` about its
-  /// first particle.
+  /// Places a body at its first position moved by `by`, m, turned by `angle` about its first boundary point.
   void move(int body, const Vec<2>& by, double angle = 0) {
     auto& particles = step.state().particles;
     if (first_.empty())
@@ -163,17 +162,17 @@ struct Pressed {
     }
   }
 
-  void press() {
+  void advance() {
     auto& state = step.state();
     passes->sort(state);
-    penalty.forget_tiles();
-    REQUIRE(!penalty.look(state));
-    penalty.press(state, std::vector<Vec<2>>(2, Vec<2>::Zero()), 1e-6);
+    penalty.invalidate_tiles();
+    REQUIRE(!penalty.find_contacts(state));
+    penalty.compute_forces(state, std::vector<Vec<2>>(2, Vec<2>::Zero()), 1e-6);
     ++state.step;
     state.time += 1e-6;
   }
 
-  Vec<2> place(int point) const {
+  Vec<2> position(int point) const {
     const auto& state = step.state();
     for (std::size_t p = 0; p < state.particles.size(); ++p)
       if (state.surfaces.number(state.particles.body()[p], state.particles.id()[p]) == point)
@@ -223,7 +222,8 @@ TEST_CASE("domains that an outline cuts keep its area and its moments, whatever 
   }
 }
 
-TEST_CASE("a body has the mass within its outline, a thousandth of the cells along that on boundary points") {
+TEST_CASE(
+    "a body has the mass within its outline, and its boundary points a thousandth of the cells along it") {
   const Scene scene =
       scene_from(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
                             "box: {from: [20 mm, 10 mm], to: [30 mm, 30 mm]}", "law: frictionless"));
@@ -249,25 +249,25 @@ TEST_CASE("a body has the mass within its outline, a thousandth of the cells alo
   }
 }
 
-TEST_CASE("flat surfaces that overlap press with stiffness times depth") {
+TEST_CASE("the force between flat surfaces is stiffness times depth") {
   // 6 mm of faces 0.01 mm deep, ω = ρc²/Δh with ρc² = K + 4G/3 = 120 MPa.
-  Pressed pressed(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
-                             "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "law: frictionless"));
-  pressed.move(1, Vec<2>(0.00013, -1e-5));
-  pressed.press();
-  const Vec<2> force = pressed.force_on(1);
+  Moved bodies(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
+                          "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "law: frictionless"));
+  bodies.move(1, Vec<2>(0.00013, -1e-5));
+  bodies.advance();
+  const Vec<2> force = bodies.force_on(1);
   CHECK(force[1] == doctest::Approx(120e6 / 1e-3 * 1e-5 * 6e-3).epsilon(1e-3));
-  CHECK(std::abs(force[0]) < 1e-4 * force[1]);  // of what lies near the other corners
-  CHECK((pressed.force_on(0) + force).norm() < 1e-12 * force.norm());
+  CHECK(std::abs(force[0]) < 1e-4 * force[1]);
+  CHECK((bodies.force_on(0) + force).norm() < 1e-12 * force.norm());
 }
 
-/// Σ f and Σ x × f over all points, over what one of the forces would make.
-void check_balanced(const Pressed& pressed) {
-  const auto& forces = pressed.penalty.forces();
+/// Checks that Σ f and Σ x × f over all boundary points vanish to round-off.
+void check_balanced(const Moved& bodies) {
+  const auto& forces = bodies.penalty.forces();
   Vec<2> sum = Vec<2>::Zero();
   double moment = 0, size = 0;
   for (std::size_t p = 0; p < forces.size(); ++p) {
-    const Vec<2> x = pressed.place(static_cast<int>(p));
+    const Vec<2> x = bodies.position(static_cast<int>(p));
     sum += forces[p];
     moment += x[0] * forces[p][1] - x[1] * forces[p][0];
     size += forces[p].norm();
@@ -277,32 +277,31 @@ void check_balanced(const Pressed& pressed) {
   CHECK(std::abs(moment) < 1e-13 * size * 0.04);
 }
 
-TEST_CASE("forces and their moments sum to zero, also of corners and of what rubs") {
-  Pressed disks(two_bodies("disk: {centre: [14 mm, 20 mm], radius: 5 mm}",
-                           "disk: {centre: [24.1 mm, 21 mm], radius: 5 mm}", "friction: 0.4"));
+TEST_CASE("forces and their moments sum to zero, also at corners and with friction") {
+  Moved disks(two_bodies("disk: {centre: [14 mm, 20 mm], radius: 5 mm}",
+                         "disk: {centre: [24.1 mm, 21 mm], radius: 5 mm}", "friction: 0.4"));
   disks.move(1, Vec<2>(-0.3e-3, 0));
-  disks.press();
+  disks.advance();
   check_balanced(disks);
-  disks.move(1, Vec<2>(-0.31e-3, 0.02e-3), 0.003);  // now they have slipped
-  disks.press();
+  disks.move(1, Vec<2>(-0.31e-3, 0.02e-3), 0.003);  // with slip
+  disks.advance();
   check_balanced(disks);
-  CHECK(disks.penalty.books().friction_work > 0);
+  CHECK(disks.penalty.ledger().friction_work > 0);
 
-  Pressed corners(two_bodies("box: {from: [10 mm, 10 mm], to: [20 mm, 20 mm]}",
-                             "box: {from: [19.6 mm, 19.5 mm], to: [26 mm, 26 mm]}", "law: stick"));
+  Moved corners(two_bodies("box: {from: [10 mm, 10 mm], to: [20 mm, 20 mm]}",
+                           "box: {from: [19.6 mm, 19.5 mm], to: [26 mm, 26 mm]}", "law: stick"));
   corners.move(1, Vec<2>(0, 0), 0.1);
-  corners.press();
+  corners.advance();
   corners.move(1, Vec<2>(1e-5, -1e-5), 0.1);
-  corners.press();
+  corners.advance();
   check_balanced(corners);
 }
 
-TEST_CASE(
-    "where a surface folds onto itself its body and the particle there are named, whichever body it is") {
+TEST_CASE("a surface that folds onto itself is reported with its body and particle, whichever body it is") {
   for (const int body : {0, 1}) {
     CAPTURE(body);
-    Pressed disks(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
-                             "disk: {centre: [23 mm, 20 mm], radius: 5 mm}", "law: frictionless"));
+    Moved disks(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
+                           "disk: {centre: [23 mm, 20 mm], radius: 5 mm}", "law: frictionless"));
     auto& state = disks.step.state();
     auto& particles = state.particles;
     // The point that is nearest to the other body, drawn out to a needle.
@@ -320,15 +319,15 @@ TEST_CASE(
     const std::uint32_t id = particles.id()[tip];
     particles.column(Quantity::position, 0)[tip] += sign * 8e-3;
     disks.passes->sort(state);
-    disks.penalty.forget_tiles();
-    const std::optional<Fold> fold = disks.penalty.look(state);
+    disks.penalty.invalidate_tiles();
+    const std::optional<Fold> fold = disks.penalty.find_contacts(state);
     REQUIRE(fold);
     CHECK(fold->body == body);
     CHECK(fold->id == id);
   }
 }
 
-TEST_CASE("the ledger gives each of two rigid bodies beside each other the forces on its own points") {
+TEST_CASE("the ledger gives each of two rigid bodies the forces on its own points") {
   const Scene scene = scene_from(R"(
 space: plane_strain
 grid: {size: [40 mm, 40 mm], cell: 1 mm}
@@ -345,10 +344,10 @@ contact: {family: penalty, points_per_cell: 4, law: frictionless}
   auto& state = step.state();
   make_passes<2>(scene.method.basis)->sort(state);
   Penalty<2> penalty(scene, step.plan(), state);
-  REQUIRE(!penalty.look(state));
+  REQUIRE(!penalty.find_contacts(state));
   const std::vector<Vec<2>> pivots{{0, 0}, {0.011, 0.012}, {0.022, 0.012}};
   const double dt = 1e-6;
-  penalty.press(state, pivots, dt);
+  penalty.compute_forces(state, pivots, dt);
   std::vector<Vec<2>> place(state.surfaces.points());
   for (std::size_t p = 0; p < state.particles.size(); ++p)
     if (const int number = state.surfaces.number(state.particles.body()[p], state.particles.id()[p]);
@@ -368,22 +367,22 @@ contact: {family: penalty, points_per_cell: 4, law: frictionless}
     }
     REQUIRE(force[1] > 0);
     REQUIRE(penalty.forces()[static_cast<std::size_t>(own.first)][1] > 0);  // on a corner
-    CHECK((penalty.books().rigid_impulse[field] - dt * force).norm() < 1e-12 * dt * force.norm());
-    CHECK(penalty.books().rigid_moment[field][2] ==
+    CHECK((penalty.ledger().rigid_impulse[field] - dt * force).norm() < 1e-12 * dt * force.norm());
+    CHECK(penalty.ledger().rigid_moment[field][2] ==
           doctest::Approx(dt * moment).epsilon(1e-9).scale(dt * force.norm() * 4e-3));
   }
-  CHECK(penalty.books().rigid_impulse[0] == Vec<2>::Zero());  // the block is none
+  CHECK(penalty.ledger().rigid_impulse[0] == Vec<2>::Zero());  // the block is none
 }
 
-/// The largest change of the force on b from a place of its path to the next.
+/// The largest change of the force on b from one position of its path to the next.
 template <class Path>
-double largest_jump(Pressed& pressed, int steps, const Path& path, double& largest) {
+double largest_jump(Moved& bodies, int steps, const Path& path, double& largest) {
   Vec<2> before = Vec<2>::Zero();
   double jump = 0;
   for (int k = 0; k <= steps; ++k) {
-    pressed.move(1, path(static_cast<double>(k) / steps));
-    pressed.press();
-    const Vec<2> force = pressed.force_on(1);
+    bodies.move(1, path(static_cast<double>(k) / steps));
+    bodies.advance();
+    const Vec<2> force = bodies.force_on(1);
     largest = std::max(largest, force.norm());
     if (k > 0) jump = std::max(jump, (force - before).norm());
     before = force;
@@ -400,10 +399,10 @@ TEST_CASE("the force on a body that slides round another never jumps") {
            std::to_string(20 + 8 * std::sin(angle)) + " mm]";
   }
   const auto check = [&](const std::string& shape, const auto& path) {
-    Pressed pressed(two_bodies(shape, small, "law: frictionless"));
+    Moved bodies(two_bodies(shape, small, "law: frictionless"));
     double largest = 0;
-    const double coarse = largest_jump(pressed, 150, path, largest);
-    const double fine = largest_jump(pressed, 1200, path, largest);
+    const double coarse = largest_jump(bodies, 150, path, largest);
+    const double fine = largest_jump(bodies, 1200, path, largest);
     CAPTURE(shape);
     REQUIRE(largest > 100);
     CHECK(coarse < 0.5 * largest);
@@ -427,7 +426,7 @@ TEST_CASE("the force on a body that slides round another never jumps") {
     }
     return Vec<2>(centre - Vec<2>(0.03, 0.02));
   });
-  // Into the corner of an angle, where both flanks press.
+  // Into the corner of an angle, between both flanks.
   check(
       "polygon: [[10 mm, 10 mm], [30 mm, 10 mm], [30 mm, 16 mm], [16 mm, 16 mm], [16 mm, 30 mm], [10 mm, 30 "
       "mm]]",
@@ -437,23 +436,23 @@ TEST_CASE("the force on a body that slides round another never jumps") {
       });
 }
 
-TEST_CASE("what slips is held by a spring up to the cone, from which it returns") {
-  // Pressed with 120e9 Pa/m × 1e-5 m × 6 mm = 7.2 N × 1e3 (of a metre's depth); μ = 0.3.
-  Pressed pressed(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
-                             "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "friction: 0.3"));
+TEST_CASE("the tangential spring stretches with the slip up to the friction cone, and returns elastically") {
+  // Moved with 120e9 Pa/m × 1e-5 m × 6 mm = 7.2 N × 1e3 (of a metre's depth); μ = 0.3.
+  Moved bodies(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
+                          "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "friction: 0.3"));
   const auto at = [&](double slip) {
-    pressed.move(1, Vec<2>(slip, -1e-5));
-    pressed.press();
-    return pressed.force_on(1);
+    bodies.move(1, Vec<2>(slip, -1e-5));
+    bodies.advance();
+    return bodies.force_on(1);
   };
   const double normal = at(0)[1];
   CHECK(at(0)[0] == doctest::Approx(0));
   const double elastic = at(1e-6)[0];
   CHECK(elastic == doctest::Approx(-0.1 * normal).epsilon(2e-3));  // the spring is as stiff as the normal one
   CHECK(at(2e-6)[0] == doctest::Approx(2 * elastic).epsilon(1e-6));
-  CHECK(pressed.penalty.books().friction_work == 0);
+  CHECK(bodies.penalty.ledger().friction_work == 0);
   CHECK(at(8e-6)[0] == doctest::Approx(-0.3 * normal).epsilon(2e-3));
-  CHECK(pressed.penalty.books().friction_work == doctest::Approx(0.3 * normal * 5e-6).epsilon(3e-3).scale(0));
+  CHECK(bodies.penalty.ledger().friction_work == doctest::Approx(0.3 * normal * 5e-6).epsilon(3e-3).scale(0));
   CHECK(at(6e-6)[0] == doctest::Approx(-0.1 * normal).epsilon(5e-3));  // back by 2e-6 of the 3e-6 it holds
   CHECK(at(0)[0] == doctest::Approx(0.3 * normal).epsilon(2e-3));
 }
@@ -481,7 +480,7 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   while (step.state().time < 6e-4) step.advance(step.stable_dt());
   const auto last = totals();
   const double momentum = 6 * 1000 * std::numbers::pi * 16e-6;
-  CHECK(step.penalty().pressed_peak() > 0);
+  CHECK(step.penalty().contact_points_peak() > 0);
   CHECK(std::abs(last[0] - first[0]) < 1e-12 * momentum);
   CHECK(std::abs(last[1] - first[1]) < 1e-12 * momentum);
   CHECK(std::abs(last[2] / first[2] - 1) < 0.04);  // measured 0.028; 0.20 with contact on nodes
@@ -500,7 +499,7 @@ TEST_CASE("two disks that collide obliquely keep momentum, angular momentum and 
   CHECK(squares / mass < 1.2 * of_all);  // measured 0.93; 1.53 where they keep their own velocity
 }
 
-TEST_CASE("what boundary points have beyond the grid's velocity goes to the body, once") {
+TEST_CASE("momentum of boundary points beyond the velocity of the grid goes to the body, once") {
   for (const char* extension : {"none", "{occupation: 0.8}"}) {
     CAPTURE(std::string(extension));
     const Scene scene =
@@ -561,13 +560,13 @@ TEST_CASE("outlines of solid shapes close, face outwards and keep their creases"
   const double pi = std::numbers::pi;
   const Outline box = outline(BoxShape{{1, 2, 3}, {3, 3, 4}}, 0.3, 3);
   CHECK(closes(box));
-  CHECK(box.pieces == 6);
+  CHECK(box.patches == 6);
   CHECK(measures_of(box).area == doctest::Approx(10));
   CHECK(measures_of(box).volume == doctest::Approx(2));
 
   const Outline ball = outline(EllipsoidShape{{1, 0, 0}, {2, 2, 2}, 0}, 0.2, 3);
   CHECK(closes(ball));
-  CHECK(ball.pieces == 1);
+  CHECK(ball.patches == 1);
   CHECK(measures_of(ball).area == doctest::Approx(16 * pi).epsilon(5e-3));
   CHECK(measures_of(ball).volume == doctest::Approx(32 * pi / 3).epsilon(5e-3));
   const Outline egg = outline(EllipsoidShape{{0, 0, 0}, {3, 2, 1}, 0.4}, 0.2, 3);
@@ -575,16 +574,16 @@ TEST_CASE("outlines of solid shapes close, face outwards and keep their creases"
 
   const Outline tube = outline(RingShape{{0, 0, 1}, 1, 2, 0.5}, 0.1, 3);
   CHECK(closes(tube));
-  CHECK(tube.pieces == 4);
+  CHECK(tube.patches == 4);
   CHECK(measures_of(tube).volume == doctest::Approx(3 * pi).epsilon(2e-3));
   const Outline rod = outline(RingShape{{0, 0, 0}, 0, 1, 2}, 0.1, 3);
   CHECK(closes(rod));
-  CHECK(rod.pieces == 3);
+  CHECK(rod.patches == 3);
   CHECK(measures_of(rod).volume == doctest::Approx(4 * pi).epsilon(2e-3));
 
   const Outline angle = outline(PolygonShape{{{0, 0}, {0, 2}, {1, 2}, {1, 1}, {2, 1}, {2, 0}}, 0, 1}, 0.3, 3);
   CHECK(closes(angle));
-  CHECK(angle.pieces == 8);
+  CHECK(angle.patches == 8);
   CHECK(measures_of(angle).volume == doctest::Approx(3));
   int sunk = 0;
   for (const auto& f : angle.facets)
@@ -640,7 +639,7 @@ method: {basis: bspline2, extension: {occupation: 0.75}}
   CHECK((momentum() - first).norm() < 1e-12 * first.norm());
 }
 
-TEST_CASE("a plate that moves gives a body the momentum and the energy that are booked") {
+TEST_CASE("a moving plate gives a body the momentum and energy in the ledger") {
   const Scene scene = scene_from(R"(
 space: plane_strain
 grid: {size: [20 mm, 24 mm], cell: 1 mm}
@@ -673,7 +672,7 @@ contact: {family: penalty, law: frictionless, pairs: [{between: [disk, plate], l
   CHECK(std::abs(sums.rigid_moment[0][2]) < 1e-6 * momentum[1] * 0.01);
 }
 
-TEST_CASE("bodies that ignore each other have no surfaces to follow") {
+TEST_CASE("bodies that ignore each other have no surfaces") {
   const Scene scene =
       scene_from(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
                             "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}", "law: ignore"));
@@ -681,7 +680,7 @@ TEST_CASE("bodies that ignore each other have no surfaces to follow") {
   CHECK(step.state().surfaces.empty());
 }
 
-TEST_CASE("penalty contact refuses what it cannot follow") {
+TEST_CASE("penalty contact refuses laws, keys and boundaries that it does not support") {
   const std::string box = "box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
                     other = "box: {from: [11 mm, 20 mm], to: [17 mm, 26 mm]}";
   const auto complaint = [](const std::string& yaml, const std::map<std::string, std::string>& sets = {}) {
@@ -709,12 +708,12 @@ void move_body(State<Dim>& state, int body, const Vec<Dim>& by) {
 
 template <int Dim>
 const std::vector<Vec<Dim>>& forces_of(Penalty<Dim>& penalty, const State<Dim>& state) {
-  REQUIRE(!penalty.look(state));
-  penalty.press(state, std::vector<Vec<Dim>>(2, Vec<Dim>::Zero()), 1e-6);
+  REQUIRE(!penalty.find_contacts(state));
+  penalty.compute_forces(state, std::vector<Vec<Dim>>(2, Vec<Dim>::Zero()), 1e-6);
   return penalty.forces();
 }
 
-TEST_CASE("faces that overlap in three dimensions press with stiffness times depth") {
+TEST_CASE("the force between flat faces in 3-D is stiffness times depth") {
   // 4 x 4 mm of faces 0.01 mm deep, as in two dimensions.
   const Scene scene = scene_from(R"(
 space: 3d
@@ -741,7 +740,7 @@ method: {basis: bspline2}
   CHECK(std::hypot(sum[0], sum[1]) < 1e-3 * sum[2]);
 }
 
-/// Bodies a and b that overlap, or nearly do, moved against each other as far as lists may hold.
+/// Moves bodies a and b against each other, and compares forces of old lists and new ones.
 template <int Dim>
 void check_lists(const std::string& yaml) {
   const Scene scene = scene_from(yaml);
@@ -755,27 +754,27 @@ void check_lists(const std::string& yaml) {
       make_passes<Dim>(scene.method.basis)->sort(state);
       Penalty<Dim> before(scene, step.plan(), state);
       forces_of(before, state);
-      // As far as the lists may hold, then further.
+      // Just within half of the skin, then beyond it.
       for (const double cells : {0.199, 0.8}) {
         const Vec<Dim> by = way * cells * scene.grid.cell * Vec<Dim>::Unit(along);
         move_body<Dim>(state, 0, -by);
         move_body<Dim>(state, 1, by);
         Penalty<Dim> anew(scene, step.plan(), state);
         const auto &old = forces_of(before, state), &now = forces_of(anew, state);
-        if (cells < 0.2) most = std::max(most, anew.pressed());
-        CHECK(before.pressed() == anew.pressed());
+        if (cells < 0.2) most = std::max(most, anew.contact_points());
+        CHECK(before.contact_points() == anew.contact_points());
         CHECK(old == now);
       }
     }
   CHECK(most > 4);
 }
 
-TEST_CASE("lists of near facets hold as long as they are used: forces are those of new lists") {
+TEST_CASE("candidate lists hold as long as they are used: forces are those of new lists") {
   check_lists<2>(two_bodies("disk: {centre: [15 mm, 20 mm], radius: 5 mm}",
                             "disk: {centre: [24.7 mm, 19 mm], radius: 5 mm}", "law: frictionless"));
   check_lists<2>(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
                             "box: {from: [11 mm, 19.7 mm], to: [17 mm, 26 mm]}", "law: frictionless"));
-  // Apart, so that they are passed over until they have come near.
+  // Apart, so that their clearance lets facets be skipped until they have come near.
   check_lists<2>(two_bodies("disk: {centre: [15 mm, 20 mm], radius: 5 mm}",
                             "disk: {centre: [25.3 mm, 20 mm], radius: 5 mm}", "law: frictionless"));
   check_lists<2>(two_bodies("box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",

@@ -44,14 +44,14 @@ Joint joint_of(double turning) {
 }
 
 /// Loop after loop: points in their order, segments that follow each other from one crease to the next, the
-/// first behind a crease where there is one, and pieces from crease to crease.
+/// first behind a crease where there is one, and patches from crease to crease.
 void check_plane(const Outline& got, const std::vector<Loop>& loops, double tolerance) {
   std::size_t all = 0;
   for (const Loop& loop : loops) all += loop.size();
   REQUIRE(got.points.size() == all);
   REQUIRE(got.facets.size() == all);
   std::size_t base = 0;
-  int piece = 0;
+  int patch = 0;
   for (const Loop& loop : loops) {
     const std::size_t n = loop.size();
     std::vector<Joint> joints;
@@ -74,13 +74,13 @@ void check_plane(const Outline& got, const std::vector<Loop>& loops, double tole
       REQUIRE(facet.joint[0] == joints[i]);
       REQUIRE(facet.joint[1] == joints[j]);
       REQUIRE(facet.joint[2] == Joint::smooth);
-      if (k > 0 && joints[i] != Joint::smooth) ++piece;
-      REQUIRE(facet.piece == piece);
+      if (k > 0 && joints[i] != Joint::smooth) ++patch;
+      REQUIRE(facet.patch == patch);
     }
-    ++piece;
+    ++patch;
     base += n;
   }
-  CHECK(got.pieces == piece);
+  CHECK(got.patches == patch);
 }
 
 Loop divided(Loop corners, double spacing) {
@@ -343,7 +343,7 @@ Vec3 cross(const Vec3& a, const Vec3& b) {
 double length(const Vec3& a) { return std::sqrt(dot(a, a)); }
 
 /// A closed surface: each edge is passed once each way, joints are those of the angles between the facets,
-/// and pieces are what hangs together over smooth ones, numbered as they come. Returns its volume.
+/// and patches are what hangs together over smooth ones, numbered as they come. Returns its volume.
 double check_closed(const Outline& solid) {
   const auto at = [&](int k) -> const Vec3& { return solid.points[static_cast<std::size_t>(k)]; };
   std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> sides;  // from, to: facet, opposite
@@ -374,16 +374,16 @@ double check_closed(const Outline& solid) {
       root[std::max(one, two)] = std::min(one, two);
     }
   }
-  int pieces = 0;
+  int patches = 0;
   std::map<std::size_t, int> number;
   double volume = 0;
   for (std::size_t f = 0; f < solid.facets.size(); ++f) {
-    if (find(f) == f) number[f] = pieces++;
-    REQUIRE(solid.facets[f].piece == number.at(find(f)));
+    if (find(f) == f) number[f] = patches++;
+    REQUIRE(solid.facets[f].patch == number.at(find(f)));
     const auto& p = solid.facets[f].point;
     volume += dot(at(p[0]), cross(at(p[1]), at(p[2]))) / 6;
   }
-  CHECK(solid.pieces == pieces);
+  CHECK(solid.patches == patches);
   return volume;
 }
 

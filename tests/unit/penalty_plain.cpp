@@ -1,5 +1,5 @@
-/// Springs between surfaces that are followed against a plain recount: every point of every facet looks at
-/// every facet of every other body.
+/// Penalty contact against a plain recount that projects every point of every facet on every facet of every
+/// other body.
 
 #include <doctest/doctest.h>
 
@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 
 #include "engine/contact/penalty/penalty.hpp"
-#include "kernels/contact/facet_feet.hpp"
+#include "kernels/contact/closest_point.hpp"
 #include "tests/support.hpp"
 #include "tests/unit/contact_cloud.hpp"
 
@@ -25,8 +25,8 @@ namespace {
 
 using namespace test;
 
-/// What is told of a scene.
-struct Told {
+/// Parameters of a scene.
+struct Parameters {
   double cell, stiffness, tangential;
   std::vector<double> modulus;  ///< K + 4G/3 by body, Pa; 0: rigid
   AnyLaw law;
@@ -38,23 +38,24 @@ class Recount {
   std::vector<Vec<Dim>> force;
   double friction_work = 0, stored = 0, area = 0;
   Vec<Dim> on_first = Vec<Dim>::Zero();  ///< N, on body 0
-  int touches = 0;
+  int contacts = 0;
 
-  Recount(const Surfaces<Dim>& surfaces, const Told& told) : surfaces_(surfaces), told_(told) {}
+  Recount(const Surfaces<Dim>& surfaces, const Parameters& parameters)
+      : surfaces_(surfaces), parameters_(parameters) {}
 
-  void press(const std::vector<Vec<Dim>>& now, double elapsed) {
+  void compute_forces(const std::vector<Vec<Dim>>& now, double elapsed) {
     if (before_.empty()) before_ = now;
     now_ = now;
     force.assign(now.size(), Vec<Dim>::Zero());
-    friction_work = stored = area = touches = 0;
+    friction_work = stored = area = contacts = 0;
     on_first.setZero();
     elapsed_ = elapsed;
     find_normals();
-    was_ = std::exchange(holds_, {});
+    restored_ = std::exchange(springs_, {});
     for (std::size_t f = 0; f < surfaces_.facets.size(); ++f)
       for (int k = 0; k < (Dim == 2 ? 2 : 1); ++k)
         for (int body = 0; body < static_cast<int>(surfaces_.bodies.size()); ++body)
-          if (body != surfaces_.facets[f].body) look(f, k, body);
+          if (body != surfaces_.facets[f].body) find_contacts(f, k, body);
     before_ = now_;
   }
 
@@ -62,13 +63,13 @@ class Recount {
   using Facet = typename Surfaces<Dim>::Facet;
   struct Near {
     std::size_t facet;
-    Foot<Dim> foot;
+    ClosestPoint<Dim> closest;
   };
-  struct Hold {
+  struct Spring {
     bool slides = false;
     Vec<Dim> stretch = Vec<Dim>::Zero();
   };
-  using Place = std::array<int, 3>;  ///< a facet, its point, a piece
+  using Place = std::array<int, 3>;  ///< a facet, its point, a patch
 
   Vec<Dim> normal_of(std::size_t f) const {
     const Facet& one = surfaces_.facets[f];
@@ -86,220 +87,223 @@ class Recount {
   }
   void find_normals() {
     normal_.clear();
-    for (const auto& wedge : surfaces_.wedges) {
+    for (const auto& cone : surfaces_.normal_cones) {
       Vec<Dim> sum = Vec<Dim>::Zero();
-      for (int k = wedge.begin; k < wedge.end; ++k)
-        sum += normal_of(static_cast<std::size_t>(surfaces_.wedge_facets[static_cast<std::size_t>(k)]));
+      for (int k = cone.begin; k < cone.end; ++k)
+        sum += normal_of(static_cast<std::size_t>(surfaces_.cone_facets[static_cast<std::size_t>(k)]));
       normal_.push_back(sum.normalized());
     }
   }
-  /// Of the k-th point of a facet in its corners: Gauss's two of a segment, the middle of a triangle.
+  /// Weight of a corner in the k-th point of a facet: two Gauss points of a segment, the centroid of a
+  /// triangle.
   static double share(int k, int corner) {
     if (Dim == 3) return 1.0 / 3;
     return k == corner ? 0.5 + 0.5 / std::sqrt(3.0) : 0.5 - 0.5 / std::sqrt(3.0);
   }
 
-  std::optional<Foot<Dim>> foot_on_facet(const Vec<Dim>& x, const Facet& facet) const {
+  std::optional<ClosestPoint<Dim>> project_onto(const Vec<Dim>& x, const Facet& facet) const {
     std::array<Vec<Dim>, Dim> corner, normal;
     std::array<bool, Dim> ends;
     for (std::size_t k = 0; k < Dim; ++k) {
       corner[k] = at(facet, k);
-      normal[k] = normal_[static_cast<std::size_t>(facet.wedge[k])];
+      normal[k] = normal_[static_cast<std::size_t>(facet.normal_cone[k])];
       ends[k] = facet.joint[k] != Joint::smooth;
     }
-    auto foot = foot_on(x, corner, normal, ends, told_.cell);
-    if (foot && foot->clipped) {
+    auto closest = project_onto_facet(x, corner, normal, ends, parameters_.cell);
+    if (closest && closest->at_crease) {
       if constexpr (Dim == 2) {
-        foot->convex = facet.joint[foot->share[0] > 0 ? 0 : 1] == Joint::convex;
+        closest->convex = facet.joint[closest->weight[0] > 0 ? 0 : 1] == Joint::convex;
       } else {
-        std::size_t edge = 0;  // that opposite the corner without a share
-        while (edge < 2 && foot->share[edge] != 0) ++edge;
-        foot->convex = facet.joint[edge] == Joint::convex;
+        std::size_t edge = 0;  // opposite the corner without weight
+        while (edge < 2 && closest->weight[edge] != 0) ++edge;
+        closest->convex = facet.joint[edge] == Joint::convex;
       }
     }
-    return foot;
+    return closest;
   }
 
-  void look(std::size_t own, int k, int body) {
+  void find_contacts(std::size_t own, int k, int body) {
     const Facet& facet = surfaces_.facets[own];
     Vec<Dim> x = Vec<Dim>::Zero();
     for (int c = 0; c < Dim; ++c) x += share(k, c) * at(facet, static_cast<std::size_t>(c));
-    std::map<int, Near> nearest;  // by piece
+    std::map<int, Near> nearest;  // by patch
     for (std::size_t f = 0; f < surfaces_.facets.size(); ++f) {
       const Facet& other = surfaces_.facets[f];
-      if (other.body != body || (at(other, 0) - x).norm() > 4 * told_.cell) continue;
-      const auto foot = foot_on_facet(x, other);
-      if (!foot) continue;
-      const auto found = nearest.find(other.piece);
+      if (other.body != body || (at(other, 0) - x).norm() > 4 * parameters_.cell) continue;
+      const auto closest = project_onto(x, other);
+      if (!closest) continue;
+      const auto found = nearest.find(other.patch);
       if (found == nearest.end())
-        nearest.emplace(other.piece, Near{f, *foot});
-      else if (foot->distance < found->second.foot.distance)
-        found->second = {f, *foot};
+        nearest.emplace(other.patch, Near{f, *closest});
+      else if (closest->distance < found->second.closest.distance)
+        found->second = {f, *closest};
     }
     if (nearest.empty()) return;
     const Near* first = nullptr;
-    for (const auto& [piece, near] : nearest)
-      if (!first || near.foot.distance < first->foot.distance) first = &near;
-    if (!(first->foot.distance > 0) || (first->foot.clipped ? first->foot.convex : !first->foot.below))
+    for (const auto& [patch, near] : nearest)
+      if (!first || near.closest.distance < first->closest.distance) first = &near;
+    if (!(first->closest.distance > 0) ||
+        (first->closest.at_crease ? first->closest.convex : !first->closest.inside))
       return;
-    // 1/d² = Σ 1/d_j², of those beyond the nearest less what they have at a cell; −∂d/∂x = Σ (d/d_j)³ exit_j.
+    // 1/d² = Σ 1/d_j², less 1/Δh² for each patch but the nearest; −∂d/∂x = Σ (d/d_j)³ e_j.
     double sum = 0;
-    std::vector<std::pair<const Near*, double>> pieces;
-    for (const auto& [piece, near] : nearest) {
-      const double d = near.foot.distance;
+    std::vector<std::pair<const Near*, double>> patches;
+    for (const auto& [patch, near] : nearest) {
+      const double d = near.closest.distance;
       double weight = 1 / (d * d);
       if (&near != first) {
-        const bool counts = near.foot.clipped ? near.foot.convex : near.foot.below;
-        weight = counts && d > 0 && !first->foot.clipped
-                     ? std::max(0.0, weight - 1 / (told_.cell * told_.cell))
+        const bool counts = near.closest.at_crease ? near.closest.convex : near.closest.inside;
+        weight = counts && d > 0 && !first->closest.at_crease
+                     ? std::max(0.0, weight - 1 / (parameters_.cell * parameters_.cell))
                      : 0;
       }
       sum += weight;
-      if (weight > 0) pieces.push_back({&near, 0});
+      if (weight > 0) patches.push_back({&near, 0});
     }
     const double depth = 1 / std::sqrt(sum);
     Vec<Dim> way = Vec<Dim>::Zero();
-    for (auto& [near, part] : pieces) {
-      part = pieces.size() == 1 ? 1 : std::pow(depth / near->foot.distance, 3);
-      way += part * near->foot.exit;
+    for (auto& [near, part] : patches) {
+      part = patches.size() == 1 ? 1 : std::pow(depth / near->closest.distance, 3);
+      way += part * near->closest.exit_direction;
     }
     const double facing = std::max(0.0, -normal_of(own).dot(way.normalized()));
-    const double a = told_.modulus[static_cast<std::size_t>(facet.body)],
-                 b = told_.modulus[static_cast<std::size_t>(body)];
+    const double a = parameters_.modulus[static_cast<std::size_t>(facet.body)],
+                 b = parameters_.modulus[static_cast<std::size_t>(body)];
     const double softer = a == 0 ? b : b == 0 ? a : std::min(a, b);
-    const double by_area = 0.5 * told_.stiffness * softer / told_.cell;
+    const double by_area = 0.5 * parameters_.stiffness * softer / parameters_.cell;
     const double stiffness = by_area * facing * facet.area / (Dim == 2 ? 2 : 1);
     if (!(stiffness > 0)) return;
     stored += 0.5 * stiffness * depth * depth;
     area += 0.5 * facet.area / (Dim == 2 ? 2 : 1);
-    for (const auto& [near, part] : pieces)
-      touch(own, k, x, *near, stiffness, part * depth, stiffness / by_area);
+    for (const auto& [near, part] : patches)
+      add_contact(own, k, x, *near, stiffness, part * depth, stiffness / by_area);
   }
 
-  void touch(std::size_t own, int k, const Vec<Dim>& x, const Near& near, double stiffness, double depth,
-             double surface) {
-    ++touches;
+  void add_contact(std::size_t own, int k, const Vec<Dim>& x, const Near& near, double stiffness,
+                   double depth, double surface) {
+    ++contacts;
     const Facet &facet = surfaces_.facets[own], &other = surfaces_.facets[near.facet];
-    const Vec<Dim>& exit = near.foot.exit;
-    const Place place{static_cast<int>(own), k, other.piece};
-    Vec<Dim> foot = Vec<Dim>::Zero(), slip = Vec<Dim>::Zero();
+    const Vec<Dim>& exit = near.closest.exit_direction;
+    const Place place{static_cast<int>(own), k, other.patch};
+    Vec<Dim> surface_point = Vec<Dim>::Zero(), slip = Vec<Dim>::Zero();
     for (std::size_t c = 0; c < Dim; ++c) {
-      foot += near.foot.share[c] * at(other, c);
+      surface_point += near.closest.weight[c] * at(other, c);
       slip += share(k, static_cast<int>(c)) * (at(facet, c) - was_at(facet, c)) -
-              near.foot.share[c] * (at(other, c) - was_at(other, c));
+              near.closest.weight[c] * (at(other, c) - was_at(other, c));
     }
     slip -= slip.dot(exit) * exit;
-    Vec<Dim> pushed = stiffness * depth * exit;
-    if (const auto* film = std::get_if<Viscous>(&told_.law)) {
+    Vec<Dim> total = stiffness * depth * exit;
+    if (const auto* film = std::get_if<Viscous>(&parameters_.law)) {
       if (elapsed_ > 0) {
         const Vec<Dim> drag = 0.5 * film->viscosity / film->film * surface / elapsed_ * slip;
-        pushed -= drag;
+        total -= drag;
         friction_work += drag.dot(slip);
       }
     } else {
-      Hold hold;
-      const double tangential = told_.tangential * stiffness;
-      if (const auto found = was_.find(place); found != was_.end()) {
-        hold = found->second;
-        const Vec<Dim> along = hold.stretch - hold.stretch.dot(exit) * exit;
-        if (along.norm() > 0) hold.stretch = hold.stretch.norm() / along.norm() * along;
-        hold.stretch += slip;
+      Spring spring;
+      const double tangential = parameters_.tangential * stiffness;
+      if (const auto found = restored_.find(place); found != restored_.end()) {
+        spring = found->second;
+        const Vec<Dim> along = spring.stretch - spring.stretch.dot(exit) * exit;
+        if (along.norm() > 0) spring.stretch = spring.stretch.norm() / along.norm() * along;
+        spring.stretch += slip;
       }
       double limit = 0, speed = elapsed_ > 0 ? slip.norm() / elapsed_ : 0;
-      if (const auto* one = std::get_if<Coulomb>(&told_.law))
-        limit =
-            (hold.slides ? one->friction : std::max(one->friction, one->static_friction)) * stiffness * depth;
-      if (std::holds_alternative<Stick>(told_.law)) limit = HUGE_VAL;
-      if (const auto* one = std::get_if<VelocityFriction>(&told_.law))
+      if (const auto* one = std::get_if<Coulomb>(&parameters_.law))
+        limit = (spring.slides ? one->friction : std::max(one->friction, one->static_friction)) * stiffness *
+                depth;
+      if (std::holds_alternative<Stick>(parameters_.law)) limit = HUGE_VAL;
+      if (const auto* one = std::get_if<VelocityFriction>(&parameters_.law))
         limit =
             stiffness * depth *
             (one->friction + (one->static_friction - one->friction) * std::exp(-speed / one->decay_speed));
-      const double length = hold.stretch.norm(), most = limit / tangential;
-      hold.slides = length > most;
-      if (hold.slides) {
+      const double length = spring.stretch.norm(), most = limit / tangential;
+      spring.slides = length > most;
+      if (spring.slides) {
         friction_work += (length - most) * limit;
-        hold.stretch *= most / length;
+        spring.stretch *= most / length;
       }
-      stored += 0.5 * tangential * hold.stretch.squaredNorm();
-      pushed -= tangential * hold.stretch;
-      holds_[place] = hold;
+      stored += 0.5 * tangential * spring.stretch.squaredNorm();
+      total -= tangential * spring.stretch;
+      springs_[place] = spring;
     }
     for (std::size_t c = 0; c < Dim; ++c) {
-      force[static_cast<std::size_t>(facet.point[c])] += share(k, static_cast<int>(c)) * pushed;
-      force[static_cast<std::size_t>(other.point[c])] -= near.foot.share[c] * pushed;
+      force[static_cast<std::size_t>(facet.point[c])] += share(k, static_cast<int>(c)) * total;
+      force[static_cast<std::size_t>(other.point[c])] -= near.closest.weight[c] * total;
     }
-    if (facet.body == 0) on_first += pushed;
-    if (other.body == 0) on_first -= pushed;
-    add_couple(other, exit, foot - x, pushed);
+    if (facet.body == 0) on_first += total;
+    if (other.body == 0) on_first -= total;
+    add_couple(other, exit, surface_point - x, total);
   }
 
-  /// Forces along the way out on the corners that sum to nothing and have the moment way × pushed, as far as
-  /// such forces can.
-  void add_couple(const Facet& other, const Vec<Dim>& exit, const Vec<Dim>& way, const Vec<Dim>& pushed) {
+  /// Corner forces along the exit direction that sum to zero and have the moment arm × total, in the sense of
+  /// least squares.
+  void add_couple(const Facet& other, const Vec<Dim>& exit, const Vec<Dim>& arm, const Vec<Dim>& total) {
     const auto add = [&](std::size_t c, double size) {
       force[static_cast<std::size_t>(other.point[c])] += size * exit;
       force[static_cast<std::size_t>(other.point[0])] -= size * exit;
     };
     if constexpr (Dim == 2) {
       const auto cross = [](const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; };
-      add(1, cross(way, pushed) / cross(at(other, 1) - at(other, 0), exit));
+      add(1, cross(arm, total) / cross(at(other, 1) - at(other, 0), exit));
     } else {
       Eigen::Matrix<double, 3, 2> arms;
       arms.col(0) = Vec<3>(at(other, 1) - at(other, 0)).cross(exit);
       arms.col(1) = Vec<3>(at(other, 2) - at(other, 0)).cross(exit);
-      const Vec<2> size = (arms.transpose() * arms).inverse() * (arms.transpose() * way.cross(pushed));
+      const Vec<2> size = (arms.transpose() * arms).inverse() * (arms.transpose() * arm.cross(total));
       add(1, size[0]);
       add(2, size[1]);
     }
   }
 
   const Surfaces<Dim>& surfaces_;
-  Told told_;
+  Parameters parameters_;
   double elapsed_ = 0;
   std::vector<Vec<Dim>> now_, before_, normal_;
-  std::map<Place, Hold> was_, holds_;
+  std::map<Place, Spring> restored_, springs_;
 };
 
 bool as_much(double a, double b) { return std::abs(a - b) <= 1e-8 * std::max(std::abs(a), std::abs(b)); }
 
-/// Bodies of a scene, moved and bent at random from step to step, and both counts of their forces.
+/// Moves and bends the bodies of a scene at random from step to step, and compares both counts of the forces.
 template <int Dim>
-void check_recount(const std::string& text, const Told& told, double bend, int steps, std::uint64_t seed,
-                   const Vec<Dim>& approach = Vec<Dim>::Zero()) {
+void check_recount(const std::string& text, const Parameters& parameters, double bend, int steps,
+                   std::uint64_t seed, const Vec<Dim>& approach = Vec<Dim>::Zero()) {
   const Scene scene = scene_from(text);
   Step<Dim> step(scene);
   auto& state = step.state();
   const auto passes = make_passes<Dim>(scene.method.basis);
   Penalty<Dim> penalty(scene, step.plan(), state);
-  Recount<Dim> recount(state.surfaces, told);
+  Recount<Dim> recount(state.surfaces, parameters);
   Draw draw(seed);
   double dt = 0;
-  int touches = 0;
+  int contacts = 0;
   passes->sort(state);
   for (int k = 0; k < steps; ++k) {
     auto& particles = state.particles;
-    const Vec<Dim> shift = told.cell * (approach + bend * random_direction<Dim>(draw)),
+    const Vec<Dim> shift = parameters.cell * (approach + bend * random_direction<Dim>(draw)),
                    axis = random_direction<Dim>(draw);
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const Vec<Dim> x = particles.vector(Quantity::position, p);
-      const double phase = x.dot(axis) / (6 * told.cell);
+      const double phase = x.dot(axis) / (6 * parameters.cell);
       for (int d = 0; d < Dim; ++d)
-        particles.column(Quantity::position, d)[p] += (particles.body()[p] == 1 ? shift[d] : 0) +
-                                                      0.5 * bend * told.cell * std::sin(phase + d) * (k > 0);
+        particles.column(Quantity::position, d)[p] +=
+            (particles.body()[p] == 1 ? shift[d] : 0) +
+            0.5 * bend * parameters.cell * std::sin(phase + d) * (k > 0);
     }
     if (k % 3 == 0) {
       passes->sort(state);
-      penalty.forget_tiles();
+      penalty.invalidate_tiles();
     }
     std::vector<Vec<Dim>> now(state.surfaces.points());
     for (std::size_t p = 0; p < particles.size(); ++p) {
       const int number = state.surfaces.number(particles.body()[p], particles.id()[p]);
       if (number >= 0) now[static_cast<std::size_t>(number)] = particles.vector(Quantity::position, p);
     }
-    REQUIRE(!penalty.look(state));
-    penalty.press(state, std::vector<Vec<Dim>>(scene.bodies.size(), Vec<Dim>::Zero()), 1e-6);
-    recount.press(now, k > 0 ? dt : 0);
-    touches += recount.touches;
+    REQUIRE(!penalty.find_contacts(state));
+    penalty.compute_forces(state, std::vector<Vec<Dim>>(scene.bodies.size(), Vec<Dim>::Zero()), 1e-6);
+    recount.compute_forces(now, k > 0 ? dt : 0);
+    contacts += recount.contacts;
     double size = 1e-300, apart = 0;
     for (std::size_t p = 0; p < now.size(); ++p) {
       size = std::max(size, recount.force[p].norm());
@@ -307,19 +311,19 @@ void check_recount(const std::string& text, const Told& told, double bend, int s
     }
     CAPTURE(k);
     CHECK(apart <= 1e-8 * size);
-    const auto& books = penalty.books();
-    CHECK(as_much(books.friction_work, recount.friction_work));
-    if (!books.pair_impulse.empty()) {
-      CHECK((books.pair_impulse[0] - 1e-6 * recount.on_first).norm() <= 1e-8 * 1e-6 * size * 100);
-      CHECK(as_much(books.pair_area[0], recount.area));
-      CHECK(as_much(books.pair_friction_work[0], recount.friction_work));
+    const auto& ledger = penalty.ledger();
+    CHECK(as_much(ledger.friction_work, recount.friction_work));
+    if (!ledger.pair_impulse.empty()) {
+      CHECK((ledger.pair_impulse[0] - 1e-6 * recount.on_first).norm() <= 1e-8 * 1e-6 * size * 100);
+      CHECK(as_much(ledger.pair_area[0], recount.area));
+      CHECK(as_much(ledger.pair_friction_work[0], recount.friction_work));
     }
     CHECK(as_much(penalty.stored_energy(state), recount.stored));
     ++state.step;
     dt = uniform(draw, 1e-6, 3e-6);
     state.time += dt;
   }
-  CHECK(touches > 10);
+  CHECK(contacts > 10);
 }
 
 /// Two bodies of a soft and a hard material, or a rigid one.
@@ -350,7 +354,7 @@ contact:
 
 constexpr double kSoft = 120e6, kHard = 1200e6;
 
-TEST_CASE("surfaces in the plane press and rub as every point against every facet does, by each law") {
+TEST_CASE("forces of plane surfaces are those of every point against every facet, with each law") {
   const char* disk = "disk: {centre: [11 mm, 12 mm], radius: 4 mm}";
   const struct {
     const char *other, *law;
@@ -379,21 +383,21 @@ TEST_CASE("surfaces in the plane press and rub as every point against every face
   }
 }
 
-TEST_CASE("boxes press with their corners and edges as every point against every facet does") {
+TEST_CASE("forces at the corners of boxes are those of every point against every facet") {
   check_recount<2>(pair_of(false, "box: {from: [5 mm, 5 mm], to: [12 mm, 12 mm]}",
                            "box: {from: [11.7 mm, 11.6 mm], to: [18 mm, 18 mm]}", "hard",
                            "law: coulomb, friction: 0.4", 1, 1),
                    {1e-3, 1, 1, {kSoft, kHard}, Coulomb{0.4, 0}}, 0.03, 8, 11);
 }
 
-TEST_CASE("what comes near from farther than a cell presses as every point against every facet does") {
+TEST_CASE("forces of bodies that approach from beyond a cell are those of every point against every facet") {
   check_recount<2>(pair_of(false, "disk: {centre: [9 mm, 12 mm], radius: 3 mm}",
                            "polygon: [[13.5 mm, 11 mm], [18 mm, 9 mm], [18 mm, 15 mm], [15 mm, 16 mm]]",
                            "hard", "law: coulomb, friction: 0.2", 1, 1),
                    {1e-3, 1, 1, {kSoft, kHard}, Coulomb{0.2, 0}}, 0.01, 16, 31, Vec<2>(-0.14, 0.01));
 }
 
-TEST_CASE("surfaces in space press and rub as every point against every facet does") {
+TEST_CASE("forces of solid surfaces are those of every point against every facet") {
   check_recount<3>(pair_of(true, "box: {from: [4 mm, 4 mm, 4 mm], to: [7 mm, 7 mm, 6 mm]}",
                            "box: {from: [5.6 mm, 5.7 mm, 5.9 mm], to: [8 mm, 8 mm, 8 mm]}", "hard",
                            "law: coulomb, friction: 0.4", 2, 0.7),

@@ -1,4 +1,4 @@
-// Springs between surfaces that are followed: how stiff, what they store, and whom they reach.
+// Springs of penalty contact: stiffness, stored energy, reach and memory.
 
 #include <cmath>
 #include <map>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-/// Of its surface in the last step, N.
+/// Force on the surface of a body in the last step, N.
 Vec<2> force_on(const Step<2>& step, std::size_t body) {
   const auto& surface = step.state().surfaces.bodies[body];
   Vec<2> sum = Vec<2>::Zero();
@@ -24,7 +24,7 @@ Vec<2> force_on(const Step<2>& step, std::size_t body) {
   return sum;
 }
 
-TEST_CASE("surfaces of two materials press with the stiffness of the softer, whichever is named first") {
+TEST_CASE("the spring between two materials has the stiffness of the softer, whichever is named first") {
   const std::string low = "box: {from: [5 mm, 10 mm], to: [25 mm, 20 mm]}",
                     high = "box: {from: [11.13 mm, 19.99 mm], to: [17.13 mm, 26 mm]}";
   // K + 4G/3 is 120 MPa of the soft one, 1200 MPa of the hard one.
@@ -51,7 +51,7 @@ contact: {{family: penalty, points_per_cell: 4, law: frictionless}}
   }
 }
 
-TEST_CASE("a small step in a surface hides nothing of what it touches beside that, in any unit") {
+TEST_CASE("a small step in a surface does not hide contacts beside it, at any scale") {
   // A block lies along facets of a quarter of a cell, right beside a step of a hundredth.
   for (const double cell : {1e-3, 1.0, 100.0}) {
     CAPTURE(cell);
@@ -96,9 +96,9 @@ contact: {family: penalty, points_per_cell: 4, law: stick}
   auto& state = step.state();
   passes->sort(state);
   const auto stored = [&] {
-    penalty.forget_tiles();
-    REQUIRE(!penalty.look(state));
-    penalty.press(state, std::vector<Vec<2>>(2, Vec<2>::Zero()), 1e-6);
+    penalty.invalidate_tiles();
+    REQUIRE(!penalty.find_contacts(state));
+    penalty.compute_forces(state, std::vector<Vec<2>>(2, Vec<2>::Zero()), 1e-6);
     ++state.step;
     state.time += 1e-6;
     return penalty.stored_energy(state);
@@ -113,7 +113,7 @@ contact: {family: penalty, points_per_cell: 4, law: stick}
   }
 }
 
-/// What surfaces that are followed take, of two bars that touch along all of their length, bytes.
+/// Memory of penalty contact of two bars that touch along all of their length, bytes.
 double bytes_of_bars(double length) {
   const Scene scene = scene_from(fmt::format(R"(
 space: plane_strain
@@ -131,17 +131,17 @@ contact: {{family: penalty, points_per_cell: 4, law: frictionless}}
   const auto passes = make_passes<2>(scene.method.basis);
   Penalty<2> penalty(scene, step.plan(), step.state());
   passes->sort(step.state());
-  REQUIRE(!penalty.look(step.state()));
+  REQUIRE(!penalty.find_contacts(step.state()));
   return static_cast<double>(penalty.bytes());
 }
 
-TEST_CASE("surfaces twice as long take twice the memory: what is listed with a facet lies near it") {
+TEST_CASE("surfaces twice as long take twice the memory, as only near facets are candidates") {
   const double ratio = bytes_of_bars(80) / bytes_of_bars(40);
-  CHECK(ratio > 1.5);  // vectors have some room for more: measured 1.94
+  CHECK(ratio > 1.5);  // vectors reserve more than they hold
   CHECK(ratio < 2.6);
 }
 
-TEST_CASE("no two bodies have a piece of their surfaces in common, and each has as many as its shape") {
+TEST_CASE("no patch belongs to two bodies, and a body has as many as its shape") {
   const Scene scene = scene_from(R"(
 space: plane_strain
 grid: {size: [40 mm, 40 mm], cell: 1 mm}
@@ -158,12 +158,12 @@ contact: {family: penalty, law: frictionless}
   const Step<2> step(scene);
   std::map<int, int> body_of;
   for (const auto& facet : step.state().surfaces.facets) {
-    const auto known = body_of.emplace(facet.piece, facet.body).first;
+    const auto known = body_of.emplace(facet.patch, facet.body).first;
     CHECK(known->second == facet.body);
   }
-  std::vector<int> pieces(4, 0);
-  for (const auto& [piece, body] : body_of) ++pieces[static_cast<std::size_t>(body)];
-  CHECK(pieces == std::vector<int>{1, 2, 4, 1});
+  std::vector<int> patches(4, 0);
+  for (const auto& [patch, body] : body_of) ++patches[static_cast<std::size_t>(body)];
+  CHECK(patches == std::vector<int>{1, 2, 4, 1});
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ std::vector<std::string> particle_lines(const Scene& scene) {
   // Of surfaces that are followed; the sums tell apart which facet has which points and joints.
   const auto& surfaces = state.surfaces;
   double area = 0, whole = 0;
-  std::size_t smooth = 0, points = 0, joints = 0, wedges = 0;
+  std::size_t smooth = 0, points = 0, joints = 0, cones = 0;
   for (std::size_t f = 0; f < surfaces.facets.size(); ++f) {
     const auto& facet = surfaces.facets[f];
     whole += facet.area;
@@ -196,14 +196,14 @@ std::vector<std::string> particle_lines(const Scene& scene) {
       smooth += is_smooth;
       joints += is_smooth * (f + k) % 7;
       points += (1 + f % 11) * (k + 1) * static_cast<std::size_t>(facet.point[k]);
-      wedges += (1 + f % 13) * (k + 1) * static_cast<std::size_t>(facet.wedge[k]);
+      cones += (1 + f % 13) * (k + 1) * static_cast<std::size_t>(facet.normal_cone[k]);
     }
-    points += static_cast<std::size_t>(facet.body + 3 * facet.piece);
+    points += static_cast<std::size_t>(facet.body + 3 * facet.patch);
   }
   if (!surfaces.facets.empty())
-    lines.push_back(fmt::format("surfaces: {} facets, {} smooth joints, {} wedges, sums {:.9g} {} {} {}",
-                                surfaces.facets.size(), smooth, surfaces.wedges.size(), area, points, joints,
-                                wedges));
+    lines.push_back(fmt::format(
+        "surfaces: {} facets, {} smooth joints, {} normal cones, sums {:.9g} {} {} {}",
+        surfaces.facets.size(), smooth, surfaces.normal_cones.size(), area, points, joints, cones));
   double shares = 0;
   for (const double share : tributary_areas(surfaces)) shares += share;
   CHECK(shares == doctest::Approx(whole));

@@ -697,9 +697,9 @@ TEST_CASE("the number of a boundary point is told from its id, and of no other p
   CHECK(surfaces.number(2, 31) == 4);
   CHECK(surfaces.holds(2, 30));
   CHECK(!surfaces.holds(2, 29));
-  surfaces.wedge_facets.reserve(100);
+  surfaces.cone_facets.reserve(100);
   CHECK(surfaces.bytes() >= 400 + 5 * sizeof(int) + 3 * sizeof(Surfaces<2>::Body));
-  CHECK(bytes_in(surfaces.point_body, surfaces.wedge_facets) == 5 * sizeof(int));
+  CHECK(bytes_in(surfaces.point_body, surfaces.cone_facets) == 5 * sizeof(int));
 }
 
 }  // namespace
