@@ -18,10 +18,10 @@
 #include "engine/state/archive.hpp"
 #include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
-#include "kernels/contact/nodes_together.hpp"
+#include "kernels/contact/lane_solver.hpp"
 #include "kernels/contact/resolve_pair.hpp"
 #include "kernels/contact/set_rule.hpp"
-#include "kernels/contact/together.hpp"
+#include "kernels/contact/node_solver.hpp"
 
 namespace mpmfast {
 
@@ -166,7 +166,7 @@ class Contact {
   void as_it_is(const ContactEntry<Dim>& entry, const Law& law, F f) const {
     if constexpr (requires { law.contact(); }) {
       const bool broken = std::is_same_v<Law, Cohesive> && is_broken(entry);
-      if (broken || law.compression == Pressed::contact) return f(law.contact());
+      if (broken || law.compression == CompressionModel::contact) return f(law.contact());
     }
     f(law);
   }
@@ -202,14 +202,14 @@ class Contact {
   /// Nodes of so many fields that wait to be solved together, in lanes.
   template <int kFields>
   struct Waiting {
-    NodesTogether<Dim, kFields> solver;
+    LaneSolver<Dim, kFields> solver;
     std::array<const ContactNode<Dim>*, kLanes> nodes;
   };
   /// What one thread solves the pairs of a node in.
   struct alignas(64) Together {
     NodeMotion<Dim> motion;
     std::vector<Vec<Dim>> velocities;  ///< of its fields, along what conditions leave free, m/s
-    ContactsTogether<Dim> solver;
+    NodeSolver<Dim> solver;
     std::vector<Acting> acting;  ///< as the solver's contacts
     Waiting<3> of_three;
     Waiting<4> of_four;
@@ -238,12 +238,12 @@ class Contact {
                    Waiting<kFields>& waiting) const;
   template <int kFields>
   void finish_lane(Correction correction, const ContactNode<Dim>& node,
-                   const NodesTogether<Dim, kFields>& solver, int lane);
+                   const LaneSolver<Dim, kFields>& solver, int lane);
   template <class Law>
-  Demand<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+  Response<Dim> impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                          Correction correction, const Law& law, double area_time) const;
   template <class Law>
-  Demand<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
+  Response<Dim> impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting, double separation,
                              Correction correction, const Law& law, double area_time) const;
   template <class Law>
   SetRule<Dim> rule_of(const ContactEntry<Dim>& entry, double separation, Correction correction,

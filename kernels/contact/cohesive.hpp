@@ -77,7 +77,7 @@ struct Fall {
 struct Cohesive {
   static constexpr const char *kWord = "cohesive",
                               *kSays = "bonded by springs that soften and break, then coulomb";
-  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   double friction{}, static_friction{};              ///< once it is broken
   double normal_strength = 1, shear_strength = 1;    ///< Pa
@@ -85,7 +85,7 @@ struct Cohesive {
   Softening shape = Softening::triangular;
   double plateau = 0.5, mode_exponent = 1;
   double initial_stiffness{}, compression_stiffness{};  ///< Pa/m
-  Pressed compression = Pressed::spring;
+  CompressionModel compression = CompressionModel::spring;
 
   template <class Keys>
   void describe(Keys& map) {
@@ -108,10 +108,10 @@ struct Cohesive {
     map.key("initial_stiffness", "Traction by jump before the strength; 0: ten times what a cell has.",
             initial_stiffness, kStiffness);
     map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
-    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
   }
   double pressed_stiffness() const {
-    if (compression == Pressed::contact) return 0;
+    if (compression == CompressionModel::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : initial_stiffness;
   }
   /// The least initial stiffness for which a bond that has its strength has no more energy than it may take.

@@ -596,7 +596,7 @@ TEST_CASE("what presses has the stiffness that is said, or else that of opening,
     const TractionCurve pressed = curves.pressed_curve(0.25);
     CHECK(pressed.jump == std::vector<double>{-0.25, 0, 2});
     CHECK(pressed.traction == std::vector<double>{said > 0 ? -7 * 0.25 : -1.5 * 0.25, 0, 3});
-    interface.compression = bond.compression = curves.compression = Pressed::contact;
+    interface.compression = bond.compression = curves.compression = CompressionModel::contact;
     CHECK(interface.pressed_stiffness() == 0);
     CHECK(bond.pressed_stiffness() == 0);
     CHECK(curves.pressed_curve(0.25).traction[0] == 0);

@@ -212,7 +212,7 @@ void Contact<Dim>::apply_pressed_friction(const AnyLaw& law, Bridge<Dim>& bridge
     end = end.dot(joint.normal) * joint.normal + after.rate;
     bridge.friction = after.impulse;
   };
-  const auto springs_press = [](const auto& springs) { return springs.compression == Pressed::spring; };
+  const auto springs_press = [](const auto& springs) { return springs.compression == CompressionModel::spring; };
   if (const auto* springs = std::get_if<Interface>(&law)) {
     if (springs_press(*springs)) slide_with(springs->contact(), SlipSpring{bridge.springs.shear});
   } else if (const auto* curves = std::get_if<NonlinearInterface>(&law)) {

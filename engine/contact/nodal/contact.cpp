@@ -186,7 +186,7 @@ template <int Dim>
 double Contact<Dim>::screen_of(const ContactNode<Dim>& node, const ListedEntry<Dim>& entry, int other) const {
   const AnyLaw& law = laws_[static_cast<std::size_t>(law_between(entry, node, other) + 1)];
   const LawScope scope = std::visit([](const auto& one) { return one.scope; }, law);
-  return scope == LawScope::everywhere || scope == LawScope::bridged ? 0 : spec_.mass_screen;
+  return scope == LawScope::everywhere || scope == LawScope::interface ? 0 : spec_.mass_screen;
 }
 
 /// Two deformable fields make one entry; with more, or against a rigid body, each deformable field faces the

@@ -270,7 +270,7 @@ class ContactFit {
     with_extent(extent, [&]<Extent E>() {
       const auto reach = [&](std::pair<int, int> range, const Vec<Dim>& n) {
         const auto part = cloud.part(range.first, range.second - range.first);
-        Foremost::Found found = reach_along<E>(part, n);
+        SupportSearch::Found found = reach_along<E>(part, n);
         if (found.at >= 0 && part.number) found.at = static_cast<int>(part.number[found.at]);
         return found;
       };

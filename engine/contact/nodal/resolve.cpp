@@ -152,9 +152,9 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
       using Law = std::decay_t<decltype(law)>;
       double area_time = 0;
       if constexpr (Law::uses_area) area_time = area(state, node, entry) * dt;
-      const Demand<Dim> demand = impulse_of(entry, meeting, separation, correction, law, area_time);
+      const Response<Dim> demand = impulse_of(entry, meeting, separation, correction, law, area_time);
       entry.impulse = demand.impulse;
-      if (correction == Correction::final) entry.stuck = demand.hinders == Hinders::slip;
+      if (correction == Correction::final) entry.stuck = demand.hinders == ContactStatus::stick;
       pass_on(entry, correction, Law::scope);
       if (correction != Correction::final || !one_set_ || !entry.parts || !entry.alone) return;
       const double normal = entry.impulse.dot(entry.normal);
@@ -174,7 +174,7 @@ void Contact<Dim>::resolve_each(const State<Dim>& state, const Laws& laws, Corre
 /// zero along n and no energy comes from the contact.
 template <int Dim>
 template <class Law>
-Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
+Response<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeting& meeting,
                                      double separation, Correction correction, const Law& law,
                                      double area_time) const {
   if (one_set_ && (Law::scope == LawScope::contact || Law::scope == LawScope::bonded))
@@ -185,7 +185,7 @@ Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeti
   const bool overlaps = spec_.detection == DetectionKind::separation;  // in contact, parting or not
   const bool lasts = correction == Correction::initial && spec_.persistent && entry.touched;
   const bool holds = Law::scope == LawScope::contact && (overlaps || lasts) && separation < 0 && along > 0;
-  return demand_of<Dim>(holds ? Vec<Dim>(along * entry.normal) : free, meeting.stick);
+  return response_of<Dim>(holds ? Vec<Dim>(along * entry.normal) : free, meeting.stick);
 }
 
 /// The impulse of a pair of the step's one set (tools/manual/theory.md, "The energy of a contact").
@@ -198,7 +198,7 @@ Demand<Dim> Contact<Dim>::impulse_of(const ContactEntry<Dim>& entry, const Meeti
 /// strains see, and makes energy.
 template <int Dim>
 template <class Law>
-Demand<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
+Response<Dim> Contact<Dim>::impulse_of_set(const ContactEntry<Dim>& entry, const Meeting& meeting,
                                          double separation, Correction correction, const Law& law,
                                          double area_time) const {
   const SetRule<Dim> rule = rule_of(entry, separation, correction, law);
@@ -233,7 +233,7 @@ bool Contact<Dim>::resolve_together(const Laws& laws, Correction correction, con
   const bool settled = together.solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const Acting& acting = together.acting[k];
     const FieldContact<Dim>& contact = together.solver.contacts[k];
-    Demand<Dim> demand;
+    Response<Dim> demand;
     with_law(laws, node, *acting.entry, [&](const auto& law) {
       demand = acting.in_set ? acting.rule.demand(contact.normal, contact.closing, stick, contact.reduced,
                                                   law, acting.area_time, [](double normal) { return normal; })
@@ -289,7 +289,7 @@ void Contact<Dim>::put_in_lane(const State<Dim>& state, const Together& together
 template <int Dim>
 template <int kFields>
 void Contact<Dim>::finish_lane(Correction correction, const ContactNode<Dim>& node,
-                               const NodesTogether<Dim, kFields>& solver, int lane) {
+                               const LaneSolver<Dim, kFields>& solver, int lane) {
   for (int e = node.entry_begin; e < node.entry_end; ++e) {
     auto& entry = list_.entries[static_cast<std::size_t>(e)];
     if (!solver.has(lane, entry.a, entry.b)) continue;
@@ -325,7 +325,7 @@ void Contact<Dim>::find_acting(const State<Dim>& state, const Laws& laws, Correc
       using Law = std::decay_t<decltype(law)>;
       const bool in_set = one_set_ && (entry.lasts || entry.held || entry.touching);
       const bool apart = !(entry.advanced < 0) && !in_set;
-      if (Law::scope == LawScope::nowhere || Law::scope == LawScope::bridged) return;
+      if (Law::scope == LawScope::nowhere || Law::scope == LawScope::interface) return;
       if (Law::scope == LawScope::contact && apart) return;
       Acting& acting = together.acting.emplace_back();
       acting.entry = &entry;
@@ -347,7 +347,7 @@ void Contact<Dim>::finish(const Laws& laws, Correction correction, const Contact
     const FieldContact<Dim>& contact = together.solver.contacts[k];
     auto& entry = *together.acting[k].entry;
     entry.impulse = contact.impulse;
-    if (correction == Correction::final) entry.stuck = contact.hinders == Hinders::slip;
+    if (correction == Correction::final) entry.stuck = contact.hinders == ContactStatus::stick;
     with_law(laws, node, entry, [&](const auto& law) { pass_on(entry, correction, law.scope); });
   }
 }

@@ -8,7 +8,7 @@
 
 namespace mpmfast {
 
-class Foremost {
+class SupportSearch {
  public:
   /// The next kLanes values; those count where `counts` holds.
   void take(Lanes value, IntLanes counts) {

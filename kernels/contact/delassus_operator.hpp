@@ -1,53 +1,55 @@
 #pragma once
 
-/// @file The motions that the contacts of a node hinder, and the impulses that end them all.
+/// @file The Delassus operator of the closed contacts of a node: what relative velocities impulses leave, and
+/// the impulses that leave none.
 
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/simd/lanes.hpp"
 
 namespace mpmfast {
 
-/// Hindrance i is one direction of motion that contact k hinders, and a change of k's impulse along a
-/// direction of its own. How far each goes follows from
-///   Σ_j m_k c_kl (motion_i · impulse_j) x_j = left_i,
-/// where j is of contact l, c_kl is how v_a − v_b of k changes for an impulse of l, and left_i is what of the
-/// motion is left, times the reduced mass m_k: the diagonal is one.
+/// Row i is one direction of relative velocity that contact k constrains, with a direction along which the
+/// impulse of k may change. The changes x_j along these directions follow from
+///   Σ_j m_k c_kl (motion_i · impulse_j) x_j = residual_i,
+/// where j belongs to contact l, and c_kl is the change of v_a − v_b at k by a unit impulse at l. residual_i
+/// is the relative velocity that remains along motion_i, times the reduced mass m_k. So the diagonal is one.
 template <int Dim>
-class Hindrances {
+class DelassusOperator {
  public:
   static constexpr int kMost = 64;  ///< with more, elimination costs more than sweeps
 
-  /// One of a contact's.
-  struct One {
-    int contact, a, b;         ///< its place, and its fields
+  /// One direction that a contact constrains.
+  struct Row {
+    int contact, a, b;         ///< the contact's number, and its fields
     double share_a, share_b;   ///< m_k/m_a, m_k/m_b
     Vec<Dim> impulse, motion;  ///< directions
-    double left;               ///< N s
+    double residual;           ///< N s
   };
 
   void clear() { count_ = 0; }
   int count() const { return count_; }
   bool is_full() const { return count_ + Dim > kMost; }
-  void push(const One& one) {
-    contact_[count_] = one.contact;
-    a_[count_] = one.a;
-    b_[count_] = one.b;
-    share_a_[count_] = one.share_a;
-    share_b_[count_] = one.share_b;
+  void push(const Row& row) {
+    contact_[count_] = row.contact;
+    a_[count_] = row.a;
+    b_[count_] = row.b;
+    share_a_[count_] = row.share_a;
+    share_b_[count_] = row.share_b;
     for (int d = 0; d < Dim; ++d) {
-      impulse_[d][count_] = one.impulse[d];
-      motion_[d][count_] = one.motion[d];
+      impulse_[d][count_] = row.impulse[d];
+      motion_[d][count_] = row.motion[d];
     }
-    amount_[count_++] = one.left;
+    amount_[count_++] = row.residual;
   }
 
-  /// Finds x. Three fields that stick to each other have more impulses than they need: those that follow from
-  /// the ones before get none.
-  /// @return whether all are numbers
+  /// Finds x. Three fields that stick to each other have more impulses than equations: a row that follows
+  /// from those before gets none.
+  /// @return whether all x are finite
   bool solve() {
     pad();
     if (count_ <= kFew)
@@ -59,7 +61,7 @@ class Hindrances {
     return std::all_of(amount_, amount_ + count_, [](double x) { return std::isfinite(x); });
   }
 
-  /// Calls f(contact, change of its impulse) for each.
+  /// Calls f(contact, change of its impulse) for each row.
   template <class F>
   void for_each_change(const F& f) const {
     for (int i = 0; i < count_; ++i) {
@@ -82,7 +84,7 @@ class Hindrances {
     }
   }
 
-  /// What x_j brings to the equations `from` and on.
+  /// The coefficients of x_j in the equations `from` to `from` + kLanes.
   Lanes coefficients(int j, int from) const {
     const Lanes zero{}, one = broadcast<Lanes>(1.0), a = load_lanes(a_ + from), b = load_lanes(b_ + from);
     const Lanes share =
@@ -94,8 +96,7 @@ class Hindrances {
   }
 
   static double inverse_of(double pivot) {
-    constexpr double kRedundant = 1e-11;
-    return std::abs(pivot) > kRedundant ? 1 / pivot : 0;
+    return std::abs(pivot) > constants::kRedundantPivot ? 1 / pivot : 0;
   }
 
   /// Gauss–Jordan, a vector for all equations at once.
@@ -153,7 +154,7 @@ class Hindrances {
   int contact_[kMost];
   double a_[kMost], b_[kMost], share_a_[kMost], share_b_[kMost];
   double impulse_[Dim][kMost], motion_[Dim][kMost];
-  double amount_[kMost];         ///< what is left, then x
+  double amount_[kMost];         ///< the residual, then x
   double matrix_[kMost][kMost];  ///< [column][equation]
 };
 

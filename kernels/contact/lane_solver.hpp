@@ -1,15 +1,16 @@
 #pragma once
 
-/// @file Contacts of kLanes nodes at once that each have as many fields: what together.hpp does for one node,
-/// a lane for each.
+/// @file The contacts of kLanes nodes at once, all of as many fields: the algorithm of node_solver.hpp with
+/// one node a SIMD lane.
 
 #include <limits>
 #include <type_traits>
 #include <utility>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/laws.hpp"
+#include "kernels/contact/node_solver.hpp"
 #include "kernels/contact/set_rule.hpp"
-#include "kernels/contact/together.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/simd/lanes.hpp"
 
@@ -18,28 +19,28 @@
 
 namespace mpmfast {
 
-/// Nodes of kFields fields whose contacts are of the step's one set and have friction by Coulomb's law or
+/// Nodes of kFields fields whose contacts belong to the active set of the step and have Coulomb friction or
 /// none.
 ///
-/// The steps are those of ContactsTogether, contacts in the order of their fields: sweeps, and leaps between
-/// them, each lane until its own node has settled. A lane does the same whatever stands in the others. Nodes
-/// that do not settle within a few sweeps are left to ContactsTogether, from the start: one in a hundred of
-/// pressed grains in the plane, most of random nodes of four and more fields in space.
+/// The steps are those of NodeSolver with the contacts in the order of their fields. A lane computes the same
+/// whatever the other lanes hold, and is left alone once its node has converged. A node that does not
+/// converge within constants::kMostLaneSweeps is solved by NodeSolver from the start: about one in a hundred
+/// of compressed grains in the plane, most random nodes of four and more fields in space.
 template <int Dim, int kFields>
-class NodesTogether {
+class LaneSolver {
  public:
   static constexpr int kContacts = kFields * (kFields - 1) / 2;
 
   int count() const { return count_; }
   bool is_full() const { return count_ == kLanes; }
   bool is_empty() const { return count_ == 0; }
-  /// A contact's place: that of its two fields.
-  static constexpr int place_of(int a, int b) {
+  /// Index of the contact between two fields.
+  static constexpr int pair_index(int a, int b) {
     const int low = a < b ? a : b, high = a < b ? b : a;
     return low * kFields - low * (low + 1) / 2 + high - low - 1;
   }
 
-  /// Takes a node, in the next lane, as yet without contacts.
+  /// Opens the next lane for a node, without contacts so far.
   int begin_node() {
     const int lane = count_++;
     for (Contact& c : contacts_) c.acts[lane] = c.exists[lane] = 0;
@@ -50,56 +51,54 @@ class NodesTogether {
     for (int d = 0; d < Dim; ++d) f.velocity[d][lane] = velocity[d];
     f.inverse_mass[lane] = inverse_mass;
   }
-  /// As FieldContact. No two of a node have the same fields.
-  void add_contact(int lane, int a, int b, const Vec<Dim>& normal, double reduced, double closing,
+  /// Adds a contact (FieldContact); no two contacts of a node have the same fields.
+  void add_contact(int lane, int a, int b, const Vec<Dim>& normal, double reduced, double target_approach,
                    const SetRule<Dim>& rule, const Coulomb& law) {
-    Contact& c = contacts_[place_of(a, b)];
+    Contact& c = contacts_[pair_index(a, b)];
     for (int d = 0; d < Dim; ++d) c.normal[d][lane] = a < b ? normal[d] : -normal[d];
     c.reduced[lane] = reduced;
-    c.closing[lane] = closing;
+    c.target_approach[lane] = target_approach;
     c.friction[lane] = rule.friction ? law.friction : 0;
     c.static_friction[lane] = rule.friction ? law.static_friction : 0;
     c.exists[lane] = 1;
     c.acts[lane] = rule.acts;
-    c.both_ways[lane] = rule.both_ways;
+    c.bilateral[lane] = rule.bilateral;
     c.holds_slip[lane] = rule.holds_slip;
   }
-  bool has(int lane, int a, int b) const { return contacts_[place_of(a, b)].exists[lane] != 0; }
-  /// Found: Δp_a, N s.
+  bool has(int lane, int a, int b) const { return contacts_[pair_index(a, b)].exists[lane] != 0; }
+  /// Result: Δp_a, N s.
   Vec<Dim> impulse(int lane, int a, int b) const {
-    const Contact& c = contacts_[place_of(a, b)];
+    const Contact& c = contacts_[pair_index(a, b)];
     Vec<Dim> out;
     for (int d = 0; d < Dim; ++d) out[d] = a < b ? c.impulse[d][lane] : -c.impulse[d][lane];
     return out;
   }
-  bool sticks(int lane, int a, int b) const { return contacts_[place_of(a, b)].hinders[lane] == kSlip; }
+  bool sticks(int lane, int a, int b) const { return contacts_[pair_index(a, b)].status[lane] == kStick; }
 
-  /// Finds the impulses of all nodes, from none, and forgets them with the next node.
-  /// @param may_stick  not of these nodes but of all that are solved so: sums of fewer terms round
-  /// differently
-  /// @return a bit for each that settled to 1e-9 of its largest impulse
+  /// Finds the impulses of all nodes from zero. They can be read until the next begin_node.
+  /// @param may_stick  whether contacts may stick in this correction. (A property of the correction, not of
+  /// these nodes: sums of fewer terms round differently.)
+  /// @return a bit for each lane whose node converged
   unsigned solve(bool may_stick) {
     if (is_empty()) return 0;
     fill_up();
     load();
     find_scales();
-    IntLanes active = lanes_before(count_), settled{};
-    for (int done = 0; done < kSweeps; ++done) {
+    IntLanes active = lanes_before(count_), converged{};
+    for (int done = 0; done < constants::kMostLaneSweeps; ++done) {
       const IntLanes ends = sweep(active) & is_bounded();
-      settled |= active & ends;
+      converged |= active & ends;
       active &= ~ends & is_bounded();
       if (bits_of(active) == 0) break;
-      if (done + 1 < kSweeps) leap(active, may_stick);
+      if (done + 1 < constants::kMostLaneSweeps) newton_step(active, may_stick);
     }
     store();
     count_ = 0;
-    return bits_of(settled & is_finite());
+    return bits_of(converged & is_finite());
   }
 
  private:
-  static constexpr int kSweeps = 8;
-  static constexpr double kLeast = 1e-290;                         ///< N s: less than this has no inverse
-  static constexpr double kNothing = 0, kApproach = 1, kSlip = 2;  ///< as Hinders
+  static constexpr double kOpen = 0, kSlip = 1, kStick = 2;  ///< as ContactStatus
   using Column = double[kLanes];
   using VecLanes = Lanes[Dim];
 
@@ -108,8 +107,9 @@ class NodesTogether {
   };
   /// In columns, to be filled lane by lane.
   struct Contact {
-    Column normal[Dim], reduced, closing, friction, static_friction, exists, acts, both_ways, holds_slip;
-    Column impulse[Dim], hinders;
+    Column normal[Dim], reduced, target_approach, friction, static_friction, exists, acts, bilateral,
+        holds_slip;
+    Column impulse[Dim], status;
   };
   /// While they are solved.
   struct Moving {
@@ -118,18 +118,18 @@ class NodesTogether {
   };
   struct Solving {
     VecLanes normal, impulse, change;
-    Lanes reduced, closing, friction, static_friction, hinders;
-    IntLanes acts, both_ways, holds_slip;
+    Lanes reduced, target_approach, friction, static_friction, status;
+    IntLanes acts, bilateral, holds_slip;
   };
-  static constexpr int first_of(int place) {
+  static constexpr int first_field(int pair) {
     int a = 0;
-    while (place >= kFields - 1 - a) place -= kFields - 1 - a++;
+    while (pair >= kFields - 1 - a) pair -= kFields - 1 - a++;
     return a;
   }
-  static constexpr int second_of(int place) {
+  static constexpr int second_field(int pair) {
     int a = 0;
-    while (place >= kFields - 1 - a) place -= kFields - 1 - a++;
-    return a + 1 + place;
+    while (pair >= kFields - 1 - a) pair -= kFields - 1 - a++;
+    return a + 1 + pair;
   }
 
   static Lanes dot(const VecLanes& x, const VecLanes& y) {
@@ -163,27 +163,27 @@ class NodesTogether {
       const auto there = [&](const Column& x) { return chosen(exists, load_lanes(x), Lanes{}); };
       for (int d = 0; d < Dim; ++d) to.normal[d] = there(from.normal[d]), to.impulse[d] = Lanes{};
       to.reduced = there(from.reduced);
-      to.closing = there(from.closing);
+      to.target_approach = there(from.target_approach);
       to.friction = there(from.friction);
       to.static_friction = there(from.static_friction);
       to.acts = exists & is_set(from.acts);
-      to.both_ways = exists & is_set(from.both_ways);
+      to.bilateral = exists & is_set(from.bilateral);
       to.holds_slip = exists & is_set(from.holds_slip);
-      to.hinders = Lanes{};
+      to.status = Lanes{};
     }
   }
 
   void store() {
     for (int k = 0; k < kContacts; ++k) {
       for (int d = 0; d < Dim; ++d) store_lanes(contacts_[k].impulse[d], solving_[k].impulse[d]);
-      store_lanes(contacts_[k].hinders, solving_[k].hinders);
+      store_lanes(contacts_[k].status, solving_[k].status);
     }
   }
 
-  /// As ContactsTogether::find_scales, in squares.
+  /// As NodeSolver::find_scales, in squares.
   void find_scales() {
-    constexpr double kRoundOff = 1e-14, kShare = 30;
-    Lanes fastest{}, heaviest{}, motion{}, least = moving_[0].inverse_mass;
+    constexpr double kRoundOff = constants::kVelocityRoundOff, kMost = constants::kMostImpulse;
+    Lanes fastest{}, heaviest{}, momentum{}, least = moving_[0].inverse_mass;
     VecLanes ground;
     for (int d = 0; d < Dim; ++d) ground[d] = moving_[0].velocity[d];
     for (const Moving& f : moving_) {
@@ -196,32 +196,34 @@ class NodesTogether {
       VecLanes apart;
       for (int d = 0; d < Dim; ++d) apart[d] = f.velocity[d] - ground[d];
       const IntLanes moves = f.inverse_mass > 0.0;
-      motion += chosen(moves, quotient(square_root(dot(apart, apart)), chosen(moves, f.inverse_mass, one())),
-                       Lanes{});
+      momentum += chosen(
+          moves, quotient(square_root(dot(apart, apart)), chosen(moves, f.inverse_mass, one())), Lanes{});
     }
     for (const Solving& c : solving_) heaviest = larger(heaviest, c.reduced);
     noise_ = kRoundOff * kRoundOff * heaviest * heaviest * fastest;
-    most_ = kShare * kShare * motion * motion;
+    most_ = kMost * kMost * momentum * momentum;
   }
   static Lanes one() { return broadcast<Lanes>(1.0); }
   IntLanes is_bounded() const { return largest_ <= most_; }
-  /// The larger of a number and what is none may be the number.
+  /// Of a number and a NaN, `larger` may give the number: so NaN is looked for here.
   IntLanes is_finite() const {
     Lanes sum{};
     for (const Solving& c : solving_) sum += dot(c.impulse, c.impulse);
     return sum < std::numeric_limits<double>::infinity();
   }
 
-  /// The demand of a contact for which sticking would need `stick`: SetRule::demand with Coulomb's law.
-  /// @param impulse  found: what it demands, or null
-  /// @return what it hinders then
-  static Lanes demand(const Solving& c, const VecLanes& stick, VecLanes* impulse) {
-    const Lanes along = dot(stick, c.normal), end = along + c.reduced * c.closing;
+  /// SetRule::response with Coulomb's law.
+  /// @param trial    Δp_a that sticking would need, N s
+  /// @param impulse  result, or null
+  /// @return the status
+  static Lanes response(const Solving& c, const VecLanes& trial, VecLanes* impulse) {
+    const Lanes along = dot(trial, c.normal), end = along + c.reduced * c.target_approach;
     VecLanes tangential;
-    for (int d = 0; d < Dim; ++d) tangential[d] = stick[d] - along * c.normal[d];
-    const Lanes needed = larger(square_root(dot(tangential, tangential)), broadcast<Lanes>(kLeast));
+    for (int d = 0; d < Dim; ++d) tangential[d] = trial[d] - along * c.normal[d];
+    const Lanes needed =
+        larger(square_root(dot(tangential, tangential)), broadcast<Lanes>(constants::kLeastImpulse));
     const Lanes presses = larger(-end, Lanes{}), limit = c.friction * presses;
-    const IntLanes none = ~c.acts | ((end > 0.0) & ~c.both_ways);
+    const IntLanes none = ~c.acts | ((end > 0.0) & ~c.bilateral);
     const IntLanes sticks =
         c.holds_slip | (needed <= c.static_friction * presses) | ((needed <= limit) & (limit > 0.0));
     if (impulse) {
@@ -229,106 +231,106 @@ class NodesTogether {
       for (int d = 0; d < Dim; ++d)
         (*impulse)[d] = chosen(none, Lanes{}, end * c.normal[d] + share * tangential[d]);
     }
-    return chosen(none, broadcast<Lanes>(kNothing),
-                  chosen(sticks, broadcast<Lanes>(kSlip), broadcast<Lanes>(kApproach)));
+    return chosen(none, broadcast<Lanes>(kOpen),
+                  chosen(sticks, broadcast<Lanes>(kStick), broadcast<Lanes>(kSlip)));
   }
 
-  template <int kPlace>
+  template <int kPair>
   void add(const VecLanes& impulse) {
-    Moving &a = moving_[first_of(kPlace)], &b = moving_[second_of(kPlace)];
+    Moving &a = moving_[first_field(kPair)], &b = moving_[second_field(kPair)];
     for (int d = 0; d < Dim; ++d) {
-      solving_[kPlace].impulse[d] += impulse[d];
+      solving_[kPair].impulse[d] += impulse[d];
       a.velocity[d] += a.inverse_mass * impulse[d];
       b.velocity[d] -= b.inverse_mass * impulse[d];
     }
   }
-  template <int kPlace>
+  template <int kPair>
   void slip(VecLanes& out) const {
     for (int d = 0; d < Dim; ++d)
-      out[d] = moving_[second_of(kPlace)].velocity[d] - moving_[first_of(kPlace)].velocity[d];
+      out[d] = moving_[second_field(kPair)].velocity[d] - moving_[first_field(kPair)].velocity[d];
   }
   template <class F>
-  static void for_each_place(const F& f) {
+  static void for_each_pair(const F& f) {
     [&]<int... K>(std::integer_sequence<int, K...>) { (f(std::integral_constant<int, K>()), ...); }
     (std::make_integer_sequence<int, kContacts>());
   }
 
-  /// @return where no impulse changed by more than 1e-9 of the largest, or by round-off alone
+  /// One Gauss–Seidel sweep. @return where the impulses have converged
   IntLanes sweep(IntLanes active) {
+    constexpr double kTolerance = constants::kSweepTolerance * constants::kSweepTolerance;
     Lanes change{};
     largest_ = Lanes{};
-    for_each_place([&](auto place) {
-      Solving& c = solving_[place];
-      VecLanes stick, impulse, step;
-      slip<place>(stick);
-      for (int d = 0; d < Dim; ++d) stick[d] = c.impulse[d] + c.reduced * stick[d];
-      c.hinders = chosen(active, demand(c, stick, &impulse), c.hinders);
+    for_each_pair([&](auto pair) {
+      Solving& c = solving_[pair];
+      VecLanes trial, impulse, step;
+      slip<pair>(trial);
+      for (int d = 0; d < Dim; ++d) trial[d] = c.impulse[d] + c.reduced * trial[d];
+      c.status = chosen(active, response(c, trial, &impulse), c.status);
       for (int d = 0; d < Dim; ++d) step[d] = chosen(active, impulse[d] - c.impulse[d], Lanes{});
-      add<place>(step);
+      add<pair>(step);
       largest_ = larger(largest_, dot(c.impulse, c.impulse));
       change = larger(change, dot(step, step));
     });
-    return change <= larger(1e-18 * largest_, noise_);
+    return change <= larger(kTolerance * largest_, noise_);
   }
 
-  /// Goes where no hindered motion is left, in the lanes `going`; contacts that part on the way are left
-  /// behind.
-  void leap(IntLanes going, bool may_stick) {
-    for (int parted = 0; parted <= kContacts; ++parted) {
+  /// The active-set Newton step in the lanes `going`. A contact that opens leaves the set, and the step
+  /// begins anew.
+  void newton_step(IntLanes going, bool may_stick) {
+    for (int opened = 0; opened <= kContacts; ++opened) {
       going &= may_stick ? find_changes<Dim>(going) : find_changes<1>(going);
       if (bits_of(going) == 0) return;
-      Lanes parts;
-      const Lanes share = share_of_leap(going, parts);
-      for_each_place([&](auto place) {
-        Solving& c = solving_[place];
+      Lanes opens;
+      const Lanes share = step_length(going, opens);
+      for_each_pair([&](auto pair) {
+        Solving& c = solving_[pair];
         VecLanes step;
         for (int d = 0; d < Dim; ++d) step[d] = chosen(going, share * c.change[d], Lanes{});
-        add<place>(step);
-        c.hinders = chosen(going & (parts == static_cast<double>(place)), Lanes{}, c.hinders);
+        add<pair>(step);
+        c.status = chosen(going & (opens == static_cast<double>(pair)), Lanes{}, c.status);
       });
-      going &= parts >= 0.0;
+      going &= opens >= 0.0;
     }
   }
 
-  /// The changes of impulses that end all hindered motion: Hindrances, kWays of them for each contact. A
-  /// sliding one has the first alone.
-  /// @return where there are some, and finite
-  template <int kWays>
+  /// The changes of impulses that end all constrained relative motion (DelassusOperator), kRows rows for each
+  /// contact; one that sticks has the first alone.
+  /// @return where there is such motion, and the changes are finite
+  template <int kRows>
   IntLanes find_changes(IntLanes going) {
-    constexpr double kRedundant = 1e-11;
-    constexpr int kCount = kContacts * kWays;
+    constexpr int kCount = kContacts * kRows;
     VecLanes motion[kCount], impulse[kCount];
     Lanes matrix[kCount][kCount], amount[kCount];  // [column][equation]
     IntLanes some{};
-    for_each_place([&](auto place) {
-      const Solving& c = solving_[place];
-      const IntLanes slips = going & (c.hinders == kSlip), slides = going & (c.hinders == kApproach);
-      some |= slips | slides;
+    for_each_pair([&](auto pair) {
+      const Solving& c = solving_[pair];
+      const IntLanes sticks = going & (c.status == kStick), slips = going & (c.status == kSlip);
+      some |= sticks | slips;
       const Lanes along = dot(c.impulse, c.normal);
-      const IntLanes loaded = magnitude(along) > kLeast;
+      const IntLanes loaded = magnitude(along) > constants::kLeastImpulse;
       const Lanes inverse = quotient(one(), chosen(loaded, along, one()));
-      VecLanes left;
-      slip<place>(left);
-      for (int d = 0; d < Dim; ++d) left[d] = c.reduced * (left[d] + c.closing * c.normal[d]);
-      for (int way = 0; way < kWays; ++way) {
-        const int i = place * kWays + way;
+      VecLanes residual;
+      slip<pair>(residual);
+      for (int d = 0; d < Dim; ++d) residual[d] = c.reduced * (residual[d] + c.target_approach * c.normal[d]);
+      for (int row = 0; row < kRows; ++row) {
+        const int i = pair * kRows + row;
         for (int d = 0; d < Dim; ++d) {
-          const Lanes unit = chosen(slips, broadcast<Lanes>(d == way ? 1.0 : 0.0), Lanes{});
-          motion[i][d] = way == 0 ? chosen(slides, c.normal[d], unit) : unit;
+          const Lanes unit = chosen(sticks, broadcast<Lanes>(d == row ? 1.0 : 0.0), Lanes{});
+          motion[i][d] = row == 0 ? chosen(slips, c.normal[d], unit) : unit;
           impulse[i][d] =
-              way == 0 ? chosen(slides, chosen(loaded, inverse * c.impulse[d], c.normal[d]), unit) : unit;
+              row == 0 ? chosen(slips, chosen(loaded, inverse * c.impulse[d], c.normal[d]), unit) : unit;
         }
-        amount[i] = dot(left, motion[i]);
+        amount[i] = dot(residual, motion[i]);
       }
     });
-    for_each_place([&](auto k) {
-      const Lanes share_a = solving_[k].reduced * moving_[first_of(k)].inverse_mass,
-                  share_b = solving_[k].reduced * moving_[second_of(k)].inverse_mass;
-      for_each_place([&](auto l) {
-        constexpr int a = first_of(k), b = second_of(k), p = first_of(l), q = second_of(l);
+    for_each_pair([&](auto k) {
+      const Lanes share_a = solving_[k].reduced * moving_[first_field(k)].inverse_mass,
+                  share_b = solving_[k].reduced * moving_[second_field(k)].inverse_mass;
+      for_each_pair([&](auto l) {
+        constexpr int a = first_field(k), b = second_field(k), p = first_field(l), q = second_field(l);
         constexpr int sign_a = (a == p) - (a == q), sign_b = (b == q) - (b == p);
-        for (int j = l * kWays; j < (l + 1) * kWays; ++j)
-          for (int i = k * kWays; i < (k + 1) * kWays; ++i) {
+        for (int j = l * kRows; j < (l + 1) * kRows; ++j)
+          for (int i = k * kRows; i < (k + 1) * kRows; ++i) {
             if constexpr (sign_a == 0 && sign_b == 0) {
               matrix[j][i] = Lanes{};
             } else {
@@ -343,7 +345,7 @@ class NodesTogether {
     Lanes inverse[kCount];
     for (int p = 0; p < kCount; ++p) {
       const Lanes pivot = matrix[p][p];
-      const IntLanes needed = magnitude(pivot) > kRedundant;
+      const IntLanes needed = magnitude(pivot) > constants::kRedundantPivot;
       if (bits_of(needed) == 0) {  // of no lane: nothing finite changes
         inverse[p] = Lanes{};
         continue;
@@ -359,52 +361,52 @@ class NodesTogether {
     }
     IntLanes finite = going & some;
     for (int i = 0; i < kCount; ++i) amount[i] *= inverse[i];
-    for_each_place([&](auto place) {
+    for_each_pair([&](auto pair) {
       for (int d = 0; d < Dim; ++d) {
-        Lanes sum = amount[place * kWays] * impulse[place * kWays][d];
-        for (int way = 1; way < kWays; ++way)
-          sum += amount[place * kWays + way] * impulse[place * kWays + way][d];
-        solving_[place].change[d] = sum;
+        Lanes sum = amount[pair * kRows] * impulse[pair * kRows][d];
+        for (int row = 1; row < kRows; ++row)
+          sum += amount[pair * kRows + row] * impulse[pair * kRows + row][d];
+        solving_[pair].change[d] = sum;
         finite &= magnitude(sum) < std::numeric_limits<double>::infinity();
       }
     });
     return finite;
   }
 
-  /// Where every stuck contact remains so over this share of the leap.
+  /// Where every sticking contact sticks over this share of the step.
   IntLanes all_stick(Lanes share) const {
     IntLanes all = lanes_before(kLanes);
     for (const Solving& c : solving_) {
-      const IntLanes slips = c.hinders == kSlip;
-      if (bits_of(slips) == 0) continue;
-      VecLanes stick;
+      const IntLanes sticks = c.status == kStick;
+      if (bits_of(sticks) == 0) continue;
+      VecLanes trial;
       for (int d = 0; d < Dim; ++d)
-        stick[d] = c.impulse[d] + share * c.change[d] - c.reduced * c.closing * c.normal[d];
-      all &= ~slips | (demand(c, stick, nullptr) == kSlip);
+        trial[d] = c.impulse[d] + share * c.change[d] - c.reduced * c.target_approach * c.normal[d];
+      all &= ~sticks | (response(c, trial, nullptr) == kStick);
     }
     return all;
   }
 
-  /// As ContactsTogether::share_of_leap.
-  /// @param parts  the place of the contact that stops it by parting; negative: none
-  Lanes share_of_leap(IntLanes going, Lanes& parts) const {
+  /// As NodeSolver::step_length.
+  /// @param opens  result: the contact that ends the step by opening; negative: none
+  Lanes step_length(IntLanes going, Lanes& opens) const {
     Lanes most = one();
-    parts = broadcast<Lanes>(-1.0);
+    opens = broadcast<Lanes>(-1.0);
     for (int k = 0; k < kContacts; ++k) {
       const Solving& c = solving_[k];
       const Lanes now = dot(c.impulse, c.normal), change = dot(c.change, c.normal), end = now + change;
-      const IntLanes turns = (c.hinders == kApproach) & ~c.both_ways &
-                             (((now > 0.0) & (end < 0.0)) | (~(now > 0.0) & (end > 0.0)));
+      const IntLanes turns =
+          (c.status == kSlip) & ~c.bilateral & (((now > 0.0) & (end < 0.0)) | (~(now > 0.0) & (end > 0.0)));
       const Lanes share = larger(Lanes{}, quotient(-now, chosen(turns, change, one())));
       const IntLanes first = turns & (share < most);
       most = chosen(first, share, most);
-      parts = chosen(first, broadcast<Lanes>(static_cast<double>(k)), parts);
+      opens = chosen(first, broadcast<Lanes>(static_cast<double>(k)), opens);
     }
     const IntLanes keep = all_stick(most) | ~going;
     if (bits_of(~keep) == 0) return most;
-    parts = chosen(keep, parts, broadcast<Lanes>(-1.0));
+    opens = chosen(keep, opens, broadcast<Lanes>(-1.0));
     Lanes share{}, step = 0.5 * most;
-    for (int halved = 0; halved < 6; ++halved, step *= 0.5)
+    for (int halved = 0; halved < constants::kStepHalvings; ++halved, step *= 0.5)
       share = chosen(all_stick(share + step), share + step, share);
     return chosen(keep, most, share);
   }
@@ -414,7 +416,7 @@ class NodesTogether {
   Contact contacts_[kContacts];
   Moving moving_[kFields];
   Solving solving_[kContacts];
-  Lanes largest_, noise_, most_;  ///< N² s²: the largest |J|², what round-off makes of it, what it may be
+  Lanes largest_, noise_, most_;  ///< N² s²: the largest |J|², that of round-off, the bound on |J|²
 };
 
 }  // namespace mpmfast

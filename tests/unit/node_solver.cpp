@@ -1,4 +1,4 @@
-#include "kernels/contact/together.hpp"
+#include "kernels/contact/node_solver.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,7 @@ namespace {
 using namespace mpmfast;
 
 template <int Dim>
-Vec<Dim> momentum_of(const ContactsTogether<Dim>& node) {
+Vec<Dim> momentum_of(const NodeSolver<Dim>& node) {
   Vec<Dim> sum = Vec<Dim>::Zero();
   for (const auto& field : node.fields)
     if (field.inverse_mass > 0) sum += field.velocity / field.inverse_mass;
@@ -21,7 +21,7 @@ Vec<Dim> momentum_of(const ContactsTogether<Dim>& node) {
 }
 
 template <int Dim>
-void add_contact(ContactsTogether<Dim>& node, int a, int b, const Vec<Dim>& normal) {
+void add_contact(NodeSolver<Dim>& node, int a, int b, const Vec<Dim>& normal) {
   const double inverse = node.fields[static_cast<std::size_t>(a)].inverse_mass +
                          node.fields[static_cast<std::size_t>(b)].inverse_mass;
   node.contacts.push_back({a, b, normal.normalized(), 1 / inverse});
@@ -29,15 +29,15 @@ void add_contact(ContactsTogether<Dim>& node, int a, int b, const Vec<Dim>& norm
 
 /// Solves surfaces that overlap under one law.
 template <int Dim, class Law>
-bool solve(ContactsTogether<Dim>& node, const Law& law) {
+bool solve(NodeSolver<Dim>& node, const Law& law) {
   return node.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const auto& c = node.contacts[k];
-    return demand_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
+    return response_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
   });
 }
 
 TEST_CASE("a light field pressed between two heavy ones takes their common velocity") {
-  ContactsTogether<2> node;
+  NodeSolver<2> node;
   const double heavy = 2.0, light = 1e-7;
   node.fields = {{{1, 0}, 1 / heavy}, {{0.3, 0}, 1 / light}, {{-1, 0}, 1 / heavy}};
   add_contact<2>(node, 0, 1, {1, 0});
@@ -48,7 +48,7 @@ TEST_CASE("a light field pressed between two heavy ones takes their common veloc
 }
 
 TEST_CASE("three fields that stick to each other move as one, though their impulses are not unique") {
-  ContactsTogether<3> node;
+  NodeSolver<3> node;
   node.fields = {{{1, 0, 0.2}, 1 / 1.0}, {{-1, 0.1, 0}, 1 / 2.0}, {{0, -1, 0}, 1 / 4.0}};
   const Vec<3> common = momentum_of(node) / 7.0;
   add_contact<3>(node, 0, 1, {1, 0, 0});
@@ -59,7 +59,7 @@ TEST_CASE("three fields that stick to each other move as one, though their impul
 }
 
 TEST_CASE("a block slides between two plates with the friction of both") {
-  ContactsTogether<2> node;  // the plates are rigid and close at speed 1; the block moves along them
+  NodeSolver<2> node;  // the plates are rigid and close at speed 1; the block moves along them
   const double mass = 0.5, friction = 0.2;
   node.fields = {{{0, 0}, 0}, {{10, -1}, 1 / mass}, {{0, -1}, 1 / 3.0}};
   add_contact<2>(node, 0, 1, {0, 1});
@@ -81,7 +81,7 @@ void check_random_nodes() {
   int unsettled = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const PressedNode<Dim> posed(3 + trial % 3, 6, draw);
-    ContactsTogether<Dim> node;
+    NodeSolver<Dim> node;
     node.fields = posed.fields;
     node.contacts = posed.contacts;
     const Vec<Dim> before = momentum_of(node);
@@ -114,7 +114,7 @@ TEST_CASE("contacts of random nodes obey Coulomb's law together (3-D)") { check_
 /// Many fields, all pairs in contact, with normals that no bodies could have: they jam in rings.
 /// @param orders of magnitude that the masses span
 template <int Dim>
-ContactsTogether<Dim> jam(std::mt19937_64& draw, int fields, double orders) {
+NodeSolver<Dim> jam(std::mt19937_64& draw, int fields, double orders) {
   std::normal_distribution<double> gauss;
   std::uniform_real_distribution<double> exponent(-orders, 0);
   const auto vector = [&] {
@@ -122,7 +122,7 @@ ContactsTogether<Dim> jam(std::mt19937_64& draw, int fields, double orders) {
     for (int d = 0; d < Dim; ++d) out[d] = gauss(draw);
     return out;
   };
-  ContactsTogether<Dim> node;
+  NodeSolver<Dim> node;
   for (int k = 0; k < fields; ++k) node.fields.push_back({vector(), std::pow(10.0, -exponent(draw))});
   for (int a = 0; a < fields; ++a)
     for (int b = a + 1; b < fields; ++b) add_contact<Dim>(node, a, b, vector());
@@ -136,7 +136,7 @@ void check_energy() {
   int unsettled = 0;
   double worst = 0;
   for (int trial = 0; trial < 400; ++trial) {
-    ContactsTogether<Dim> node = jam<Dim>(draw, 3 + trial % 12, 9);
+    NodeSolver<Dim> node = jam<Dim>(draw, 3 + trial % 12, 9);
     const auto energy = [&] {
       double sum = 0;
       for (const auto& field : node.fields) sum += 0.5 * field.velocity.squaredNorm() / field.inverse_mass;
@@ -148,8 +148,8 @@ void check_energy() {
     unsettled += !node.solve([&](std::size_t k, const Vec<Dim>& stick) {
       const auto& c = node.contacts[k];
       const double along = stick.dot(c.normal);
-      if (k % 2 == 0 && along > 0) return Demand<Dim>{along * c.normal, Hinders::approach};
-      return demand_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
+      if (k % 2 == 0 && along > 0) return Response<Dim>{along * c.normal, ContactStatus::slip};
+      return response_of<Dim>(resolve_pair<Dim>(stick, c.normal, -1.0, law, c.reduced), stick);
     });
     CHECK(energy() <= before * (1 + 1e-9));
     CHECK((momentum_of(node) - momentum).norm() < 1e-9 * std::sqrt(before));
@@ -176,21 +176,21 @@ void check_set(double friction, int most_unsettled, double tolerance) {
   int unsettled = 0;
   double worst = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    ContactsTogether<Dim> node = jam<Dim>(draw, 3 + trial % 4, 5);
+    NodeSolver<Dim> node = jam<Dim>(draw, 3 + trial % 4, 5);
     int kind = 0;
     for (auto& c : node.contacts) {
       kind = (kind + 1) % 3;
-      c.both_ways = kind == 0;
-      c.closing = kind == 2 ? uniform(draw) : 0;
+      c.bilateral = kind == 0;
+      c.target_approach = kind == 2 ? uniform(draw) : 0;
     }
-    const auto law = [&](std::size_t k, const Vec<Dim>& stick) -> Demand<Dim> {
+    const auto law = [&](std::size_t k, const Vec<Dim>& stick) -> Response<Dim> {
       const auto& c = node.contacts[k];
-      const double along = stick.dot(c.normal), normal = along + c.reduced * c.closing;
-      if (normal > 0 && !c.both_ways) return {Vec<Dim>::Zero(), Hinders::nothing};
+      const double along = stick.dot(c.normal), normal = along + c.reduced * c.target_approach;
+      if (normal > 0 && !c.bilateral) return {Vec<Dim>::Zero(), ContactStatus::open};
       const Vec<Dim> tangential = stick - along * c.normal;
       const double limit = friction * std::max(0.0, -normal), needed = tangential.norm();
-      if (needed <= limit) return {normal * c.normal + tangential, Hinders::slip};
-      return {normal * c.normal + limit / needed * tangential, Hinders::approach};
+      if (needed <= limit) return {normal * c.normal + tangential, ContactStatus::stick};
+      return {normal * c.normal + limit / needed * tangential, ContactStatus::slip};
     };
     const Vec<Dim> before = momentum_of(node);
     unsettled += !node.solve(law);
@@ -227,7 +227,7 @@ TEST_CASE("momenta whose squares underflow give finite impulses") {
   std::uniform_real_distribution<double> uniform(-1, 1);
   int infinite = 0;  // 6 where J·n divides whatever it is
   for (int trial = 0; trial < 20000; ++trial) {
-    ContactsTogether<2> node;
+    NodeSolver<2> node;
     const double tiny = std::pow(10.0, -157.5 + 7.5 * uniform(random));
     const auto velocity = [&] { return Vec<2>(tiny * uniform(random), tiny * uniform(random)); };
     node.fields = {{velocity(), 1 / 4.8e-6}, {velocity(), 1 / 4.3e-7}, {velocity(), 1 / 4.3e-7}};
@@ -239,7 +239,7 @@ TEST_CASE("momenta whose squares underflow give finite impulses") {
       const double along = stick.dot(n), normal = trial % 2 ? along : std::min(along, 0.0);
       const Vec<2> tangential = stick - along * n;
       const bool slides = tangential.norm() > 0;
-      return demand_of<2>(slides ? Vec<2>(normal * n) : Vec<2>(normal * n + tangential), stick);
+      return response_of<2>(slides ? Vec<2>(normal * n) : Vec<2>(normal * n + tangential), stick);
     });
     for (const auto& c : node.contacts) infinite += !c.impulse.allFinite();
   }
@@ -249,14 +249,14 @@ TEST_CASE("momenta whose squares underflow give finite impulses") {
 /// A film drags surfaces that slide on it and presses nothing: J·n is zero where J is not.
 TEST_CASE("a contact that drags and does not press takes its share of the slip") {
   for (const Vec<2>& slip : {Vec<2>(0, 1), Vec<2>(0, -3)}) {
-    ContactsTogether<2> node;
+    NodeSolver<2> node;
     node.fields = {{Vec<2>::Zero(), 1 / 2.0}, {slip, 1 / 3.0}, {Vec<2>(5, 0), 1 / 4.0}};
     add_contact<2>(node, 0, 1, {1, 0});
     add_contact<2>(node, 1, 2, {1, 0});  // parts
     const double share = 0.25, reduced = node.contacts[0].reduced;
-    CHECK(node.solve([&](std::size_t k, const Vec<2>& stick) -> Demand<2> {
-      if (k == 1) return {Vec<2>::Zero(), Hinders::nothing};
-      return {Vec<2>(0, share * stick[1]), Hinders::approach};
+    CHECK(node.solve([&](std::size_t k, const Vec<2>& stick) -> Response<2> {
+      if (k == 1) return {Vec<2>::Zero(), ContactStatus::open};
+      return {Vec<2>(0, share * stick[1]), ContactStatus::slip};
     }));
     CHECK((node.contacts[0].impulse - share * reduced * slip).norm() < 1e-12);
     CHECK((node.fields[0].velocity - share * reduced / 2 * slip).norm() < 1e-12);

@@ -1,4 +1,4 @@
-#include "kernels/contact/nodes_together.hpp"
+#include "kernels/contact/lane_solver.hpp"
 
 #include <doctest/doctest.h>
 
@@ -38,10 +38,10 @@ Posed<Dim> pose(int fields, bool friction, bool holds, std::mt19937_64& draw) {
                      node.fields[static_cast<std::size_t>(c.b)].inverse_mass);
     SetRule<Dim> rule;
     rule.acts = !odds(0.1);
-    rule.both_ways = c.both_ways = odds(0.3);
+    rule.bilateral = c.bilateral = odds(0.3);
     rule.holds_slip = holds && odds(0.3);
     rule.friction = friction;
-    c.closing = odds(0.3) ? 0.3 * from_0_to_1(draw) : 0;
+    c.target_approach = odds(0.3) ? 0.3 * from_0_to_1(draw) : 0;
     node.contacts.push_back(c);
     node.rules.push_back(rule);
     node.laws.push_back({0.3 * from_0_to_1(draw), odds(0.3) ? 0.5 : 0});
@@ -52,20 +52,20 @@ Posed<Dim> pose(int fields, bool friction, bool holds, std::mt19937_64& draw) {
 /// By the solver of one node.
 template <int Dim>
 bool solve_alone(Posed<Dim>& node) {
-  ContactsTogether<Dim> solver;
+  NodeSolver<Dim> solver;
   solver.fields = node.fields;
   solver.contacts = node.contacts;
   const bool settled = solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const auto& c = solver.contacts[k];
-    return node.rules[k].demand(c.normal, c.closing, stick, c.reduced, node.laws[k], 0,
-                                [](double normal) { return normal; });
+    return node.rules[k].response(c.normal, c.target_approach, stick, c.reduced, node.laws[k], 0,
+                                  [](double normal) { return normal; });
   });
   node.contacts = solver.contacts;
   return settled;
 }
 
 template <int Dim, int kFields>
-void put(NodesTogether<Dim, kFields>& batch, const Posed<Dim>& node) {
+void put(LaneSolver<Dim, kFields>& batch, const Posed<Dim>& node) {
   const int lane = batch.begin_node();
   for (int k = 0; k < kFields; ++k) {
     const MovingField<Dim>& field = node.fields[static_cast<std::size_t>(k)];
@@ -73,7 +73,7 @@ void put(NodesTogether<Dim, kFields>& batch, const Posed<Dim>& node) {
   }
   for (std::size_t k = 0; k < node.contacts.size(); ++k) {
     const FieldContact<Dim>& c = node.contacts[k];
-    batch.add_contact(lane, c.a, c.b, c.normal, c.reduced, c.closing, node.rules[k], node.laws[k]);
+    batch.add_contact(lane, c.a, c.b, c.normal, c.reduced, c.target_approach, node.rules[k], node.laws[k]);
   }
 }
 
@@ -87,7 +87,7 @@ double largest_of(const Posed<Dim>& node) {
 /// Is every law obeyed with the velocities that all impulses leave? (Each impulse acts on both of its
 /// fields.)
 template <int Dim, int kFields>
-bool obeys(const NodesTogether<Dim, kFields>& batch, int lane, const Posed<Dim>& node) {
+bool obeys(const LaneSolver<Dim, kFields>& batch, int lane, const Posed<Dim>& node) {
   std::vector<MovingField<Dim>> fields = node.fields;
   double largest = 0;
   for (const FieldContact<Dim>& c : node.contacts) {
@@ -103,10 +103,10 @@ bool obeys(const NodesTogether<Dim, kFields>& batch, int lane, const Posed<Dim>&
     const Vec<Dim> slip = fields[static_cast<std::size_t>(c.b)].velocity -
                           fields[static_cast<std::size_t>(c.a)].velocity,
                    impulse = batch.impulse(lane, c.a, c.b);
-    const Demand<Dim> demand =
-        node.rules[k].demand(c.normal, c.closing, impulse + c.reduced * slip, c.reduced, node.laws[k], 0,
-                             [](double normal) { return normal; });
-    all &= (demand.impulse - impulse).norm() <= 1e-7 * largest;
+    const Response<Dim> response =
+        node.rules[k].response(c.normal, c.target_approach, impulse + c.reduced * slip, c.reduced,
+                               node.laws[k], 0, [](double normal) { return normal; });
+    all &= (response.impulse - impulse).norm() <= 1e-7 * largest;
   }
   return all;
 }
@@ -121,7 +121,7 @@ void check_as_alone(bool friction, bool holds, double share) {
   CAPTURE(holds);
   constexpr int kTrials = 400;
   std::mt19937_64 draw(7);
-  NodesTogether<Dim, kFields> batch;
+  LaneSolver<Dim, kFields> batch;
   std::vector<Posed<Dim>> nodes;
   int settled = 0, alone = 0, same = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
@@ -141,7 +141,8 @@ void check_as_alone(bool friction, bool holds, double share) {
       for (const FieldContact<Dim>& c : node.contacts) {
         const double least = 1e-7 * largest_of(node);
         equal &= (batch.impulse(at, c.a, c.b) - c.impulse).norm() <= least;
-        equal &= batch.sticks(at, c.a, c.b) == (c.hinders == Hinders::slip) || c.impulse.norm() <= least;
+        equal &=
+            batch.sticks(at, c.a, c.b) == (c.status == ContactStatus::stick) || c.impulse.norm() <= least;
       }
       same += equal;
     }
@@ -170,7 +171,7 @@ void check_beside_others() {
   CAPTURE(Dim);
   CAPTURE(kFields);
   std::mt19937_64 draw(3);
-  NodesTogether<Dim, kFields> batch;
+  LaneSolver<Dim, kFields> batch;
   for (int trial = 0; trial < 50; ++trial) {
     const bool friction = trial % 2 == 0, holds = trial % 3 == 0;
     const Posed<Dim> node = pose<Dim>(kFields, friction, holds, draw);
@@ -207,10 +208,10 @@ Posed<Dim> with_friction(const std::vector<MovingField<Dim>>& fields,
   node.fields = fields;
   for (const auto& [c, law] : contacts) {
     node.add_contact(c.a, c.b, c.normal);
-    node.contacts.back().both_ways = c.both_ways;
+    node.contacts.back().bilateral = c.bilateral;
     SetRule<Dim> rule;
     rule.acts = rule.friction = true;
-    rule.both_ways = c.both_ways;
+    rule.bilateral = c.bilateral;
     node.rules.push_back(rule);
     node.laws.push_back(law);
   }
@@ -220,7 +221,7 @@ Posed<Dim> with_friction(const std::vector<MovingField<Dim>>& fields,
 /// Whatever the speeds and masses are a little: what is at rest remains so.
 template <int Dim, int kFields>
 void check_like_alone(const Posed<Dim>& posed) {
-  NodesTogether<Dim, kFields> batch;
+  LaneSolver<Dim, kFields> batch;
   for (int k = 0; k < 20; ++k) {
     CAPTURE(k);
     std::vector<MovingField<Dim>> fields = posed.fields;
@@ -242,9 +243,9 @@ void check_like_alone(const Posed<Dim>& posed) {
   }
 }
 
-FieldContact<2> between(int a, int b, const Vec<2>& normal, bool both_ways = false) {
+FieldContact<2> between(int a, int b, const Vec<2>& normal, bool bilateral = false) {
   FieldContact<2> c{a, b, normal, 0};
-  c.both_ways = both_ways;
+  c.bilateral = bilateral;
   return c;
 }
 
@@ -293,7 +294,7 @@ Posed<2> faint_and_strong(double faint) {
 }
 
 TEST_CASE("impulses too faint to have an inverse are no harm beside strong ones, in a lane") {
-  NodesTogether<2, 3> batch;
+  LaneSolver<2, 3> batch;
   for (const double faint : {1e-300, 1e-310, 5e-324, 0.0}) {
     CAPTURE(faint);
     Posed<2> node = faint_and_strong(faint);
@@ -308,7 +309,7 @@ TEST_CASE("impulses too faint to have an inverse are no harm beside strong ones,
 }
 
 TEST_CASE("a lane whose node is no number does not settle") {
-  NodesTogether<2, 3> batch;
+  LaneSolver<2, 3> batch;
   Posed<2> node = faint_and_strong(0.5);
   put(batch, node);
   node.fields[2].velocity[0] = std::numeric_limits<double>::quiet_NaN();

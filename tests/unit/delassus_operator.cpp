@@ -1,4 +1,4 @@
-#include "kernels/contact/hindrances.hpp"
+#include "kernels/contact/delassus_operator.hpp"
 
 #include <doctest/doctest.h>
 
@@ -11,11 +11,12 @@ namespace {
 
 using namespace mpmfast;
 
-/// Hindrances of contacts among `fields` fields, and the matrix of their equations, written out one by one.
+/// The Delassus operator of contacts among `fields` fields, and the matrix of their equations, written out
+/// one by one.
 template <int Dim>
 struct Case {
-  Hindrances<Dim> hindrances;
-  std::vector<typename Hindrances<Dim>::One> all;
+  DelassusOperator<Dim> hindrances;
+  std::vector<typename DelassusOperator<Dim>::Row> all;
   Eigen::MatrixXd matrix;
   Eigen::VectorXd left;
 
@@ -35,7 +36,7 @@ struct Case {
       const Vec<Dim> along = direction();
       all.push_back({i, a, b, one / (one + two), two / (one + two), along, along, gauss(draw)});
       hindrances.push(all.back());
-      left[i] = all.back().left;
+      left[i] = all.back().residual;
     }
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < count; ++j) {
@@ -71,7 +72,7 @@ TEST_CASE("a hindrance that follows from those before gets no impulse, and no ot
     for (int copies : {1, 4, 8, 15, 40}) {
       CAPTURE(copies);
       CAPTURE(more);
-      Hindrances<2> h;
+      DelassusOperator<2> h;
       for (int k = 0; k <= copies; ++k) h.push({k, 0, 1, 0.25, 0.75, {1, 0}, {1, 0}, 2.0 + more * k});
       h.push({copies + 1, 0, 1, 0.25, 0.75, {0, 1}, {0, 1}, 3.0});
       CHECK(h.solve());

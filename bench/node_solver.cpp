@@ -1,7 +1,7 @@
 /// Cost of the contacts of one node where several fields meet, solved together, by the number of fields:
 /// alone, and in a lane of as many nodes as a vector holds.
 
-#include "kernels/contact/nodes_together.hpp"
+#include "kernels/contact/lane_solver.hpp"
 
 #include <benchmark/benchmark.h>
 
@@ -26,7 +26,7 @@ void solve(benchmark::State& state) {
   std::vector<PressedNode<Dim>> nodes;
   for (std::size_t i = 0; i < draws; ++i) nodes.emplace_back(static_cast<int>(state.range(0)), kOrders, draw);
   const Coulomb friction{0.2, 0};
-  ContactsTogether<Dim> solver;
+  NodeSolver<Dim> solver;
   std::size_t next = 0;
   std::int64_t laws = 0, unsettled = 0;
   for (auto _ : state) {
@@ -34,7 +34,7 @@ void solve(benchmark::State& state) {
     solver.contacts = nodes[next].contacts;
     unsettled += !solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
       ++laws;
-      return demand_of(resolve_pair<Dim>(stick, solver.contacts[k].normal, -1.0, friction), stick);
+      return response_of(resolve_pair<Dim>(stick, solver.contacts[k].normal, -1.0, friction), stick);
     });
     benchmark::DoNotOptimize(solver.contacts.data());
     next = (next + 1) % draws;
@@ -57,7 +57,7 @@ void solve_in_lanes(benchmark::State& state) {
   const Coulomb friction{0.2, 0};
   SetRule<Dim> rule;
   rule.acts = rule.friction = true;
-  NodesTogether<Dim, kFields> solver;
+  LaneSolver<Dim, kFields> solver;
   std::size_t next = 0;
   std::int64_t unsettled = 0;
   for (auto _ : state) {
