@@ -121,8 +121,8 @@ TipSample sample_of(State<Dim>& state, std::size_t p, double thickness) {
 
 template <int Dim>
 Vec<2> place_of(const State<Dim>& state, const ContactNode<Dim>& node) {
-  return {state.grid.origin[0] + node.node[0] * state.grid.cell,
-          state.grid.origin[1] + node.node[1] * state.grid.cell};
+  return {state.grid.origin[0] + node.index[0] * state.grid.cell,
+          state.grid.origin[1] + node.index[1] * state.grid.cell};
 }
 
 /// E′ of the body of a field, Pa.
@@ -162,16 +162,14 @@ template <int Dim>
 std::optional<double> foremost_worn(const State<Dim>& state, const ContactList<Dim>& contacts, int crack,
                                     const std::vector<Vec<2>>& points, double far) {
   std::optional<double> least;
-  if (contacts.bonds.empty()) return least;
+  if (contacts.pairs.bond.empty()) return least;
   std::vector<Vec<2>> from_end = points;
   for (Vec<2>& x : from_end) x -= points.front();
   const TipPath path(std::move(from_end), far, kBlur * state.grid.cell);
   for (const ContactNode<Dim>& node : contacts.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const Bond<Dim>& bond = contacts.bonds[static_cast<std::size_t>(e)];
-      if (contacts.entries[static_cast<std::size_t>(e)].crack != crack || !(bond.way > kWorn) ||
-          bond.follows())
-        continue;
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const Bond<Dim>& bond = contacts.pairs.bond[e];
+      if (contacts.pairs.pair[e].crack != crack || !(bond.damage > kWorn) || bond.follows()) continue;
       const TipPath::Beside at = path.beside(place_of(state, node) - points.front());
       if (!least || at.behind < *least) least = at.behind;
     }
@@ -255,9 +253,9 @@ void add_tractions(const State<Dim>& state, const ContactList<Dim>& contacts, co
                    const Vec<2>& about, const Mat<2>& axes, TipIntegrals& integrals) {
   if (!state.nodes.has(Nodal::mass_slope)) return;
   for (const ContactNode<Dim>& node : contacts.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const ContactEntry<Dim>& entry = contacts.entries[static_cast<std::size_t>(e)];
-      if (entry.crack != question.crack || entry.b < 0) continue;
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = contacts.pairs.pair[e];
+      if (pair.crack != question.crack || pair.is_lumped()) continue;
       const auto slope = [&](int k) {
         const int slot = contacts.fields[static_cast<std::size_t>(node.field_begin + k)].slot;
         const double mass = state.nodes.column(Nodal::mass)[slot];
@@ -266,12 +264,11 @@ void add_tractions(const State<Dim>& state, const ContactList<Dim>& contacts, co
           for (int j = 0; j < 2; ++j) sum(i, j) = state.nodes.column(Nodal::mass_slope, Dim * i + j)[slot];
         return Mat<2>(mass > 0 ? Mat<2>(sum / mass) : Mat<2>::Zero());
       };
-      Vec<Dim> impulse = entry.second;
-      if (!question.bonded && !contacts.bridges.empty())
-        impulse += contacts.bridges[static_cast<std::size_t>(e)].impulse;
+      Vec<Dim> impulse = contacts.pairs.impulse[e].second;
+      if (!question.bonded && !contacts.pairs.spring.empty()) impulse += contacts.pairs.spring[e].impulse;
       integrals.add(TipTraction{axes * (place_of(state, node) - about),
                                 axes * impulse.template head<2>() / (question.dt * question.thickness),
-                                axes * (slope(entry.a) - slope(entry.b)) * axes.transpose()});
+                                axes * (slope(pair.a) - slope(pair.b)) * axes.transpose()});
     }
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/contact/cracks/cracks.hpp"
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/contact_list.hpp"
 #include "kernels/fracture/tip_sample.hpp"
 
 namespace mpmfast {

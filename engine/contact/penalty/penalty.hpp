@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/contact/books.hpp"
+#include "engine/contact/ledger/contact_ledger.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/archive.hpp"
@@ -46,7 +46,7 @@ class Penalty {
 
   /// N, by number of the boundary point.
   const std::vector<Vec<Dim>>& forces() const { return force_; }
-  const ContactBooks<Dim>& books() const { return books_; }
+  const ContactLedger<Dim>& books() const { return books_; }
   /// Of the springs, where the particles are now, J.
   double stored_energy(const State<Dim>& state);
   /// Points of facets that are pressed, and the most in any step.
@@ -214,7 +214,7 @@ class Penalty {
   std::vector<Binned> binned_;
   std::vector<Room> rooms_;  ///< by thread
   std::vector<Vec<Dim>> force_;
-  ContactBooks<Dim> books_;
+  ContactLedger<Dim> books_;
   double stretch_energy_ = 0;  ///< of tangential springs, J
   std::size_t pressed_ = 0;
   std::uint64_t pressed_peak_ = 0;

@@ -36,7 +36,7 @@ Penalty<Dim>::Penalty(const Scene& scene, const Plan& plan, const State<Dim>& se
   body_field_ = plan.body_field;
   pairs_ = plan.pairs;
   laws_.push_back(scene.contact.law.acts);
-  for (const ContactPair& pair : scene.contact.pairs) laws_.push_back(pair.law.acts);
+  for (const PairLawSpec& pair : scene.contact.pairs) laws_.push_back(pair.law.acts);
   modulus_.assign(scene.bodies.size(), 0);
   for (std::size_t b = 0; b < scene.bodies.size(); ++b)
     body_rigid_.push_back(is_rigid(scene, scene.bodies[b]));
@@ -195,7 +195,7 @@ void Penalty<Dim>::push_out(const State<Dim>& state, double elapsed, Room& room)
 
 template <int Dim>
 void Penalty<Dim>::press(const State<Dim>& state, const std::vector<Vec<Dim>>& pivots, double dt) {
-  books_.open(pivots.size(), laws_.size() - 1);
+  books_.reset(pivots.size(), laws_.size() - 1);
   std::fill(force_.begin(), force_.end(), Vec<Dim>::Zero());
   const double elapsed = known_ ? state.time - time_before_ : 0;
   if (!known_) before_ = now_;

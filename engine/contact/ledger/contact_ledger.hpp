@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file What contact of any family did in one step, for the balance and the history.
+/// @file What contact of any family did in one step, for the energy balance and the history.
 
 #include <vector>
 
@@ -9,7 +9,7 @@
 namespace mpmfast {
 
 template <int Dim>
-struct ContactBooks {
+struct ContactLedger {
   double friction_work = 0;                ///< J
   double rigid_work = 0;                   ///< J, of rigid bodies on the others
   double stored = 0;                       ///< J, in the springs of interfaces at the end of the step
@@ -20,8 +20,8 @@ struct ContactBooks {
   std::vector<double> pair_friction_work;  ///< J; as ContactSpec::pairs
   std::vector<double> pair_area;           ///< m², of surfaces that press; likewise
 
-  /// Empty ones. @param fields, pairs  how many there are
-  void open(std::size_t fields, std::size_t pairs) {
+  /// Sets all to zero. @param fields, pairs  how many there are
+  void reset(std::size_t fields, std::size_t pairs) {
     friction_work = rigid_work = stored = lost = 0;
     rigid_impulse.assign(fields, Vec<Dim>::Zero());
     rigid_moment.assign(fields, Vec<3>::Zero());
