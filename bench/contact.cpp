@@ -1,4 +1,4 @@
-/// Normals and separations of all contact entries of a state, without the rest of the step: what an entry
+/// Normals and separations of all contact pairs of a state, without the rest of the step: what a pair
 /// costs, with and without the mean over the nodes around and the separations.
 
 #include <filesystem>
@@ -24,7 +24,7 @@ std::unique_ptr<Running<2>> grains(Grains kind, int threads) {
   return running;
 }
 
-/// Listing the nodes and finding the geometry of their entries again and again, from a warm start.
+/// Listing the nodes and finding the geometry of their pairs again and again, from a warm start.
 void geometry(benchmark::State& state, Grains kind, NormalKind normal, SeparationKind separation) {
   const auto running = grains(kind, static_cast<int>(state.range(0)));
   Scene scene = running->scene;
@@ -35,14 +35,14 @@ void geometry(benchmark::State& state, Grains kind, NormalKind normal, Separatio
   Contact<2> contact(scene, plan, cracks);
   const auto passes = make_passes<2>(plan.basis);
   for (auto _ : state) {
-    contact.find_nodes(running->step.state());
+    contact.find_pairs(running->step.state());
     contact.find_geometry(running->step.state(), *passes);
     benchmark::ClobberMemory();
   }
-  const auto entries = static_cast<double>(contact.list().entries.size());
-  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(entries));
+  const auto pairs = static_cast<double>(contact.list().pairs.size());
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(pairs));
   state.counters["nodes"] = static_cast<double>(contact.list().nodes.size());
-  state.counters["entries"] = entries;
+  state.counters["entries"] = pairs;
 }
 
 [[maybe_unused]] const bool listed = [] {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "kernels/contact/together.hpp"
+#include "kernels/contact/node_solver.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {

@@ -1,54 +1,181 @@
 #include "engine/contact/contact.hpp"
 
 #include <algorithm>
-#include <variant>
+#include <limits>
 
-#include "engine/contact/nodal/fit.hpp"
-#include "engine/plan/contact_law.hpp"
+#include "engine/contact/geometry/free_directions.hpp"
+#include "engine/contact/geometry/kept_fits.hpp"
+#include "engine/contact/interface/extrapolated_jump.hpp"
+#include "engine/contact/ledger/record_contact.hpp"
+#include "engine/contact/published/grid_geometry.hpp"
+#include "engine/state/team.hpp"
 
 namespace mpmfast {
 
+namespace {
+
+constexpr std::int64_t kFewNodes = 256;  // below which one thread does all
+
+/// The separations of the sides of cracks: the normal parts of their extrapolated displacement jumps.
+template <int Dim>
+void find_crack_separations(const State<Dim>& state, ContactList<Dim>& list) {
+  for_each_pair(list, state.threads, [&](const ContactNode<Dim>& node, int e) {
+    const ContactPair& pair = list.pairs.pair[e];
+    if (pair.crack < 0) return;
+    PairGeometry<Dim>& geometry = list.pairs.geometry[e];
+    const NodeFields<Dim> fields(state, list, node);
+    geometry.separation = extrapolated_jump(state, fields, node, pair.a, pair.b).dot(geometry.normal);
+  });
+}
+
+/// Has the node surfaces that only touch?
+template <int Dim>
+bool has_separable_pair(const ContactList<Dim>& list, const ContactNode<Dim>& node) {
+  const auto begin = list.pairs.status.begin();
+  return std::any_of(begin + node.pair_begin, begin + node.pair_end,
+                     [](const PairStatus& status) { return status.separable; });
+}
+
+void visit_counters(Archive& archive, ContactCounters& c) {
+  archive.number("contact/nodes_peak", c.nodes_peak);
+  archive.number("contact/regressions", c.regressions);
+  archive.number("contact/iterations", c.iterations);
+  archive.number("contact/fallbacks", c.fallbacks);
+  archive.number("contact/unconverged", c.unconverged);
+  archive.number("contact/touching_normals", c.touching);
+  archive.number("contact/doubtful_normals", c.doubtful);
+  archive.number("contact/pair_nodes", c.pair_nodes);
+  archive.number("contact/pair_fallbacks", c.pair_fallbacks);
+  archive.number("contact/meetings", c.meetings);
+  archive.number("contact/screened", c.screened);
+}
+
+}  // namespace
+
 template <int Dim>
 Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks)
-    : spec_(scene.contact),
+    : scene_(scene),
+      has_geometry_(plan.contact_geometry),
       cracks_(cracks),
-      pairs_(plan.pairs),
-      cell_(scene.grid.cell),
-      cell_volume_(cell_volume(scene)),
-      first_correction_(plan.first_correction),
-      one_set_(plan.one_set),
-      keep_velocity_change_(plan.paired),
-      holds_sticking_(plan.one_set && plan.update == ParticleUpdate::flip),
-      first_correction_stays_(plan.first_correction_stays),
-      first_share_(plan.first_share),
-      geometry_(plan.contact_geometry),
-      bridges_(plan.bridges),
-      keeps_fits_(plan.keeps_fits),
-      fit_(std::make_unique<ContactFit<Dim>>()) {
-  together_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-  laws_.push_back(law_on(spec_.law, scene));
-  for (const ContactPair& pair : spec_.pairs) laws_.push_back(law_on(pair.law, scene));
-  for (const CrackSpec& crack : scene.cracks) laws_.push_back(law_on(crack.law, scene));
-  bonds_ = bridges_ && std::any_of(laws_.begin(), laws_.end(),
-                                   [](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); });
-  solves_in_lanes_ =
-      one_set_ && !bridges_ && scene.cracks.empty() &&
-      std::all_of(laws_.begin(), laws_.end(), [](const AnyLaw& law) {
-        return std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
-      });
+      laws_(scene, plan),
+      finder_(scene, laws_, cracks),
+      memory_(scene, plan, laws_),
+      interfaces_(scene, plan, laws_, cracks),
+      corrections_(scene, plan, laws_) {}
+
+template <int Dim>
+void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& basis) {
+  if (list_.nodes.empty() || !has_geometry_) return;
+  const auto is_crack = [](const ContactPair& pair) { return pair.crack >= 0; };
+  if (!std::all_of(list_.pairs.pair.begin(), list_.pairs.pair.end(), is_crack)) {
+    find_grid_normals(state, scene_.contact, list_);
+    fit_.run(state, scene_.contact, basis, list_);
+    find_grid_separations(state, scene_.contact, list_);
+  }
+  if (cracks_.active()) find_crack_separations(state, list_);
+  interfaces_.find(state, list_);
+  if (scene_.contact.detection == DetectionKind::velocity ||
+      scene_.contact.separation == SeparationKind::none)
+    for (PairGeometry<Dim>& geometry : list_.pairs.geometry)
+      geometry.separation = -std::numeric_limits<double>::infinity();
 }
 
 template <int Dim>
-Contact<Dim>::~Contact() = default;
+void Contact<Dim>::yield_to(const Conditions<Dim>& conditions, int threads) {
+  step_.free.conditions = &conditions;
+  if (!conditions.empty() && corrections_.method().one_set)
+    yield_constrained_directions(step_.free, threads, list_);
+}
+
+template <int Dim>
+void Contact<Dim>::begin_step(const std::vector<Vec<Dim>>& pivots, const StepTimes& times) {
+  step_.pivots = pivots;
+  step_.times = times;
+  ledger_.reset(pivots.size(), laws_.count());
+}
+
+template <int Dim>
+void Contact<Dim>::correct_first(State<Dim>& state) {
+  corrections_.correct_first(state, step_.free, step_.times, list_);
+  if (corrections_.method().first_stays) record_impulses(state, laws_, step_.pivots, list_, ledger_);
+}
+
+template <int Dim>
+void Contact<Dim>::correct_second(State<Dim>& state) {
+  corrections_.correct_second(state, step_.free, step_.times, interfaces_, list_);
+  record_impulses(state, laws_, step_.pivots, list_, ledger_);
+  if (!corrections_.method().one_set) end_step(state);
+}
+
+template <int Dim>
+void Contact<Dim>::correct_re_extrapolated(State<Dim>& state) {
+  corrections_.correct_re_extrapolated(state, step_.free, step_.times, list_);
+  if (corrections_.method().one_set) end_step(state);
+}
+
+/// After the last correction: the interfaces and the friction work of the step.
+template <int Dim>
+void Contact<Dim>::end_step(State<Dim>& state) {
+  if (interfaces_.active()) interfaces_.end(state, step_.free, step_.times.dt, list_, ledger_);
+  record_friction(state, laws_, corrections_.method(), list_, ledger_, step_.friction_sums);
+}
+
+template <int Dim>
+void Contact<Dim>::list_separable_slots(int threads, std::vector<int>& slots) const {
+  slots.assign(list_.fields.size(), -1);  // some fields belong to no listed node
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), threads, kFewNodes, [&](std::int64_t k) {
+    const ContactNode<Dim>& node = list_.nodes[k];
+    if (!has_separable_pair(list_, node)) return;
+    for (int f = node.field_begin; f < node.field_end; ++f)
+      slots[static_cast<std::size_t>(f)] = list_.fields[f].slot;
+  });
+}
+
+template <int Dim>
+void Contact<Dim>::average_compression(State<Dim>& state) const {
+  const double* mass = state.nodes.column(Nodal::mass);
+  double* weight = state.nodes.column(Nodal::pressed);
+  for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, kFewNodes, [&](std::int64_t k) {
+    const ContactNode<Dim>& node = list_.nodes[k];
+    if (has_separable_pair(list_, node) || has_springs(list_, node)) return;
+    double all = 0, part = 0;
+    for (int f = node.field_begin; f < node.field_end; ++f) {
+      all += mass[list_.fields[f].slot];
+      part += weight[list_.fields[f].slot];
+    }
+    for (int f = node.field_begin; f < node.field_end; ++f)
+      weight[list_.fields[f].slot] = part / all * mass[list_.fields[f].slot];
+  });
+}
+
+template <int Dim>
+void Contact<Dim>::drift_fits(const State<Dim>& state, double dt) {
+  if (!list_.pairs.fit.empty()) mpmfast::drift_fits(state, dt, list_);
+}
+
+template <int Dim>
+void Contact<Dim>::visit(Archive& archive) {
+  visit_counters(archive, list_.counters);
+  archive.number("contact/stored", ledger_.stored);
+  memory_.visit(archive, list_);
+}
+
+template <int Dim>
+const ConductanceSpec& Contact<Dim>::conductance_of(const NodeFields<Dim>& fields,
+                                                    const ContactNode<Dim>& node,
+                                                    const ContactPair& pair) const {
+  const int number = laws_.number_of(fields, node, pair);
+  const bool by_default = number < 0 || pair.crack >= 0;
+  return (by_default ? scene_.contact.law : scene_.contact.pairs[static_cast<std::size_t>(number)].law)
+      .conductance;
+}
 
 template <int Dim>
 std::size_t Contact<Dim>::bytes() const {
-  std::size_t sum =
-      bytes_in(list_.nodes, list_.fields, list_.entries, list_.bridges, list_.bonds, list_.fits,
-               list_.node_at, keys_, memory_, last_bridges_, last_bonds_, last_fits_, field_begin_) +
-      fit_->bytes();
-  for (const auto& listing : listings_) sum += bytes_in(listing.nodes, listing.entries);
-  return sum;
+  const PairColumns<Dim>& pairs = list_.pairs;
+  return bytes_in(list_.nodes, list_.fields, list_.node_at, pairs.pair, pairs.geometry, pairs.before,
+                  pairs.status, pairs.impulse, pairs.slip, pairs.spring, pairs.bond, pairs.fit) +
+         memory_.bytes() + finder_.bytes() + fit_.bytes();
 }
 
 template class Contact<2>;

@@ -2,7 +2,6 @@
 
 /// @file What contact asks of the basis.
 
-#include "engine/contact/nodal/list.hpp"
 #include "engine/state/state.hpp"
 
 namespace mpmfast {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "engine/cracks/constants.hpp"
-#include "engine/cracks/element.hpp"
 #include "kernels/fracture/tip_path.hpp"
 
 namespace mpmfast {
@@ -12,22 +11,22 @@ namespace {
 
 template <int Dim>
 Vec<2> position_of(const GridView<Dim>& grid, const ContactNode<Dim>& node) {
-  return {grid.origin[0] + node.node[0] * grid.cell, grid.origin[1] + node.node[1] * grid.cell};
+  return {grid.origin[0] + node.index[0] * grid.cell, grid.origin[1] + node.index[1] * grid.cell};
 }
 
-/// Calls f(node, entry) for all contacts of the sides of a crack.
+/// Calls f(node, e) for all contact pairs e of the sides of a crack.
 template <int Dim, class F>
 void for_each_contact(const ContactList<Dim>& contacts, int crack, const F& f) {
   for (const ContactNode<Dim>& node : contacts.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e)
-      if (element(contacts.entries, e).crack == crack) f(node, e);
+    for (int e = node.pair_begin; e < node.pair_end; ++e)
+      if (contacts.pairs.pair[e].crack == crack) f(node, e);
 }
 
 /// Mean displacement gradient of a field of a contact node: Σ m u_i,j / Σ m.
 template <int Dim>
 Mat<2> displacement_gradient(const State<Dim>& state, const ContactList<Dim>& contacts,
                              const ContactNode<Dim>& node, int k) {
-  const int slot = element(contacts.fields, node.field_begin + k).slot;
+  const int slot = contacts.fields[node.field_begin + k].slot;
   const double mass = state.nodes.column(Nodal::mass)[slot];
   if (!(mass > 0)) return Mat<2>::Zero();
   Mat<2> sum;
@@ -42,13 +41,13 @@ template <int Dim>
 std::optional<double> length_to_softening(const State<Dim>& state, const ContactList<Dim>& contacts,
                                           int crack, const TipLine& line, double distance) {
   std::optional<double> least;
-  if (contacts.bonds.empty()) return least;
+  if (contacts.pairs.bond.empty()) return least;
   TipLine from_end = line;
   for (Vec<2>& x : from_end) x -= line.front();
   const TipPath path(std::move(from_end), distance, crack_constants::kSmoothing * state.grid.cell);
   for_each_contact(contacts, crack, [&](const ContactNode<Dim>& node, int e) {
-    const Bond<Dim>& bond = element(contacts.bonds, e);
-    if (!(bond.way > crack_constants::kDamageOnset) || bond.follows()) return;
+    const Bond<Dim>& bond = contacts.pairs.bond[e];
+    if (!(bond.damage > crack_constants::kDamageOnset) || bond.follows()) return;
     const TipPath::Projection on = path.project(position_of(state.grid, node) - line.front());
     if (!least || on.behind < *least) least = on.behind;
   });
@@ -62,12 +61,13 @@ std::vector<TipTraction> side_tractions(const State<Dim>& state, const ContactLi
   std::vector<TipTraction> tractions;
   if (!state.nodes.has(Nodal::mass_slope)) return tractions;
   for_each_contact(contacts, crack, [&](const ContactNode<Dim>& node, int e) {
-    const ContactEntry<Dim>& entry = element(contacts.entries, e);
-    if (entry.b < 0) return;
-    Vec<Dim> impulse = entry.second;
-    if (springs && !contacts.bridges.empty()) impulse += element(contacts.bridges, e).impulse;
-    const Mat<2> jump = displacement_gradient(state, contacts, node, entry.a) -
-                        displacement_gradient(state, contacts, node, entry.b);
+    const PairColumns<Dim>& pairs = contacts.pairs;
+    const ContactPair& pair = pairs.pair[e];
+    if (pair.is_lumped()) return;
+    Vec<Dim> impulse = pairs.impulse[e].second;
+    if (springs && !pairs.spring.empty()) impulse += pairs.spring[e].impulse;
+    const Mat<2> jump = displacement_gradient(state, contacts, node, pair.a) -
+                        displacement_gradient(state, contacts, node, pair.b);
     tractions.push_back({axes * (position_of(state.grid, node) - origin),
                          axes * impulse.template head<2>() / (dt * thickness),
                          axes * jump * axes.transpose()});

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/contact_list.hpp"
 #include "engine/cracks/tip_line.hpp"
 #include "engine/state/state.hpp"
 #include "kernels/fracture/tip_sample.hpp"

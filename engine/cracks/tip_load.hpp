@@ -3,7 +3,7 @@
 /// @file Load of a crack at one of its ends: J, stress intensities and tractions, from the particles around
 /// the end (kernels/fracture).
 
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/contact_list.hpp"
 #include "engine/cracks/crack_line.hpp"
 #include "engine/cracks/tip_samples.hpp"
 #include "engine/state/state.hpp"

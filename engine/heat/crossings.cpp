@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/contact/pairs/neighbours.hpp"
 #include "engine/heat/heat.hpp"
 #include "engine/state/team.hpp"
 
@@ -17,49 +17,46 @@ constexpr double kTouches = 0.02;
 }  // namespace
 
 /// What touches, on how much of a surface, and how much the temperatures there differ by. The area of a node
-/// is that of the side of less mass, as interfaces have it (Contact::bridges_around).
+/// is that of the side of less mass, as interfaces have it (Interfaces::find_pair).
 template <int Dim>
 void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& contact) {
   const auto& list = contact.list();
-  crossings_.assign(list.entries.size(), {});
+  const PairColumns<Dim>& pairs = list.pairs;
+  crossings_.assign(pairs.size(), {});
   const auto& nodes = state.nodes;
   const double *mass = nodes.column(Nodal::mass), *temperature = nodes.column(Nodal::temperature);
   const auto n = static_cast<std::int64_t>(list.nodes.size());
   for_each_of(n, state.threads, 64, [&](std::int64_t k) {
-    const auto& node = list.nodes[static_cast<std::size_t>(k)];
-    const auto slot_of = [&](int field) {
-      return list.fields[static_cast<std::size_t>(node.field_begin + field)].slot;
-    };
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list.entries[static_cast<std::size_t>(e)];
+    const ContactNode<Dim>& node = list.nodes[k];
+    const NodeFields<Dim> fields(state, list, node);
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = pairs.pair[e];
+      const PairGeometry<Dim>& geometry = pairs.geometry[e];
       Crossing& crossing = crossings_[static_cast<std::size_t>(e)];
-      const LawScope scope = contact.scope_of(state, node, entry);
+      const LawScope scope = scope_of(contact.laws().law_of(fields, node, pair), pairs.is_broken(e));
       if (scope == LawScope::nowhere) continue;
-      const int partner = contact.partner(state, node, entry);
-      const auto field_of = [&](int field) {
-        return static_cast<std::size_t>(
-            list.fields[static_cast<std::size_t>(node.field_begin + field)].field);
-      };
-      crossing.a = slot_of(entry.a);
-      crossing.b = slot_of(partner);
-      crossing.field_a = field_of(entry.a);
-      crossing.field_b = field_of(partner);
+      const int other = partner(fields, node, pair);
+      crossing.a = fields.slot(pair.a);
+      crossing.b = fields.slot(other);
+      crossing.field_a = static_cast<std::size_t>(fields.field(pair.a));
+      crossing.field_b = static_cast<std::size_t>(fields.field(other));
       crossing.tied = scope == LawScope::everywhere;
-      if (crossing.tied || entry.normal.isZero(0) || !nodes.has(Nodal::volume_gradient)) continue;
+      if (crossing.tied || geometry.normal.isZero(0) || !nodes.has(Nodal::volume_gradient)) continue;
       const double share = share_of(state, contact, node, e);
       if (share == 0) continue;
-      const ConductanceSpec& surface = contact.conductance_of(state, node, entry);
+      const ConductanceSpec& surface = contact.conductance_of(fields, node, pair);
+      const bool joined = !pairs.spring.empty() && pairs.spring[e].acts;
       const bool touches =
-          contact.joined(e) || entry.touching || entry.separation < kTouches * state.grid.cell;
-      const double gap = std::max(0.0, entry.separation);
+          joined || pairs.status[e].touching || geometry.separation < kTouches * state.grid.cell;
+      const double gap = std::max(0.0, geometry.separation);
       if (touches) {
         crossing.conductance = capped(surface.touching);
       } else if (surface.gap > 0 && gap < state.grid.cell) {
         crossing.conductance = 1 / (1 / surface.touching + gap / surface.gap);  // resistances in series
       }
-      const double a = nodes.vector(Nodal::volume_gradient, crossing.a).dot(entry.normal),
-                   b = -nodes.vector(Nodal::volume_gradient, crossing.b).dot(entry.normal);
-      const double m_a = mass[crossing.a], m_b = mass[crossing.b], wide = share * around(state, node.node);
+      const double a = nodes.vector(Nodal::volume_gradient, crossing.a).dot(geometry.normal),
+                   b = -nodes.vector(Nodal::volume_gradient, crossing.b).dot(geometry.normal);
+      const double m_a = mass[crossing.a], m_b = mass[crossing.b], wide = share * around(state, node.index);
       crossing.area = wide * std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
       if (!touches) crossing.sides = {wide * a, wide * b};
       crossing.jump = temperature[crossing.b] - temperature[crossing.a];
@@ -67,21 +64,20 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
   });
 }
 
-/// How much of a surface an entry stands for: none of a lump whose pairs are listed one by one, half where
-/// two lumps see each other.
+/// The share of a surface that a pair stands for: none of a lumped pair whose node has explicit ones, half
+/// where two lumped pairs see each other.
 template <int Dim>
 double Heat<Dim>::share_of(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
                            int e) const {
-  if (node.pair_begin < node.entry_end) return e < node.pair_begin ? 0 : 1;
-  const auto& entries = contact.list().entries;
-  const auto& entry = entries[static_cast<std::size_t>(e)];
-  if (entry.b >= 0) return 1;
-  const int partner = contact.partner(state, node, entry);
-  for (int f = node.entry_begin; f < node.entry_end; ++f) {
-    const auto& other = entries[static_cast<std::size_t>(f)];
-    if (f != e && other.b < 0 && other.a == partner && contact.partner(state, node, other) == entry.a)
+  if (node.explicit_begin < node.pair_end) return e < node.explicit_begin ? 0 : 1;
+  const auto& pairs = contact.list().pairs.pair;
+  const ContactPair& pair = pairs[e];
+  if (!pair.is_lumped()) return 1;
+  const NodeFields<Dim> fields(state, contact.list(), node);
+  const int other = partner(fields, node, pair);
+  for (int f = node.pair_begin; f < node.pair_end; ++f)
+    if (f != e && pairs[f].is_lumped() && pairs[f].a == other && partner(fields, node, pairs[f]) == pair.a)
       return 0.5;
-  }
   return 1;
 }
 
@@ -99,8 +95,8 @@ auto Heat<Dim>::mean_jump(const State<Dim>& state, const Contact<Dim>& contact, 
   for (int m = 0; m < power(3, Dim); ++m) {
     const int k = contact_neighbour(state.tiling, list, node, m);
     if (k < 0) continue;
-    const auto& other = list.nodes[static_cast<std::size_t>(k)];
-    for (int f = other.entry_begin; f < other.entry_end; ++f) {
+    const ContactNode<Dim>& other = list.nodes[k];
+    for (int f = other.pair_begin; f < other.pair_end; ++f) {
       const Crossing& beside = crossings_[static_cast<std::size_t>(f)];
       if (!beside.conducts() || beside.field_a != own.field_a || beside.field_b != own.field_b) continue;
       area += beside.area;
@@ -124,10 +120,10 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
   const bool flow = quantity == Nodal::heat_flow;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
   for_each_of(n, state.threads, 64, [&](std::int64_t k) {
-    const auto& node = list.nodes[static_cast<std::size_t>(k)];
+    const ContactNode<Dim>& node = list.nodes[k];
     // Of each group, its slots are found from its first one: nodes have few fields.
     const auto joined = [&](int s, int t) {
-      for (int e = node.entry_begin; e < node.entry_end; ++e) {
+      for (int e = node.pair_begin; e < node.pair_end; ++e) {
         const Crossing& c = crossings_[static_cast<std::size_t>(e)];
         if (c.tied && ((c.a == s && c.b == t) || (c.a == t && c.b == s))) return true;
       }
@@ -138,7 +134,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
     room.resize(2 * static_cast<std::size_t>(count));
     int *const slots = room.data(), *const group = slots + count;
     for (int f = 0; f < count; ++f) {
-      slots[f] = list.fields[static_cast<std::size_t>(node.field_begin + f)].slot;
+      slots[f] = list.fields[node.field_begin + f].slot;
       group[f] = f;
     }
     for (int f = 0; f < count; ++f)
@@ -170,10 +166,10 @@ void Heat<Dim>::rub(State<Dim>& state, const Contact<Dim>& contact, double dt) {
   const auto& list = contact.list();
   double* flow = state.nodes.column(Nodal::heat_flow);
   for (const auto& node : list.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
       const Crossing& crossing = crossings_[at];
-      const double work = list.entries[at].friction_work;
+      const double work = list.pairs.impulse[at].friction_work;
       if (crossing.a < 0 || work == 0) continue;
       const double e_a = effusivity_[crossing.field_a], e_b = effusivity_[crossing.field_b];
       const bool hard_a = rigid_[crossing.field_a], hard_b = rigid_[crossing.field_b];
@@ -200,14 +196,14 @@ void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt)
     if (c.conducts()) c.drive = inverse(c.b, c.field_b) * flow[c.b] - inverse(c.a, c.field_a) * flow[c.a];
   const auto n = static_cast<std::int64_t>(list.nodes.size());
   for_each_of(n, state.threads, 64, [&](std::int64_t k) {
-    const auto& node = list.nodes[static_cast<std::size_t>(k)];
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    const ContactNode<Dim>& node = list.nodes[k];
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
       Crossing& c = crossings_[static_cast<std::size_t>(e)];
       if (c.conducts()) c.mean = mean_jump(state, contact, node, static_cast<std::size_t>(e));
     }
   });
   for (const auto& node : list.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
       const auto at = static_cast<std::size_t>(e);
       const Crossing& c = crossings_[at];
       if (!c.conducts()) continue;

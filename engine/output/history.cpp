@@ -40,7 +40,7 @@ void add_stress_names(std::vector<std::string>& names, const Scene& scene, const
 }
 
 /// "a+b" for what contact does between a and b.
-std::string pair_name(const Scene& scene, const ContactPair& pair) {
+std::string pair_name(const Scene& scene, const PairLawSpec& pair) {
   const auto name = [&](int index) {
     const auto k = static_cast<std::size_t>(index);
     return pair.materials ? scene.materials[k].name : scene.bodies[k].name;

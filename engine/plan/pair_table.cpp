@@ -19,7 +19,7 @@ PairTable make_pair_table(const Scene& scene, const std::vector<int>& body_field
   table.group = material;
   std::vector<int> group_material;
   for (int m = 0; m < table.groups; ++m) group_material.push_back(m);
-  for (const ContactPair& pair : pairs) {
+  for (const PairLawSpec& pair : pairs) {
     if (pair.materials) continue;
     for (int body : pair.between) {
       int& group = table.group[static_cast<std::size_t>(field_of(body))];

@@ -223,7 +223,7 @@ Plan make_plan(const Scene& scene) {
   plan.contact = (meets && !plan.penalty) || cracked;
   plan.contact_geometry = any_law(scene, touches);
   plan.keeps_fits = plan.contact && plan.contact_geometry && scene.contact.refit > 0;
-  const auto bridges = [](const auto& law) { return law.scope == LawScope::bridged; };
+  const auto bridges = [](const auto& law) { return law.scope == LawScope::interface; };
   plan.bridges = plan.contact && any_law(scene, bridges);
   plan.cracks_alone = cracked && plan.first_side.size() == 1;
   plan.displacements = plan.bridges || (cracked && plan.contact_geometry);

@@ -178,7 +178,7 @@ const std::array<TaskRow, kTasks> kTable{{
        return std::string(plan.strain_first < 1 ? "particle update, strain and stress" : "particle update");
      }},
     {Task::drift, "drift", Timer::contact_geometry, "how far fields have moved since normals were found", "",
-     "Contact::drift", false,
+     "Contact::drift_fits", false,
      [](S, P plan) { return when(plan.keeps_fits, "how far fields move under kept normals"); }},
     {Task::move_rigid, "move_rigid", Timer::conditions, "rigid bodies arrive", "", "Step::move_rigid_end",
      false, [](S, P plan) { return when(has_rigid(plan), "rigid bodies move"); }},

@@ -4,8 +4,9 @@
 #include <map>
 #include <vector>
 
-#include "engine/contact/nodal/fit.hpp"
-#include "engine/contact/nodal/slabs.hpp"
+#include "engine/contact/geometry/fit_choice.hpp"
+#include "engine/contact/geometry/fit_slabs.hpp"
+#include "engine/contact/geometry/mean_normals.hpp"
 #include "kernels/basis/facts.hpp"
 
 namespace mpmfast {
@@ -74,7 +75,7 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   if (!step.plan().contact) return need;
   const State<Dim>& state = step.state();
   const FitChoice choice(scene.contact);
-  // Smoothed clouds are kept for a layer of tiles and what lies ahead of it (ContactSlabs).
+  // Smoothed clouds are kept for a layer of tiles and what lies ahead of it (FitSlabs).
   double kept = 0;
   for (const auto& [layer, surface] : surfaces(state)) {
     const double nodes = surface.contact_nodes();
@@ -91,10 +92,10 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
     need.bytes = of_places + taken * need.nodes / static_cast<double>(now);
     return need;
   }
-  constexpr double kMemory = 8 * (Dim + 5), kGrowth = 1.25;  // lists grow by doubling
-  double of_node = sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + sizeof(ContactEntry<Dim>) + kMemory;
-  const double ahead =
-      static_cast<double>(ContactSlabs<Dim>::kNodesAThread) * static_cast<double>(state.threads);
+  constexpr double kGrowth = 1.25;  // lists grow by doubling
+  double of_node =
+      sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + kPairBytes<Dim> + PairMemory<Dim>::kPairBytes;
+  const double ahead = static_cast<double>(FitSlabs<Dim>::kNodesAThread) * static_cast<double>(state.threads);
   if (scene.contact.refit > 0) of_node += 2 * sizeof(KeptFit<Dim>);
   if (choice.smooth) {
     of_node += sizeof(RawNormal<Dim>) + 4 * sizeof(double);

@@ -72,7 +72,7 @@ std::vector<std::string> body_lines(const Scene& scene, const Particles<Dim>& pa
 
 std::vector<std::string> pair_lines(const Scene& scene) {
   std::vector<std::string> lines;
-  for (const ContactPair& pair : scene.contact.pairs) {
+  for (const PairLawSpec& pair : scene.contact.pairs) {
     const auto name = [&](std::size_t k) {
       const auto index = static_cast<std::size_t>(pair.between[k]);
       return pair.materials ? scene.materials[index].name : scene.bodies[index].name;

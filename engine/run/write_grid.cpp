@@ -26,32 +26,34 @@ struct Meeting {
   float damage = kUnknown;
 };
 
-/// Takes up an entry; of several the nearest gives normal and separation. @param sign  −1 on the side of b
+/// Includes pair e; of several the nearest gives normal and separation. @param sign  −1 on the side of b
 template <int Dim>
-void include(const ContactEntry<Dim>& entry, float sign, Meeting& meeting) {
-  if (entry.touching) {
+void include_contact(const PairColumns<Dim>& pairs, int e, float sign, Meeting& meeting) {
+  const PairGeometry<Dim>& geometry = pairs.geometry[e];
+  if (pairs.status[e].touching) {
     meeting.touching = 1;
     for (int d = 0; d < Dim; ++d)
-      meeting.impulse[static_cast<std::size_t>(d)] += sign * static_cast<float>(entry.impulse[d]);
+      meeting.impulse[static_cast<std::size_t>(d)] += sign * static_cast<float>(pairs.impulse[e].now[d]);
   }
-  const auto separation = static_cast<float>(entry.separation);
-  if (entry.normal.squaredNorm() == 0 || meeting.separation <= separation) return;
+  const auto separation = static_cast<float>(geometry.separation);
+  if (geometry.normal.squaredNorm() == 0 || meeting.separation <= separation) return;
   meeting.separation = separation;
   for (int d = 0; d < Dim; ++d)
-    meeting.normal[static_cast<std::size_t>(d)] = sign * static_cast<float>(entry.normal[d]);
+    meeting.normal[static_cast<std::size_t>(d)] = sign * static_cast<float>(geometry.normal[d]);
 }
 
-/// Takes up what joins the two of an entry; of several the one that is farthest apart.
+/// Includes the springs of pair e; of several pairs the one of the largest jump.
 template <int Dim>
-void include(const ContactList<Dim>& list, std::size_t entry, float sign, Meeting& meeting) {
-  const Bridge<Dim>& bridge = list.bridges[entry];
+void include_springs(const PairColumns<Dim>& pairs, int e, float sign, Meeting& meeting) {
+  const InterfaceSpring<Dim>& spring = pairs.spring[e];
+  const Vec<Dim>& jump = spring.jump.value;
   double before = 0;
   for (float x : meeting.jump) before += x * x;
-  if (bridge.acts && bridge.jump.squaredNorm() >= before)
+  if (spring.acts && jump.squaredNorm() >= before)
     for (int d = 0; d < Dim; ++d)
-      meeting.jump[static_cast<std::size_t>(d)] = sign * static_cast<float>(bridge.jump[d]);
-  if (list.bonds.empty() || list.bonds[entry].before < 0) return;  // no bond, at any time
-  const auto damage = static_cast<float>(list.bonds[entry].way);
+      meeting.jump[static_cast<std::size_t>(d)] = sign * static_cast<float>(jump[d]);
+  if (pairs.bond.empty() || pairs.bond[e].damage_before < 0) return;  // no bond, at any time
+  const auto damage = static_cast<float>(pairs.bond[e].damage);
   if (!(meeting.damage > damage)) meeting.damage = damage;
 }
 
@@ -61,17 +63,16 @@ std::vector<Meeting> meetings_of(const Step<Dim>& step) {
   const ContactList<Dim>& list = step.contact_list();
   std::vector<Meeting> out(static_cast<std::size_t>(step.state().tiling.slots()));
   for (const ContactNode<Dim>& node : list.nodes) {
-    const auto slot = [&](int k) {
-      return static_cast<std::size_t>(list.fields[static_cast<std::size_t>(node.field_begin + k)].slot);
+    const auto meeting = [&](int k) -> Meeting& {
+      return out[static_cast<std::size_t>(list.fields[node.field_begin + k].slot)];
     };
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto k = static_cast<std::size_t>(e);
-      const ContactEntry<Dim>& entry = list.entries[k];
-      include(entry, 1, out[slot(entry.a)]);
-      if (entry.b >= 0) include(entry, -1, out[slot(entry.b)]);
-      if (list.bridges.empty()) continue;
-      include(list, k, 1, out[slot(entry.a)]);
-      if (entry.b >= 0) include(list, k, -1, out[slot(entry.b)]);
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = list.pairs.pair[e];
+      include_contact(list.pairs, e, 1, meeting(pair.a));
+      if (!pair.is_lumped()) include_contact(list.pairs, e, -1, meeting(pair.b));
+      if (list.pairs.spring.empty()) continue;
+      include_springs(list.pairs, e, 1, meeting(pair.a));
+      if (!pair.is_lumped()) include_springs(list.pairs, e, -1, meeting(pair.b));
     }
   }
   return out;

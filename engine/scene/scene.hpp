@@ -203,7 +203,7 @@ struct SurfaceLaw {
 };
 
 /// A pair of bodies (that is, of their velocity fields) or of materials with a law of its own.
-struct ContactPair {
+struct PairLawSpec {
   bool materials = false;  ///< `between` counts Scene::materials; else Scene::bodies
   std::array<int, 2> between{0, 0};
   SurfaceLaw law;
@@ -251,7 +251,7 @@ struct ContactSpec {
   int corrections = 2;  ///< a step; 1: only after the momentum update ('LR once' of N20 Fig. 5)
   ManyFields fields = ManyFields::simultaneous;
   AreaKind area = AreaKind::volume_gradient;
-  std::vector<ContactPair> pairs;
+  std::vector<PairLawSpec> pairs;
   bool cracked = false;               ///< surfaces in a box have no cohesive bond at the start
   Vec3 crack_lower{}, crack_upper{};  ///< its corners, m
 
@@ -265,7 +265,7 @@ struct ContactSpec {
   template <class F>
   bool any(F holds) const {
     return holds(law) ||
-           std::any_of(pairs.begin(), pairs.end(), [&](const ContactPair& pair) { return holds(pair.law); });
+           std::any_of(pairs.begin(), pairs.end(), [&](const PairLawSpec& pair) { return holds(pair.law); });
   }
 };
 

@@ -250,8 +250,9 @@ class Suspicions {
   static bool same_bond(const SurfaceLaw& one, const SurfaceLaw& other) {
     const auto *a = std::get_if<Cohesive>(&one.acts), *b = std::get_if<Cohesive>(&other.acts);
     const auto numbers = [](const Cohesive& c) {
-      return std::array{c.normal_strength,   c.shear_strength,        c.normal_toughness,  c.shear_toughness,
-                        c.initial_stiffness, c.compression_stiffness, c.fall().integral(1)};
+      return std::array{c.normal_strength,        c.shear_strength,    c.normal_toughness,
+                        c.shear_toughness,        c.initial_stiffness, c.compression_stiffness,
+                        c.softening().integral(1)};
     };
     return a && b && numbers(*a) == numbers(*b);
   }
@@ -270,8 +271,8 @@ class Suspicions {
     } else if (const auto* bond = std::get_if<Cohesive>(&law.acts)) {
       stiff(bond->initial_stiffness, path + ".initial_stiffness");
       stiff(bond->compression_stiffness, path + ".compression_stiffness");
-      crack(bond->normal_strength, bond->normal_toughness, bond->fall(), path + ".normal_strength");
-      crack(bond->shear_strength, bond->shear_toughness, bond->fall(), path + ".shear_strength");
+      crack(bond->normal_strength, bond->normal_toughness, bond->softening(), path + ".normal_strength");
+      crack(bond->shear_strength, bond->shear_toughness, bond->softening(), path + ".shear_strength");
     }
   }
 
@@ -300,11 +301,11 @@ class Suspicions {
 
   /// Ahead of a crack the bond softens over about E G/σ² (Hillerborg 1976), which cells must resolve; and it
   /// must break before its surfaces are so far apart that no node sees both.
-  void crack(double strength, double toughness, const Fall& fall, const std::string& path) {
+  void crack(double strength, double toughness, const SofteningLaw& softening, const std::string& path) {
     constexpr double kFewest = 3;
     const double modulus = moduli().least, cell = scene_.grid.cell;
     const double zone = modulus * (toughness / strength) / strength,
-                 opening = toughness / (strength * fall.integral(1));
+                 opening = toughness / (strength * softening.integral(1));
     if (modulus > 0 && zone < kFewest * cell)
       say(path,
           fmt::format("a crack's zone, E G/strength^2 = {:.3g} m, is {:.2g} cells long: it grows in jumps",

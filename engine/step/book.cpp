@@ -12,13 +12,13 @@ void Step<Dim>::book(double dt) {
   sums_.friction_work += conditions_.friction_work();
   for (std::size_t b = 0; b < sums_.boundary_impulse.size(); ++b)
     sums_.boundary_impulse[b] += dt * conditions_.force()[b];
-  if (plan_.contact) book(contact_.books());
+  if (plan_.contact) book(contact_.ledger());
   if (plan_.penalty) book(penalty_.ledger());
   if (loads_.active()) sums_.body_force_work += loads_.work();
 }
 
 template <int Dim>
-void Step<Dim>::book(const ContactBooks<Dim>& books) {
+void Step<Dim>::book(const ContactLedger<Dim>& books) {
   sums_.friction_work += books.friction_work;
   sums_.boundary_work += books.rigid_work;
   sums_.interface_loss += books.lost;
@@ -34,7 +34,7 @@ void Step<Dim>::book(const ContactBooks<Dim>& books) {
 
 template <int Dim>
 double Step<Dim>::stored_energy() {
-  return mpmfast::stored_energy(state_) + contact_.books().stored +
+  return mpmfast::stored_energy(state_) + contact_.ledger().stored +
          (state_.step > 0 ? penalty_.stored_energy(state_) : 0) - heat_.sums().stored;
 }
 
@@ -45,8 +45,8 @@ double Step<Dim>::dissipated_energy() {
 
 template void Step<2>::book(double);
 template void Step<3>::book(double);
-template void Step<2>::book(const ContactBooks<2>&);
-template void Step<3>::book(const ContactBooks<3>&);
+template void Step<2>::book(const ContactLedger<2>&);
+template void Step<3>::book(const ContactLedger<3>&);
 template double Step<2>::stored_energy();
 template double Step<3>::stored_energy();
 template double Step<2>::dissipated_energy();

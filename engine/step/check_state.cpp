@@ -9,19 +9,6 @@
 
 namespace mpmfast {
 
-void refuse_checkpoint(std::string_view why) {
-  throw FileError(fmt::format("the checkpoint is none of its scene: {}", why));
-}
-
-void check_finite(std::string_view name, const double* values, std::size_t n) {
-  for (std::size_t k = 0; k < n; ++k)
-    if (!std::isfinite(values[k])) refuse_checkpoint(fmt::format("{} holds {} at {}", name, values[k], k));
-}
-
-void check_not_negative(std::string_view name, double value) {
-  if (!(value >= 0 && std::isfinite(value))) refuse_checkpoint(fmt::format("{} is {}", name, value));
-}
-
 template <int Dim>
 std::vector<std::uint16_t> bodies_by_id(const Particles<Dim>& particles) {
   std::vector<std::uint16_t> bodies(particles.size());

@@ -7,18 +7,11 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/state/check_values.hpp"
 #include "engine/state/particles.hpp"
 #include "engine/state/state.hpp"
 
 namespace mpmfast {
-
-/// Throws the FileError of a checkpoint that is none of its scene.
-[[noreturn]] void refuse_checkpoint(std::string_view why);
-
-/// Each number of a column is finite.
-void check_finite(std::string_view name, const double* values, std::size_t n);
-/// 0 <= value, and finite.
-void check_not_negative(std::string_view name, double value);
 
 /// Which body each particle of the scene is of, by its id.
 template <int Dim>

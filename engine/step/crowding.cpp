@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/find_pairs.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 
 namespace mpmfast {
@@ -63,7 +63,7 @@ template <int Dim>
 void check_crowding(const Scene& scene, const State<Dim>& state, std::size_t fields,
                     const MemoryLimit& available) {
   // An entry is listed by a thread, then kept, and remembered with its key until the next step.
-  constexpr double kPair = sizeof(ListedEntry<Dim>) + sizeof(ContactEntry<Dim>) + 8 * (Dim + 5);
+  constexpr double kPair = PairFinder<Dim>::kPairBytes + kPairBytes<Dim> + PairMemory<Dim>::kPairBytes;
   if (!scene.contact.active || scene.contact.fields == ManyFields::lump || available.bytes == 0) return;
   const Crowding found = crowding(state, fields);
   if (found.pairs * kPair <= static_cast<double>(available.bytes)) return;

@@ -35,7 +35,7 @@ void Step<Dim>::let_leave() {
     for (int d = 0; d < Dim; ++d) out.momentum[static_cast<std::size_t>(d)] += mass * v[d];
     return true;
   });
-  contact_.forget_fits();
+  contact_.invalidate_fits();
   sort_due_ = true;
 }
 

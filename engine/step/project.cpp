@@ -64,7 +64,7 @@ void Step<Dim>::number_slots() {
   extension_.forget_nodes();
   penalty_.invalidate_tiles();
   heat_.forget_nodes();
-  contact_.follow(state_.tiling);
+  contact_.renumber_fits(state_.tiling);
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
 }
 

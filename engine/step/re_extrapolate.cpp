@@ -10,7 +10,7 @@ namespace mpmfast {
 
 /// v′ = S⁺V_new, with contact and conditions: what the strain that comes last is taken from.
 template <int Dim>
-void Step<Dim>::re_extrapolate(double dt) {
+void Step<Dim>::re_extrapolate() {
   if (!plan_.re_extrapolate) return;
   auto& nodes = state_.nodes;
   const double* mass = nodes.column(Nodal::mass);
@@ -30,7 +30,7 @@ void Step<Dim>::re_extrapolate(double dt) {
   passes_->re_extrapolate(state_, update_rule());
   restrict_columns({Nodal::momentum});
   if (nodes.has(Nodal::pressed)) restrict_columns({Nodal::pressed});
-  correct_contact(Correction::strain, dt);
+  correct_contact_re_extrapolated();
   for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
     for (int d = 0; d < Dim; ++d)
       divide_by_mass(mass, nodes.column(Nodal::momentum, d), 1, begin, end,
@@ -60,8 +60,8 @@ void Step<Dim>::find_moving_velocities() {
   auto& nodes = state_.nodes;
   kept_slots_.clear();
   if (plan_.contact) {
-    contact_.list_meeting_slots(state_.threads, kept_slots_);
-    contact_.share_pressed(state_);
+    contact_.list_separable_slots(state_.threads, kept_slots_);
+    contact_.average_compression(state_);
   }
   const auto meeting = static_cast<std::int64_t>(kept_slots_.size());
   conditions_.share_pressed(state_);
@@ -94,8 +94,8 @@ void Step<Dim>::find_moving_velocities() {
 }
 
 // Here: the members that this file defines.
-template void Step<2>::re_extrapolate(double);
-template void Step<3>::re_extrapolate(double);
+template void Step<2>::re_extrapolate();
+template void Step<3>::re_extrapolate();
 template void Step<2>::impose_on_re_extrapolated();
 template void Step<3>::impose_on_re_extrapolated();
 template void Step<2>::find_moving_velocities();

@@ -29,7 +29,7 @@ void Step<Dim>::split_if_due() {
     splits_.splits += parents.size();
   }
   passes_->shape_domains(state_, changed);
-  contact_.forget_fits();
+  contact_.invalidate_fits();
   sort_due_ = true;
 }
 

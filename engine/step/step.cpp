@@ -125,18 +125,18 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   prepare_conditions(dt);
   find_contact();
   keep_own_velocities();
-  correct_contact(Correction::initial, dt);  // Eq. 26
+  correct_contact_first(dt);  // Eq. 26
   start_velocities();
   if (!plan_.force_with_mass) strain_and_force(dt);  // Eq. 28, 29
   add_loads(dt);
   react(dt);
-  update_momenta(dt);                      // Eq. 30
-  correct_contact(Correction::final, dt);  // Eq. 31, 33
+  update_momenta(dt);        // Eq. 30
+  correct_contact_second();  // Eq. 31, 33
   enforce(dt);
   end_velocities(dt);
   find_work_of_loads(dt);
   filter_velocities();  // Eq. 42 to 44
-  re_extrapolate(dt);   // NN §2.8
+  re_extrapolate();     // NN §2.8
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41
@@ -153,7 +153,7 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
 }
 
 /// Positions are half a step ahead of strains by the motion of the particles, and so are the jumps that
-/// displacements tell (Contact::start_bridge): as the first step begins, half of it counts as done, or bodies
+/// displacements tell (Interfaces::start): as the first step begins, half of it counts as done, or bodies
 /// that come from apart begin with springs that nothing loaded.
 template <int Dim>
 void Step<Dim>::lead_displacements(double dt) {
@@ -204,7 +204,7 @@ template <int Dim>
 void Step<Dim>::drift(double dt) {
   if (!plan_.keeps_fits) return;
   const auto timed = clock_.enter(Task::drift);
-  contact_.drift(state_, dt);
+  contact_.drift_fits(state_, dt);
 }
 
 template <int Dim>
@@ -291,27 +291,36 @@ void Step<Dim>::find_contact() {
   if (!plan_.contact) return;
   {
     const auto timed = clock_.enter(Task::contact_nodes);
-    contact_.find_nodes(state_);
+    contact_.find_pairs(state_);
   }
   if (plan_.contact_geometry) {
     const auto timed = clock_.enter(Task::contact_geometry);
     contact_.find_geometry(state_, *passes_);
   }
-  contact_.leave_to(conditions_, state_.threads);
+  contact_.yield_to(conditions_, state_.threads);
 }
 
 template <int Dim>
-void Step<Dim>::correct_contact(Correction correction, double dt) {
+void Step<Dim>::correct_contact_first(double dt) {
   if (!plan_.contact) return;
-  if (correction == Correction::initial) {
-    contact_.open_books(rigid_.pivots());
-    contact_.set_crossing(scene_->grid.cell / fastest());
-    if (!plan_.first_correction) return;
-  }
-  const auto timed = clock_.enter(correction == Correction::initial ? Task::first_correction
-                                  : correction == Correction::final ? Task::second_correction
-                                                                    : Task::third_correction);
-  contact_.resolve(state_, correction, dt);
+  contact_.begin_step(rigid_.pivots(), {dt, scene_->grid.cell / fastest()});
+  if (!plan_.first_correction) return;
+  const auto timed = clock_.enter(Task::first_correction);
+  contact_.correct_first(state_);
+}
+
+template <int Dim>
+void Step<Dim>::correct_contact_second() {
+  if (!plan_.contact) return;
+  const auto timed = clock_.enter(Task::second_correction);
+  contact_.correct_second(state_);
+}
+
+template <int Dim>
+void Step<Dim>::correct_contact_re_extrapolated() {
+  if (!plan_.contact) return;
+  const auto timed = clock_.enter(Task::third_correction);
+  contact_.correct_re_extrapolated(state_);
 }
 
 /// v = p/m after the first contact correction: for XPIC as it is, for a strain that comes first with

@@ -95,7 +95,7 @@ class Step {
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
   /// Of it, what springs and bonds between surfaces hold, J.
-  double joint_energy() const { return contact_.books().stored; }
+  double joint_energy() const { return contact_.ledger().stored; }
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
   /// All that lasts from one step to the next: filled from an archive, a step of the same scene goes on to
@@ -132,7 +132,9 @@ class Step {
   void restrict_columns(std::initializer_list<Nodal> quantities);
   void prolong(std::initializer_list<Nodal> quantities);
   void find_contact();
-  void correct_contact(Correction correction, double dt);
+  void correct_contact_first(double dt);
+  void correct_contact_second();
+  void correct_contact_re_extrapolated();
   void keep_own_velocities();
   void start_velocities();
   void strain_and_force(double dt);
@@ -147,7 +149,7 @@ class Step {
   double wall_share() const { return update_rule() == ParticleUpdate::flip ? plan_.wall_share : 1; }
   void find_work_of_loads(double dt);
   void filter_velocities();
-  void re_extrapolate(double dt);
+  void re_extrapolate();
   void impose_on_re_extrapolated();
   void conduct_heat(double dt);
   void find_moving_velocities();
@@ -156,7 +158,7 @@ class Step {
   void grow_cracks();
   void let_leave();
   void book(double dt);
-  void book(const ContactBooks<Dim>& books);
+  void book(const ContactLedger<Dim>& books);
   /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
   [[noreturn]] void fail(const char* otherwise) const;
   [[noreturn]] void fail_warmed() const;

@@ -1,19 +1,19 @@
 #pragma once
 
-/// @file A cohesive bond between two surfaces on a node, over one step: how much of it is left, and the force
-/// that takes from the fields exactly what the bond stores and loses (cohesive.hpp, interface.hpp).
+/// @file A cohesive bond between two surfaces on a node over one step: its damage, and a force that takes
+/// from the fields exactly what the bond stores and dissipates (cohesive.hpp, interface.hpp).
 ///
-/// With the mean integrity ω̄ of the step the force is F̄ = ω̄ K ½(δ + δ₁) (of overlap: all of its own
-/// stiffness), its work ω̄ (E₁ − E), E = ½ K (p² + s²). For any ω̄ between ω₁ and ω this is what the stored
-/// energy ωE grows by and a loss that is not negative,
+/// With a mean integrity ω̄ of the step the force is F̄ = ω̄ K ½(δ + δ₁) (for overlap, the whole stiffness of
+/// overlap). Its work is ω̄ (E₁ − E), E = ½ K (p² + s²). For any ω̄ between ω₁ and ω this is the growth of the
+/// stored energy ωE and a loss that is not negative,
 ///
 ///   ω̄ (E₁ − E) = (ω₁E₁ − ωE) + (ω̄ − ω₁) E₁ + (ω − ω̄) E.
 ///
-/// ω̄ is the mean of ω over λ²: along one direction of the jump, where E is in proportion to λ², the work is
-/// then that below the traction, whatever the step, and the losses add up to the toughness. ω̄ gives the jump
-/// δ₁ of the step, δ₁ gives ω̄: one equation ω̄ = M(ω̄) in (0, ω], however opening and slip go together. M ≤ ω,
-/// so that a root lies in there always. Where softening is faster than the surfaces' inertia there are three:
-/// the one with the least damage is found, from above, at which the jump has not yet leapt.
+/// ω̄ is the mean of ω over λ². Along one direction of the jump, where E grows with λ², the work is then the
+/// area below the traction for any step, and the losses add up to the toughness. ω̄ gives the jump δ₁ at the
+/// end of the step, and δ₁ gives ω̄: one equation ω̄ = M(ω̄) in (0, ω]. M ≤ ω, so a root exists. Where softening
+/// is faster than the inertia of the surfaces there are three; the search from above finds the one of least
+/// damage.
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +25,9 @@
 
 namespace mpmfast {
 
-/// A jump as bonds see it.
+/// The parts of a displacement jump that load a bond.
 struct Parted {
-  double opening;       ///< m; of surfaces that overlap 0
+  double opening;       ///< m; 0 where surfaces overlap
   double slip_squared;  ///< m²
   double squared() const { return opening * opening + slip_squared; }
 };
@@ -60,7 +60,8 @@ inline Integrity integrity_over(const Cohesive& law, double before, const Parted
   return {std::clamp((elastic + softening) / (q1 - q0), end, before), end};
 }
 
-/// What the bond loses on the way, J. @param stiffness  of the bond unharmed, N/m
+/// The energy that the bond dissipates from one jump to another, J. @param stiffness  of the bond unharmed,
+/// N/m
 inline double lost_over(double stiffness, double before, const Integrity& integrity, const Parted& from,
                         const Parted& to) {
   return 0.5 * stiffness *

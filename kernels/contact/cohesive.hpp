@@ -1,18 +1,17 @@
 #pragma once
 
-/// @file A cohesive law: tractions over the jump of two surfaces that a glue holds together, which first grow
-/// with it, then fall to none, and what of that lasts.
+/// @file A cohesive law: the traction of two bonded surfaces over their displacement jump, which grows up to
+/// the strength and then softens to zero, and the damage that remains.
 ///
-/// With opening p = ⟨δ_n⟩, slip s = |δ_t|, one initial stiffness K and the strengths σ, τ the jump in units
-/// of where strengths are reached is λ² = (pK/σ)² + (sK/τ)². The tractions are T_n = ωKp, T_t = ωKδ_t: ω, the
-/// integrity, is 1 up to λ = 1 and ever smaller beyond, ω = S(ξ)/λ on the way ξ = (λ − 1)/(λ_f − 1) from 0 to
-/// 1, S a shape that falls from 1 to 0; less than it has been it stays. So surfaces that come back do so
-/// straight to the origin, and no path makes energy. Overlap has a stiffness of its own, which nothing
-/// softens.
+/// With opening p = ⟨δ_n⟩, slip s = |δ_t|, one initial stiffness K and the strengths σ, τ, the jump in units
+/// of the jump at the strength is λ² = (pK/σ)² + (sK/τ)². The tractions are T_n = ωKp and T_t = ωKδ_t. The
+/// integrity ω is 1 up to λ = 1. Beyond, ω = S(D)/λ with the damage variable D = (λ − 1)/(λ_f − 1) from 0 to
+/// 1 and a softening law S that falls from 1 to 0. Integrity never grows, so unloading goes straight to the
+/// origin and no path makes energy. Overlap has a stiffness of its own, without damage.
 ///
-/// Along one direction of the jump, c² of λ² by opening and d² by slip, the work per area is G_I = c² g σ²/K
-/// and G_II = d² g τ²/K with g = ½ + (λ_f − 1)∫S dξ, the area below the traction over λ. λ_f is that for
-/// which (G_I/G_Ic)^α + (G_II/G_IIc)^α = 1.
+/// Along one direction of the jump, with c² and d² the shares of λ² by opening and by slip, the work per area
+/// is G_I = c² g σ²/K and G_II = d² g τ²/K, g = ½ + (λ_f − 1)∫S dD. λ_f follows from
+/// (G_I/G_Ic)^α + (G_II/G_IIc)^α = 1.
 
 #include <algorithm>
 #include <array>
@@ -31,30 +30,30 @@ inline constexpr std::array<Word<Softening>, 3> kSoftenings{{
     {Softening::trapezoidal, "trapezoidal", "holds the strength for a while (`plateau`), then straight"},
 }};
 
-/// S(ξ) of a shape.
-struct Fall {
+/// S(D) of a shape.
+struct SofteningLaw {
   static constexpr double kDecay = 7;  ///< of the exponential, which is 1/1097 of its start at the end
   Softening shape = Softening::triangular;
-  double plateau{};  ///< share of the way, below 1
+  double plateau{};  ///< D up to which the strength holds, below 1
 
   double hold() const { return shape == Softening::trapezoidal ? plateau : 0; }
-  double at(double way) const {
-    if (shape != Softening::exponential) return way < hold() ? 1 : (1 - way) / (1 - hold());
+  double at(double damage) const {
+    if (shape != Softening::exponential) return damage < hold() ? 1 : (1 - damage) / (1 - hold());
     const double end = std::exp(-kDecay);
-    return (std::exp(-kDecay * way) - end) / (1 - end);
+    return (std::exp(-kDecay * damage) - end) / (1 - end);
   }
-  /// ∫ S from 0 to ξ.
-  double integral(double way) const {
+  /// ∫ S from 0 to D.
+  double integral(double damage) const {
     if (shape != Softening::exponential) {
-      if (way <= hold()) return way;
-      const double left = 1 - way, most = 1 - hold();
+      if (damage <= hold()) return damage;
+      const double left = 1 - damage, most = 1 - hold();
       return hold() + 0.5 * (most - left * (left / most));
     }
     const double end = std::exp(-kDecay);
-    return (-std::expm1(-kDecay * way) / kDecay - way * end) / (1 - end);
+    return (-std::expm1(-kDecay * damage) / kDecay - damage * end) / (1 - end);
   }
-  /// ξ at which S/λ is a share ω of (0, 1), λ = 1 + length ξ.
-  double way_to(double integrity, double length) const {
+  /// D at which S/λ = ω, in (0, 1), with λ = 1 + length D.
+  double damage_at(double integrity, double length) const {
     if (shape != Softening::exponential) {
       const double held = (1 / integrity - 1) / length;
       if (held <= hold()) return held;
@@ -62,22 +61,22 @@ struct Fall {
     }
     // S is convex, so that Newton from the left never passes the root of S − ωλ.
     const double end = std::exp(-kDecay);
-    double way = 0;
+    double damage = 0;
     for (int k = 0; k < 60; ++k) {
-      const double left = std::exp(-kDecay * way);
-      const double excess = (left - end) / (1 - end) - integrity * (1 + length * way);
+      const double left = std::exp(-kDecay * damage);
+      const double excess = (left - end) / (1 - end) - integrity * (1 + length * damage);
       const double step = excess / (kDecay * left / (1 - end) + integrity * length);
-      way += step;
+      damage += step;
       if (!(step > 1e-16)) break;
     }
-    return std::min(1.0, way);
+    return std::min(1.0, damage);
   }
 };
 
 struct Cohesive {
   static constexpr const char *kWord = "cohesive",
                               *kSays = "bonded by springs that soften and break, then coulomb";
-  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   double friction{}, static_friction{};              ///< once it is broken
   double normal_strength = 1, shear_strength = 1;    ///< Pa
@@ -85,7 +84,7 @@ struct Cohesive {
   Softening shape = Softening::triangular;
   double plateau = 0.5, mode_exponent = 1;
   double initial_stiffness{}, compression_stiffness{};  ///< Pa/m
-  Pressed compression = Pressed::spring;
+  CompressionModel compression = CompressionModel::spring;
 
   template <class Keys>
   void describe(Keys& map) {
@@ -108,10 +107,10 @@ struct Cohesive {
     map.key("initial_stiffness", "Traction by jump before the strength; 0: ten times what a cell has.",
             initial_stiffness, kStiffness);
     map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
-    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
   }
   double pressed_stiffness() const {
-    if (compression == Pressed::contact) return 0;
+    if (compression == CompressionModel::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : initial_stiffness;
   }
   /// The least initial stiffness for which a bond that has its strength has no more energy than it may take.
@@ -120,12 +119,12 @@ struct Cohesive {
                           shear_strength * (shear_strength / shear_toughness));
   }
   double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
-  /// What is left of it where it is broken.
+  /// The law of its surfaces once it is broken.
   Coulomb contact() const;
 
   // Of opening p = ⟨δ_n⟩ and slip s, m.
 
-  Fall fall() const { return {shape, plateau}; }
+  SofteningLaw softening() const { return {shape, plateau}; }
   /// λ².
   double measure(double opening, double slip_squared) const {
     const double n = opening * initial_stiffness / normal_strength, t = initial_stiffness / shear_strength;
@@ -138,29 +137,31 @@ struct Cohesive {
     const double sum = mode_exponent == 1 ? n + t
                                           : std::pow(std::pow(n, mode_exponent) + std::pow(t, mode_exponent),
                                                      1 / mode_exponent);
-    return (initial_stiffness / sum - 0.5) / fall().integral(1);
+    return (initial_stiffness / sum - 0.5) / softening().integral(1);
   }
   /// ω at λ for a bond that was never beyond.
   double integrity(double lambda, double length) const {
     if (lambda <= 1) return 1;
-    const double way = (lambda - 1) / length;
-    return way >= 1 ? 0 : fall().at(way) / lambda;
+    const double damage = (lambda - 1) / length;
+    return damage >= 1 ? 0 : softening().at(damage) / lambda;
   }
   /// ∫ of ω over λ² from 0 to λ.
   double work(double lambda, double length) const {
     if (lambda <= 1) return lambda * lambda;
-    return 1 + 2 * length * fall().integral(std::min(1.0, (lambda - 1) / length));
+    return 1 + 2 * length * softening().integral(std::min(1.0, (lambda - 1) / length));
   }
   /// λ at which ω is this, in (0, 1].
   double lambda_of(double integrity, double length) const {
-    return integrity < 1 ? 1 + length * fall().way_to(integrity, length) : 1;
+    return integrity < 1 ? 1 + length * softening().damage_at(integrity, length) : 1;
   }
-  /// What of ω lasts is kept as the way that opening alone would have gone to it, which moves with the bodies
-  /// without a loss: of a triangular law it is the share of the toughness that is spent.
-  double way_to(double integrity) const {
-    return integrity >= 1 ? 0 : integrity <= 0 ? 1 : fall().way_to(integrity, length(1));
+  /// The integrity that remains is stored as the damage that pure opening would have made. It moves with the
+  /// bodies without loss. For the triangular law it is the share of the toughness that is spent.
+  double damage_at(double integrity) const {
+    return integrity >= 1 ? 0 : integrity <= 0 ? 1 : softening().damage_at(integrity, length(1));
   }
-  double integrity_of(double way) const { return way >= 1 ? 0 : integrity(1 + length(1) * way, length(1)); }
+  double integrity_of(double damage) const {
+    return damage >= 1 ? 0 : integrity(1 + length(1) * damage, length(1));
+  }
 };
 
 }  // namespace mpmfast

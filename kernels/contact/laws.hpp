@@ -174,10 +174,10 @@ struct Viscous {
 struct Interface {
   static constexpr const char *kWord = "interface",
                               *kSays = "joined by springs: traction = stiffness × displacement jump";
-  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   double normal_stiffness{}, shear_stiffness{}, compression_stiffness{};  ///< Pa/m
-  Pressed compression = Pressed::spring;
+  CompressionModel compression = CompressionModel::spring;
   double friction{}, static_friction{};  ///< where contact holds them apart
 
   template <class Keys>
@@ -187,12 +187,12 @@ struct Interface {
              normal_stiffness, kStiffness);
     map.need("shear_stiffness", "Traction by slip; 0: they slide freely.", shear_stiffness, kStiffness);
     map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
-    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
     map.key("friction", kFrictionSays, friction, kCoefficient);
     map.key("static_friction", kStaticSays, static_friction, kCoefficient);
   }
   double pressed_stiffness() const {
-    if (compression == Pressed::contact) return 0;
+    if (compression == CompressionModel::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : normal_stiffness;
   }
   double operator()(const Sliding&) const { return 0; }  ///< springs are forces, not contact
@@ -204,11 +204,11 @@ struct Interface {
 struct NonlinearInterface {
   static constexpr const char *kWord = "nonlinear_interface",
                               *kSays = "joined by springs whose tractions are curves of the jump";
-  static constexpr LawScope scope = LawScope::bridged;
+  static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   TractionCurve normal_curve{{0}, {0}}, shear_curve{{0}, {0}};  ///< of the opening and of the slip
   double compression_stiffness{};                               ///< Pa/m
-  Pressed compression = Pressed::spring;
+  CompressionModel compression = CompressionModel::spring;
   double friction{}, static_friction{};  ///< where contact holds them apart
 
   template <class Keys>
@@ -220,7 +220,7 @@ struct NonlinearInterface {
              shear_curve, kCurve);
     map.key("compression_stiffness", kCompressionSays, compression_stiffness,
             Number{Measure::interface_stiffness, kNotNegative});
-    map.key("compression", kPressedSays, compression, kPressed);
+    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
     map.key("friction", kFrictionSays, friction, kCoefficient);
     map.key("static_friction", kStaticSays, static_friction, kCoefficient);
   }
@@ -229,7 +229,7 @@ struct NonlinearInterface {
   TractionCurve pressed_curve(double overlap) const {
     TractionCurve whole = normal_curve;
     if (has_overlap()) return whole;
-    const double stiffness = compression == Pressed::contact ? 0
+    const double stiffness = compression == CompressionModel::contact ? 0
                              : compression_stiffness > 0     ? compression_stiffness
                                                          : normal_curve.slope(normal_curve.piece_of(0, true));
     whole.jump.insert(whole.jump.begin(), -overlap);
@@ -254,7 +254,7 @@ inline constexpr bool kDryFriction =
 /// Does it join surfaces by springs or a bond?
 template <std::same_as<AnyLaw> Law>
 bool joins(const Law& law) {
-  return std::visit([](const auto& one) { return one.scope == LawScope::bridged; }, law);
+  return std::visit([](const auto& one) { return one.scope == LawScope::interface; }, law);
 }
 
 }  // namespace mpmfast

@@ -11,7 +11,7 @@
 
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
-#include "kernels/simd/foremost.hpp"
+#include "kernels/simd/support.hpp"
 
 namespace mpmfast {
 
@@ -30,7 +30,7 @@ struct Support {
   int a, b;
 
   Support(const CloudView<Dim>& cloud, const Vec<Dim>& direction) {
-    Foremost of_a, of_b;
+    SupportSearch of_a, of_b;
     for (int k = 0; k < cloud.count; k += kLanes) {
       const Lanes side = load_lanes(cloud.side + k);
       Lanes s = load_lanes(cloud.xi[0] + k) * direction[0];

@@ -16,7 +16,7 @@ namespace mpmfast {
 template <int Dim, class Law>
 inline Vec<Dim> resolve_pair(const Vec<Dim>& stick, const Vec<Dim>& normal, double separation, const Law& law,
                              double reduced = 0, double area_time = 0) {
-  if constexpr (Law::scope == LawScope::nowhere || Law::scope == LawScope::bridged) return Vec<Dim>::Zero();
+  if constexpr (Law::scope == LawScope::nowhere || Law::scope == LawScope::interface) return Vec<Dim>::Zero();
   if constexpr (Law::scope == LawScope::everywhere) return stick;
   const double along = stick.dot(normal);
   if constexpr (Law::scope == LawScope::bonded) {

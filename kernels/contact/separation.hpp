@@ -9,7 +9,7 @@
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/materials/kinematics.hpp"
-#include "kernels/simd/foremost.hpp"
+#include "kernels/simd/support.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
@@ -81,8 +81,8 @@ inline V extent_along(const V (&shape)[shape_size<Dim>(E)], const Vec<Dim>& n) {
 /// which of them does; −∞ if there are none. Two surfaces a and b with n from a to b are d = −reach_b(−n) −
 /// reach_a(n) apart (N20 Eq. 24).
 template <Extent E, int Dim>
-inline Foremost::Found reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n) {
-  Foremost furthest;
+inline SupportSearch::Found reach_along(const CloudColumns<Dim>& particles, const Vec<Dim>& n) {
+  SupportSearch furthest;
   for (int k = 0; k < particles.count; k += kLanes) {
     Lanes shape[shape_size<Dim>(E)];
     for (int e = 0; e < shape_size<Dim>(E); ++e) shape[e] = load_lanes(particles.shape[e] + k);

@@ -11,7 +11,7 @@ namespace mpmfast {
 
 /// Where a law acts: on touching and approaching surfaces, also on such as are bonded, on every node that two
 /// fields share, by springs there on what their displacements differ by, or nowhere.
-enum class LawScope { contact, bonded, everywhere, bridged, nowhere };
+enum class LawScope { contact, bonded, everywhere, interface, nowhere };
 
 /// What a law is asked of a node.
 struct Sliding {
@@ -30,12 +30,12 @@ inline constexpr const char *kFrictionSays =
                                 "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
 
 /// What holds apart surfaces that press and are joined by springs or a bond.
-enum class Pressed { spring, contact };
-inline constexpr std::array<Word<Pressed>, 2> kPressed{{
-    {Pressed::spring, "spring", "springs of `compression_stiffness` (default)"},
-    {Pressed::contact, "contact", "contact with friction: the jump never becomes an overlap"},
+enum class CompressionModel { spring, contact };
+inline constexpr std::array<Word<CompressionModel>, 2> kCompressionModels{{
+    {CompressionModel::spring, "spring", "springs of `compression_stiffness` (default)"},
+    {CompressionModel::contact, "contact", "contact with friction: the jump never becomes an overlap"},
 }};
-inline constexpr const char* kPressedSays = "What holds apart surfaces that press.";
+inline constexpr const char* kCompressionModelSays = "What holds apart surfaces that press.";
 inline constexpr const char* kCompressionSays =
     "Traction by overlap of surfaces that press; 0: by as much as by opening.";
 

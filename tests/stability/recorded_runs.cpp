@@ -256,39 +256,40 @@ void list_contact(const Step<Dim>& step, const Sizes& sizes, std::vector<Figure>
   const double push = sizes.mass / static_cast<double>(step.state().particles.size()) * speed;
   double touching = 0, stuck = 0, held = 0, acting = 0;
   for (const auto& node : list.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto k = static_cast<std::size_t>(e);
-      const auto& entry = list.entries[k];
-      key = entry_key(step.state(), list, node, entry);
-      touching += entry.touching, stuck += entry.stuck, held += entry.held;
-      add_vector("entries/normal", entry.normal, 1);
-      add("entries/separation", entry.separation, cell);
-      add("entries/advanced", entry.advanced, cell);
-      add("entries/closing", entry.closing, speed);
-      add("entries/spring", bounded(entry.spring, 0.01 * cell), 0.01 * cell);
-      add("entries/friction_work", entry.friction_work, push * speed);
-      add_vector("entries/impulse", entry.impulse, push);
-      add_vector("entries/first", entry.first, push);
-      add_vector("entries/second", entry.second, push);
-      add_vector("entries/slip_end", entry.slip_end, speed);
-      if (k < list.bridges.size()) {
-        const auto& bridge = list.bridges[k];
-        acting += bridge.acts;
-        add_vector("bridges/jump", bridge.jump, cell);
-        add_vector("bridges/impulse", bridge.impulse, push);
-        add("bridges/own_area", bridge.own_area, 0);
-        add("bridges/mean_area", bridge.mean_area, 0);
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const PairColumns<Dim>& pairs = list.pairs;
+      const PairStatus& status = pairs.status[e];
+      const PairImpulses<Dim>& impulse = pairs.impulse[e];
+      key = pair_key(step.state(), list, node, pairs.pair[e]);
+      touching += status.touching, stuck += status.stuck, held += status.active_in_first;
+      add_vector("entries/normal", pairs.geometry[e].normal, 1);
+      add("entries/separation", pairs.geometry[e].separation, cell);
+      add("entries/advanced", status.predicted_gap, cell);
+      add("entries/closing", status.target_approach, speed);
+      add("entries/spring", bounded(status.recovery_length, 0.01 * cell), 0.01 * cell);
+      add("entries/friction_work", impulse.friction_work, push * speed);
+      add_vector("entries/impulse", impulse.now, push);
+      add_vector("entries/first", impulse.first, push);
+      add_vector("entries/second", impulse.second, push);
+      add_vector("entries/slip_end", pairs.slip[e].end, speed);
+      if (!pairs.spring.empty()) {
+        const InterfaceSpring<Dim>& spring = pairs.spring[e];
+        acting += spring.acts;
+        add_vector("bridges/jump", spring.jump.value, cell);
+        add_vector("bridges/impulse", spring.impulse, push);
+        add("bridges/own_area", spring.own_area, 0);
+        add("bridges/mean_area", spring.mean_area, 0);
       }
-      if (k < list.bonds.size()) {
-        const auto& bond = list.bonds[k];
-        add("bonds/way", bond.way, 1);
+      if (!pairs.bond.empty()) {
+        const Bond<Dim>& bond = pairs.bond[e];
+        add("bonds/way", bond.damage, 1);
         add("bonds/area", bond.area, 0);
         add_vector("bonds/offset", bond.offset, 1);
       }
     }
   out.push_back({"contact nodes", static_cast<double>(list.nodes.size()), 0});
-  out.push_back({"contact entries", static_cast<double>(list.entries.size()), 0});
-  if (!list.fits.empty()) return;  // normals that are kept hang on how far a search for them went
+  out.push_back({"contact entries", static_cast<double>(list.pairs.size()), 0});
+  if (!list.pairs.fit.empty()) return;  // normals that are kept hang on how far a search for them went
   out.push_back({"entries touching", touching, 0});
   out.push_back({"entries stuck", stuck, 0});
   out.push_back({"entries held", held, 0});

@@ -395,31 +395,31 @@ Cohesive random_law(Draw& draw, int kind) {
   return law;
 }
 
-double plain_fall(const Cohesive& law, double way) {
+double plain_softening(const Cohesive& law, double way) {
   if (law.shape == Softening::exponential)
     return (std::exp(-7 * way) - std::exp(-7.0)) / (1 - std::exp(-7.0));
   const double hold = law.shape == Softening::trapezoidal ? law.plateau : 0;
   return way < hold ? 1 : (1 - way) / (1 - hold);
 }
 double plain_integrity(const Cohesive& law, double lambda, double length) {
-  return lambda <= 1 ? 1 : lambda >= 1 + length ? 0 : plain_fall(law, (lambda - 1) / length) / lambda;
+  return lambda <= 1 ? 1 : lambda >= 1 + length ? 0 : plain_softening(law, (lambda - 1) / length) / lambda;
 }
 
-TEST_CASE("shapes of softening have their formula, and the way to each of their heights") {
+TEST_CASE("shapes of softening have their formula, and the damage at each of their heights") {
   Draw draw(10);
   for (int trial = 0; trial < 120; ++trial) {
     const Cohesive law = random_law(draw, trial);
-    const Fall fall = law.fall();
+    const SofteningLaw softening = law.softening();
     const double length = spread(draw, 0.2, 50);
-    for (const double way : {0.0, 1.0, uniform(draw, 0, 1), uniform(draw, 0, 1), 0.99 * fall.hold()}) {
-      CHECK(std::abs(fall.at(way) - plain_fall(law, way)) < 1e-14);
-      const auto height = [&](double at) { return plain_fall(law, at); };
-      const double hold = std::min(way, fall.hold());
-      CHECK(std::abs(fall.integral(way) - integral(height, 0, hold, 1) - integral(height, hold, way)) < 1e-9);
+    for (const double way : {0.0, 1.0, uniform(draw, 0, 1), uniform(draw, 0, 1), 0.99 * softening.hold()}) {
+      CHECK(std::abs(softening.at(way) - plain_softening(law, way)) < 1e-14);
+      const auto height = [&](double at) { return plain_softening(law, at); };
+      const double hold = std::min(way, softening.hold());
+      CHECK(std::abs(softening.integral(way) - integral(height, 0, hold, 1) - integral(height, hold, way)) < 1e-9);
       const double lambda = 1 + length * way, left = plain_integrity(law, lambda, length);
       CHECK(law.integrity(lambda, length) == doctest::Approx(left).epsilon(1e-13));
       if (way > 0 && way < 1) {
-        CHECK(fall.way_to(left, length) == doctest::Approx(way).epsilon(1e-8));
+        CHECK(softening.damage_at(left, length) == doctest::Approx(way).epsilon(1e-8));
         CHECK(law.lambda_of(left, length) == doctest::Approx(lambda).epsilon(1e-8));
       }
       CHECK(law.integrity(0.7, length) == 1);
@@ -433,12 +433,12 @@ TEST_CASE("shapes of softening have their formula, and the way to each of their 
       CHECK(law.work(1 + 2 * length, length) == doctest::Approx(law.work(1 + length, length)).epsilon(1e-14));
     }
     CHECK(law.lambda_of(1, length) == 1);
-    CHECK(law.way_to(1) == 0);
-    CHECK(law.way_to(0) == 1);
+    CHECK(law.damage_at(1) == 0);
+    CHECK(law.damage_at(0) == 1);
     CHECK(law.integrity_of(1) == 0);
     CHECK(law.integrity_of(0) == 1);
     const double left = uniform(draw, 0.01, 0.99);
-    CHECK(law.integrity_of(law.way_to(left)) == doctest::Approx(left).epsilon(1e-8));
+    CHECK(law.integrity_of(law.damage_at(left)) == doctest::Approx(left).epsilon(1e-8));
   }
 }
 
@@ -452,7 +452,7 @@ TEST_CASE("a bond is spent where the energies of its modes meet the power law, a
                  t = slip * law.initial_stiffness / law.shear_strength;
     CHECK(law.measure(opening, slip * slip) == doctest::Approx(n * n + t * t).epsilon(1e-13));
     const double area =
-        0.5 + law.length(share) * integral([&](double w) { return plain_fall(law, w); }, 0, 1, 20000);
+        0.5 + law.length(share) * integral([&](double w) { return plain_softening(law, w); }, 0, 1, 20000);
     const double one = share * area * law.normal_strength * law.normal_strength / law.initial_stiffness,
                  two = (1 - share) * area * law.shear_strength * law.shear_strength / law.initial_stiffness;
     CHECK(std::pow(one / law.normal_toughness, law.mode_exponent) +
@@ -596,7 +596,7 @@ TEST_CASE("what presses has the stiffness that is said, or else that of opening,
     const TractionCurve pressed = curves.pressed_curve(0.25);
     CHECK(pressed.jump == std::vector<double>{-0.25, 0, 2});
     CHECK(pressed.traction == std::vector<double>{said > 0 ? -7 * 0.25 : -1.5 * 0.25, 0, 3});
-    interface.compression = bond.compression = curves.compression = Pressed::contact;
+    interface.compression = bond.compression = curves.compression = CompressionModel::contact;
     CHECK(interface.pressed_stiffness() == 0);
     CHECK(bond.pressed_stiffness() == 0);
     CHECK(curves.pressed_curve(0.25).traction[0] == 0);

@@ -339,7 +339,7 @@ void check_extent() {
     for (int d = 0; d < Dim; ++d) columns.xi[d] = xi[d].data();
     for (int e = 0; e < shape_size<Dim>(E); ++e) columns.shape[e] = shape[e].data();
     columns.count = count;
-    const Foremost::Found found = reach_along<E, Dim>(columns, n);
+    const SupportSearch::Found found = reach_along<E, Dim>(columns, n);
     CHECK(found.at == at);
     if (count > 0) CHECK(found.value == doctest::Approx(most).epsilon(1e-11));
     if (count == 0) CHECK(found.value == -HUGE_VAL);

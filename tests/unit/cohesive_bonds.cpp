@@ -85,18 +85,19 @@ struct Pair {
   }
 };
 
-TEST_CASE("each shape falls from one to nothing, its integral is that, and its way is found from integrity") {
+TEST_CASE("each shape falls from one to nothing, its integral is that, and damage is found from integrity") {
   for (const Softening shape : kShapes) {
-    const Fall fall{shape, 0.4};
-    CHECK(fall.at(0) == 1);
-    CHECK(fall.at(1) == 0);
+    const SofteningLaw softening{shape, 0.4};
+    CHECK(softening.at(0) == 1);
+    CHECK(softening.at(1) == 0);
     double sum = 0;
     constexpr int kSteps = 20000;
-    for (int k = 0; k < kSteps; ++k) sum += fall.at((k + 0.5) / kSteps) / kSteps;
-    CHECK(fall.integral(1) == doctest::Approx(sum).epsilon(1e-7));
+    for (int k = 0; k < kSteps; ++k) sum += softening.at((k + 0.5) / kSteps) / kSteps;
+    CHECK(softening.integral(1) == doctest::Approx(sum).epsilon(1e-7));
     for (double way : {0.01, 0.3, 0.41, 0.9, 0.999})
       for (double length : {0.1, 10.0, 1e4})
-        CHECK(fall.way_to(fall.at(way) / (1 + length * way), length) == doctest::Approx(way).epsilon(1e-9));
+        CHECK(softening.damage_at(softening.at(way) / (1 + length * way), length) ==
+              doctest::Approx(way).epsilon(1e-9));
   }
 }
 
@@ -271,7 +272,7 @@ TEST_CASE("a bond of the least stiffness is whole up to its strength, and then b
     REQUIRE(law.length(1) == 0);
     CHECK(law.integrity(1, 0) == 1);
     CHECK(law.integrity(1.001, 0) == 0);
-    CHECK(law.integrity_of(law.way_to(1)) == 1);
+    CHECK(law.integrity_of(law.damage_at(1)) == 1);
     CHECK(law.work(1, 0) == 1);
   }
 }

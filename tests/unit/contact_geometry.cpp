@@ -26,17 +26,17 @@ Scene contact_scene(double plane, const std::string& contact) {
   return scene_from(stacked(plane) + "contact: " + contact + "\n");
 }
 
-/// Calls f(node, entry, sign) for the entries between x = 1 and 7 cells; sign: +1 where a is the lower block.
+/// Calls f(node, geometry, sign) for the pairs between x = 1 and 7 cells; sign: +1 where a is the lower
+/// block.
 template <class F>
-int for_inner_entries(const Step<2>& step, F f) {
+int for_inner_pairs(const Step<2>& step, F f) {
   int count = 0;
   const auto& list = step.contact_list();
   for (const auto& node : list.nodes) {
-    if (node.node[0] < 5 || node.node[0] > 11) continue;
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = list.entries[static_cast<std::size_t>(e)];
-      const int field = list.fields[static_cast<std::size_t>(node.field_begin + entry.a)].field;
-      f(node, entry, field == 0 ? 1.0 : -1.0);
+    if (node.index[0] < 5 || node.index[0] > 11) continue;
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const int field = list.fields[node.field_begin + list.pairs.pair[e].a].field;
+      f(node, list.pairs.geometry[e], field == 0 ? 1.0 : -1.0);
       ++count;
     }
   }
@@ -54,22 +54,22 @@ TEST_CASE("on a flat interface every method finds its normal, from a to b") {
           contact_scene(plane, std::string("{specified_normal: [0, 1], normal: ") + normal + "}");
       Step<2> step(scene);
       step.advance(step.stable_dt());
-      const int entries = for_inner_entries(step, [&](const auto&, const auto& entry, double sign) {
-        CHECK(entry.normal[1] == doctest::Approx(sign).epsilon(1e-9));
-        CHECK(std::abs(entry.normal[0]) < 1e-6);
+      const int pairs = for_inner_pairs(step, [&](const auto&, const auto& geometry, double sign) {
+        CHECK(geometry.normal[1] == doctest::Approx(sign).epsilon(1e-9));
+        CHECK(std::abs(geometry.normal[0]) < 1e-6);
       });
-      CHECK(entries > 6);
+      CHECK(pairs > 6);
     }
 }
 
-TEST_CASE("own gradients give each field an entry of its own, all others one a pair") {
+TEST_CASE("own gradients give each field a pair of its own, all others one for two fields") {
   const Scene own = contact_scene(0, "{normal: own_gradient}"),
               pair = contact_scene(0, "{normal: average_gradient}");
   Step<2> a(own), b(pair);
   a.advance(a.stable_dt());
   b.advance(b.stable_dt());
   CHECK(a.contact_list().nodes.size() == b.contact_list().nodes.size());
-  CHECK(a.contact_list().entries.size() == 2 * b.contact_list().entries.size());
+  CHECK(a.contact_list().pairs.size() == 2 * b.contact_list().pairs.size());
 }
 
 TEST_CASE("touching surfaces: separations by domains and by displacement vanish, by position nearly") {
@@ -87,11 +87,11 @@ TEST_CASE("touching surfaces: separations by domains and by displacement vanish,
                                 known.separation + "}");
     Step<2> step(scene);
     step.advance(step.stable_dt());
-    const int entries = for_inner_entries(step, [&](const auto& node, const auto& entry, double) {
-      if (node.node[1] != 8) return;  // the row nearest to the interface: others see one side whole
-      CHECK(std::abs(entry.separation) < known.tolerance);
+    const int pairs = for_inner_pairs(step, [&](const auto& node, const auto& geometry, double) {
+      if (node.index[1] != 8) return;  // the row nearest to the interface: others see one side whole
+      CHECK(std::abs(geometry.separation) < known.tolerance);
     });
-    CHECK(entries > 6);
+    CHECK(pairs > 6);
   }
 }
 
@@ -102,10 +102,10 @@ TEST_CASE("displacements measure how far the surfaces have come") {
   const double dt = step.stable_dt();
   step.advance(dt);  // surfaces that just touch do not overlap: the blocks approach freely at 2 m/s
   step.advance(dt);
-  const int entries = for_inner_entries(step, [&](const auto&, const auto& entry, double) {
-    CHECK(std::abs(entry.separation / (-2 * dt) - 1) < 1e-9);
+  const int pairs = for_inner_pairs(step, [&](const auto&, const auto& geometry, double) {
+    CHECK(std::abs(geometry.separation / (-2 * dt) - 1) < 1e-9);
   });
-  CHECK(entries > 6);
+  CHECK(pairs > 6);
   const Scene unseen = contact_scene(0, "{law: ignore}");
   Step<2> other(unseen);
   CHECK_FALSE(other.state().particles.has(Quantity::reference_position));
@@ -189,7 +189,8 @@ bodies:
     Step<2> step(read);
     step.advance(step.stable_dt());
     double worst = 0;
-    for (const auto& entry : step.contact_list().entries) worst = std::max(worst, std::abs(entry.normal[0]));
+    for (const auto& geometry : step.contact_list().pairs.geometry)
+      worst = std::max(worst, std::abs(geometry.normal[0]));
     return worst;
   };
   CHECK(worst_tilt("normal: average_gradient") > 0.05);
@@ -212,9 +213,10 @@ TEST_CASE("a scene with warm starts keeps the normals and the motion of one with
     warm.advance(dt);
     cold.advance(dt);
   }
-  REQUIRE(warm.contact_list().entries.size() == cold.contact_list().entries.size());
-  for (std::size_t e = 0; e < cold.contact_list().entries.size(); ++e)
-    CHECK(1 - warm.contact_list().entries[e].normal.dot(cold.contact_list().entries[e].normal) < 2e-5);
+  REQUIRE(warm.contact_list().pairs.size() == cold.contact_list().pairs.size());
+  for (std::size_t e = 0; e < cold.contact_list().pairs.size(); ++e)
+    CHECK(1 - warm.contact_list().pairs.geometry[e].normal.dot(cold.contact_list().pairs.geometry[e].normal) <
+          2e-5);
   CHECK(relative_difference(by_id(warm.state().particles, Quantity::position),
                             by_id(cold.state().particles, Quantity::position)) < 5e-5);
   CHECK(warm.contact_counters().iterations < cold.contact_counters().iterations);

@@ -1,4 +1,4 @@
-// What contact nodes, entries and slabs of them are, where several bodies meet.
+// Contact nodes, their pairs, and slabs of them, where several bodies meet.
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/nodal/slabs.hpp"
-#include "engine/contact/nodal/smooth_normals.hpp"
+#include "engine/contact/geometry/fit_slabs.hpp"
+#include "engine/contact/geometry/mean_normals.hpp"
+#include "engine/contact/pairs/pair_memory.hpp"
 #include "engine/run/threads.hpp"
 #include "tests/support.hpp"
 
@@ -38,12 +39,11 @@ bodies:
   }
 
   const ContactList<2>& list() const { return step.contact_list(); }
-  /// The number of a field of a node; of an entry's a or b.
-  int field(const ContactNode<2>& node, int k) const {
-    return list().fields[static_cast<std::size_t>(node.field_begin + k)].field;
-  }
+  /// The number of a field of a node; of a pair's a or b.
+  int field(const ContactNode<2>& node, int k) const { return list().fields[node.field_begin + k].field; }
   static int fields(const ContactNode<2>& node) { return node.field_end - node.field_begin; }
-  const ContactEntry<2>& entry(int e) const { return list().entries[static_cast<std::size_t>(e)]; }
+  const ContactPair& pair(int e) const { return list().pairs.pair[e]; }
+  const PairGeometry<2>& geometry(int e) const { return list().pairs.geometry[e]; }
 };
 
 const std::string kFloor =
@@ -66,24 +66,23 @@ TEST_CASE("each two of three bodies at a node have the normal and the separation
       CAPTURE(out);
       const int first = out == 0 ? 1 : 0, second = out == 2 ? 1 : 2;
       const Met two(order[static_cast<std::size_t>(first)] + order[static_cast<std::size_t>(second)], method);
-      std::map<Place, const ContactEntry<2>*> alone;
+      std::map<Place, const PairGeometry<2>*> alone;
       std::map<Place, bool> swapped;
       for (const auto& node : two.list().nodes) {
-        const Place at{node.node[0], node.node[1]};
-        alone[at] = &two.entry(node.entry_begin);
-        swapped[at] = two.field(node, alone[at]->a) == 1;
+        const Place at{node.index[0], node.index[1]};
+        alone[at] = &two.geometry(node.pair_begin);
+        swapped[at] = two.field(node, two.pair(node.pair_begin).a) == 1;
       }
       int seen = 0;
       for (const auto& node : all.list().nodes) {
-        const Place at{node.node[0], node.node[1]};
+        const Place at{node.index[0], node.index[1]};
         if (Met::fields(node) < 3 || !alone.contains(at)) continue;
-        for (int e = node.entry_begin; e < node.entry_end; ++e) {
-          const auto& entry = all.entry(e);
-          const int a = all.field(node, entry.a), b = all.field(node, entry.b);
+        for (int e = node.pair_begin; e < node.pair_end; ++e) {
+          const int a = all.field(node, all.pair(e).a), b = all.field(node, all.pair(e).b);
           if (std::min(a, b) != first || std::max(a, b) != second) continue;
           const double sign = (a == second) == swapped[at] ? 1 : -1;
-          CHECK((entry.normal - sign * alone[at]->normal).norm() < 1e-9);
-          CHECK(std::abs(entry.separation - alone[at]->separation) < 1e-9 * 1e-3);
+          CHECK((all.geometry(e).normal - sign * alone[at]->normal).norm() < 1e-9);
+          CHECK(std::abs(all.geometry(e).separation - alone[at]->separation) < 1e-9 * 1e-3);
           ++seen;
         }
       }
@@ -92,7 +91,7 @@ TEST_CASE("each two of three bodies at a node have the normal and the separation
   }
 }
 
-TEST_CASE("no two entries of a list have the same name") {
+TEST_CASE("no two pairs of a list have the same name") {
   for (const char* fields : {"lump", "pairs", "simultaneous"})
     for (const std::string& bodies : {kLeft + kSliver + kBehind, kFloor + kLeft + kRight,
                                       kLeft + kFloor + kRight, kLeft + kRight + kFloor}) {
@@ -100,13 +99,13 @@ TEST_CASE("no two entries of a list have the same name") {
       CAPTURE(bodies);
       const Met met(bodies, std::string("normal: linear_regression, fields: ") + fields);
       std::set<std::uint64_t> keys;
-      std::size_t entries = 0;
+      std::size_t pairs = 0;
       for (const auto& node : met.list().nodes)
-        for (int e = node.entry_begin; e < node.entry_end; ++e, ++entries)
-          keys.insert(entry_key(met.step.state(), met.list(), node, met.entry(e)));
+        for (int e = node.pair_begin; e < node.pair_end; ++e, ++pairs)
+          keys.insert(pair_key(met.step.state(), met.list(), node, met.pair(e)));
       CHECK(std::any_of(met.list().nodes.begin(), met.list().nodes.end(),
                         [](const auto& node) { return Met::fields(node) == 3; }));
-      CHECK(keys.size() == entries);
+      CHECK(keys.size() == pairs);
     }
 }
 
@@ -114,19 +113,19 @@ TEST_CASE("a name tells nodes, fields and partners apart, a rigid first field an
   const Met met(kFloor + kLeft + kRight, "normal: linear_regression, fields: simultaneous");
   std::set<std::uint64_t> keys;
   std::size_t names = 0;
-  const auto name = [&](const auto& node, const ContactEntry<2>& entry) {
-    keys.insert(entry_key(met.step.state(), met.list(), node, entry));
+  const auto name = [&](const auto& node, const ContactPair& pair) {
+    keys.insert(pair_key(met.step.state(), met.list(), node, pair));
     ++names;
   };
   for (const auto& node : met.list().nodes) {
-    ContactEntry<2> entry;
-    for (entry.a = 0; entry.a < Met::fields(node); ++entry.a)
-      for (entry.b = -1; entry.b < Met::fields(node); ++entry.b)
-        if (entry.b != entry.a) name(node, entry);
-    for (entry.crack = 0; entry.crack < 3; ++entry.crack)
+    ContactPair pair{0, 0};
+    for (pair.a = 0; pair.a < Met::fields(node); ++pair.a)
+      for (pair.b = -1; pair.b < Met::fields(node); ++pair.b)
+        if (pair.b != pair.a) name(node, pair);
+    for (pair.crack = 0; pair.crack < 3; ++pair.crack)
       for (const bool beyond : {false, true}) {
-        entry.beyond = beyond;
-        name(node, entry);
+        pair.beyond = beyond;
+        name(node, pair);
       }
   }
   CHECK(names > 50);
@@ -150,13 +149,12 @@ cracks:
   ContactList<2> turned = list;
   int seen[2] = {0, 0};
   for (const auto& node : list.nodes) {
-    auto &one = turned.fields[static_cast<std::size_t>(node.field_begin)],
-         &two = turned.fields[static_cast<std::size_t>(node.field_begin + 1)];
+    auto &one = turned.fields[node.field_begin], &two = turned.fields[node.field_begin + 1];
     std::swap(one.field, two.field);
-    const auto& entry = list.entries[static_cast<std::size_t>(node.entry_begin)];
-    REQUIRE(entry.crack >= 0);
-    CHECK(entry_key(step.state(), list, node, entry) == entry_key(step.state(), turned, node, entry));
-    ++seen[entry.crack];
+    const ContactPair& pair = list.pairs.pair[node.pair_begin];
+    REQUIRE(pair.crack >= 0);
+    CHECK(pair_key(step.state(), list, node, pair) == pair_key(step.state(), turned, node, pair));
+    ++seen[pair.crack];
   }
   CHECK(seen[0] > 10);
   CHECK(seen[1] > 10);
@@ -171,29 +169,29 @@ Vec<2> made_up_normal(int a, int b) {
 /// The means over the nodes around of normals that are the same wherever two fields meet.
 void check_means(const Met& met, bool pairs, int most) {
   const auto& list = met.list();
-  std::vector<RawNormal<2>> raw(list.entries.size());
-  const NormalMean<2> mean(met.step.state(), list, raw, pairs);
-  const auto other = [&](const auto& node, const auto& entry) {
-    return met.field(node, entry.b >= 0 ? entry.b : 1 - entry.a);
+  std::vector<RawNormal<2>> raw(list.pairs.size());
+  const MeanNormals<2> mean(met.step.state(), list, raw, pairs);
+  const auto other = [&](const auto& node, const ContactPair& pair) {
+    return met.field(node, pair.is_lumped() ? 1 - pair.a : pair.b);
   };
   int fields = 0;
   for (const auto& node : list.nodes) {
     fields = std::max(fields, Met::fields(node));
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = met.entry(e);
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = met.pair(e);
       raw[static_cast<std::size_t>(e)] =
-          mean.raw(node, entry, made_up_normal(met.field(node, entry.a), other(node, entry)), true, false);
+          mean.raw(node, pair, made_up_normal(met.field(node, pair.a), other(node, pair)), true, false);
     }
   }
   REQUIRE(fields == most);
   std::vector<Vec<2>> sums;
   for (const auto& node : list.nodes) {
     mean(mean.around(node), node, sums);
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto& entry = met.entry(e);
-      const Vec<2>& sum = sums[static_cast<std::size_t>(e - node.entry_begin)];
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = met.pair(e);
+      const Vec<2>& sum = sums[static_cast<std::size_t>(e - node.pair_begin)];
       REQUIRE(sum.norm() > 0);
-      CHECK((sum.normalized() - made_up_normal(met.field(node, entry.a), other(node, entry))).norm() < 1e-12);
+      CHECK((sum.normalized() - made_up_normal(met.field(node, pair.a), other(node, pair))).norm() < 1e-12);
     }
   }
 }
@@ -224,7 +222,7 @@ TEST_CASE("slabs hold each node once, and all around a slab's nodes lies in slab
   const auto& list = met.list();
   State<2>& state = met.step.state();
   state.threads = 1;
-  ContactSlabs<2> slabs;
+  FitSlabs<2> slabs;
   const auto check = [&](const std::vector<std::uint8_t>& due, bool many) {
     slabs.cut(state, list, due, many);
     REQUIRE((slabs.size() > 1) == many);
@@ -258,13 +256,13 @@ TEST_CASE("slabs hold each node once, and all around a slab's nodes lies in slab
   std::vector<std::uint8_t> due(list.nodes.size(), 1);
   CHECK(check(due, true) == 0);
   CHECK(check(due, false) == 0);
-  // Of every 24th stack nothing is to be fitted, of the others one node.
+  // Of every 24th block nothing is to be fitted, of the others one node.
   std::fill(due.begin(), due.end(), 0);
   std::ptrdiff_t left_out = 0;
   for (std::size_t k = 0; k < due.size(); ++k) {
-    const int stack = list.nodes[k].stack;
-    left_out += stack % 24 == 0;
-    due[k] = stack % 24 != 0 && (k + 1 == due.size() || list.nodes[k + 1].stack != stack);
+    const int block = list.nodes[k].block;
+    left_out += block % 24 == 0;
+    due[k] = block % 24 != 0 && (k + 1 == due.size() || list.nodes[k + 1].block != block);
   }
   CHECK(left_out > 0);
   CHECK(check(due, true) == left_out);

@@ -9,10 +9,10 @@
 #include <numeric>
 #include <vector>
 
-#include "kernels/contact/hindrances.hpp"
-#include "kernels/contact/nodes_together.hpp"
+#include "kernels/contact/delassus_operator.hpp"
+#include "kernels/contact/lane_solver.hpp"
+#include "kernels/contact/node_solver.hpp"
 #include "kernels/contact/resolve_pair.hpp"
-#include "kernels/contact/together.hpp"
 #include "kernels/contact/two_pairs.hpp"
 #include "tests/unit/contact_cloud.hpp"
 
@@ -26,14 +26,14 @@ using ThreeD = std::integral_constant<int, 3>;
 
 std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
-// Hindrances.
+// The Delassus operator.
 
 using Numbers = std::vector<double>;
 
 /// Solves the equations of hindrances, each from the effect of an impulse on the velocities of all fields, by
 /// elimination of the largest entries first.
 template <int Dim>
-Numbers eliminated(const std::vector<typename Hindrances<Dim>::One>& all, const Numbers& inverse_mass) {
+Numbers eliminated(const std::vector<typename DelassusOperator<Dim>::Row>& all, const Numbers& inverse_mass) {
   const std::size_t count = all.size();
   std::vector<Numbers> row(count, Numbers(count + 1));
   for (std::size_t j = 0; j < count; ++j) {
@@ -44,7 +44,7 @@ Numbers eliminated(const std::vector<typename Hindrances<Dim>::One>& all, const 
       const double reduced = 1 / (inverse_mass[index(all[i].a)] + inverse_mass[index(all[i].b)]);
       row[i][j] = reduced * all[i].motion.dot(velocity[index(all[i].a)] - velocity[index(all[i].b)]);
     }
-    row[j][count] = all[j].left;
+    row[j][count] = all[j].residual;
   }
   for (std::size_t p = 0; p < count; ++p) {
     for (std::size_t i = p + 1; i < count; ++i)
@@ -61,7 +61,8 @@ Numbers eliminated(const std::vector<typename Hindrances<Dim>::One>& all, const 
 }
 
 template <int Dim>
-Numbers found_by(Hindrances<Dim>& hindrances, const std::vector<typename Hindrances<Dim>::One>& all) {
+Numbers found_by(DelassusOperator<Dim>& hindrances,
+                 const std::vector<typename DelassusOperator<Dim>::Row>& all) {
   hindrances.clear();
   for (const auto& one : all) hindrances.push(one);
   CHECK(hindrances.count() == static_cast<int>(all.size()));
@@ -81,14 +82,14 @@ TEST_CASE_TEMPLATE("hindrances of any number of sliding contacts are solved as e
                    TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(1);
-  Hindrances<Dim> hindrances;  // used again: what stood in it is nothing to the next
+  DelassusOperator<Dim> hindrances;  // used again: what stood in it is nothing to the next
   for (int count = 64; count > 0; count -= count > 33 ? 5 : 1) {
     CAPTURE(count);
     const int fields = count + 1;
     Numbers inverse_mass(index(fields));
     for (double& one : inverse_mass) one = std::exp(uniform(draw, -1, 1));
     if (count % 3 == 0) inverse_mass[0] = 0;
-    std::vector<typename Hindrances<Dim>::One> all;
+    std::vector<typename DelassusOperator<Dim>::Row> all;
     for (int i = 0; i < count; ++i) {
       // A chain, or a star, with either field named first; the impulse leans from the motion as with
       // friction.
@@ -114,7 +115,7 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
                    D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(2);
-  Hindrances<Dim> hindrances;
+  DelassusOperator<Dim> hindrances;
   for (int fields = 3; fields <= (Dim == 2 ? 8 : 6); ++fields)
     for (int trial = 0; trial < 3; ++trial) {
       CAPTURE(fields);
@@ -122,7 +123,7 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
       std::vector<Vec<Dim>> velocity(index(fields));
       for (double& one : inverse_mass) one = std::exp(uniform(draw, -2, 2));
       for (auto& one : velocity) one = uniform(draw, 0, 3) * random_direction<Dim>(draw);
-      std::vector<typename Hindrances<Dim>::One> all;
+      std::vector<typename DelassusOperator<Dim>::Row> all;
       for (int a = 0; a < fields; ++a)
         for (int b = a + 1; b < fields; ++b) {
           const double reduced = 1 / (inverse_mass[index(a)] + inverse_mass[index(b)]);
@@ -149,7 +150,7 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
 TEST_CASE_TEMPLATE("hindrances are full where one more contact that sticks has no room, and say what is none",
                    D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
-  Hindrances<Dim> hindrances;
+  DelassusOperator<Dim> hindrances;
   hindrances.clear();
   for (int count = 0; count <= 64; ++count) {
     CHECK(hindrances.is_full() == (count > 64 - Dim));
@@ -173,15 +174,15 @@ template <int Dim>
 struct PlainContact {
   int a, b;
   Vec<Dim> normal;
-  double closing = 0;
-  bool acts = true, both_ways = false, holds_slip = false, friction = true;
+  double target_approach = 0;
+  bool acts = true, bilateral = false, holds_slip = false, friction = true;
   Coulomb law{0, 0};
   Vec<Dim> impulse = Vec<Dim>::Zero();
 
   /// The impulse that it would have alone where sticking needs this.
   Vec<Dim> demand(const Vec<Dim>& stick, double reduced) const {
-    const double normal_part = stick.dot(normal) + reduced * closing;
-    if (!acts || (normal_part > 0 && !both_ways)) return Vec<Dim>::Zero();
+    const double normal_part = stick.dot(normal) + reduced * target_approach;
+    if (!acts || (normal_part > 0 && !bilateral)) return Vec<Dim>::Zero();
     Vec<Dim> along = stick - stick.dot(normal) * normal;
     if (!holds_slip) {
       const double pressure = std::max(0.0, -normal_part), needed = along.norm();
@@ -252,7 +253,7 @@ template <int Dim>
 SetRule<Dim> rule_of(const PlainContact<Dim>& c) {
   SetRule<Dim> rule;
   rule.acts = c.acts;
-  rule.both_ways = c.both_ways;
+  rule.bilateral = c.bilateral;
   rule.holds_slip = c.holds_slip;
   rule.friction = c.friction;
   return rule;
@@ -264,19 +265,19 @@ struct Solved {
   int asked;  ///< how often a law was
 };
 template <int Dim>
-Solved solve_one(PlainNode<Dim>& node, ContactsTogether<Dim>& solver) {
+Solved solve_one(PlainNode<Dim>& node, NodeSolver<Dim>& solver) {
   solver.fields.clear();
   solver.contacts.clear();
   for (std::size_t k = 0; k < node.velocity.size(); ++k)
     solver.fields.push_back({node.velocity[k], node.inverse_mass[k]});
   for (const auto& c : node.contacts)
-    solver.contacts.push_back({c.a, c.b, c.normal, node.reduced(c), c.closing, c.both_ways});
+    solver.contacts.push_back({c.a, c.b, c.normal, node.reduced(c), c.target_approach, c.bilateral});
   int asked = 0;
   const bool settled = solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     ++asked;
     const auto& c = node.contacts[k];
-    return rule_of(c).demand(c.normal, c.closing, stick, node.reduced(c), c.law, 0.0,
-                             [](double normal) { return normal; });
+    return rule_of(c).response(c.normal, c.target_approach, stick, node.reduced(c), c.law, 0.0,
+                               [](double normal) { return normal; });
   });
   for (std::size_t k = 0; k < node.contacts.size(); ++k)
     node.contacts[k].impulse = solver.contacts[k].impulse;
@@ -291,7 +292,7 @@ Solved solve_one(PlainNode<Dim>& node, ContactsTogether<Dim>& solver) {
 
 /// As the solver of lanes of nodes finds them. @return which settled
 template <int Dim, int kFields>
-std::vector<bool> solve_lanes(std::vector<PlainNode<Dim>>& nodes, NodesTogether<Dim, kFields>& batch) {
+std::vector<bool> solve_lanes(std::vector<PlainNode<Dim>>& nodes, LaneSolver<Dim, kFields>& batch) {
   std::vector<bool> settled(nodes.size());
   for (std::size_t from = 0; from < nodes.size();) {
     std::size_t to = from;
@@ -304,7 +305,8 @@ std::vector<bool> solve_lanes(std::vector<PlainNode<Dim>>& nodes, NodesTogether<
         batch.set_field(lane, k, nodes[to].velocity[index(k)], nodes[to].inverse_mass[index(k)]);
       for (const auto& c : nodes[to].contacts) {
         CHECK(!batch.has(lane, c.a, c.b));
-        batch.add_contact(lane, c.a, c.b, c.normal, nodes[to].reduced(c), c.closing, rule_of(c), c.law);
+        batch.add_contact(lane, c.a, c.b, c.normal, nodes[to].reduced(c), c.target_approach, rule_of(c),
+                          c.law);
         CHECK(batch.has(lane, c.b, c.a));
       }
     }
@@ -353,10 +355,10 @@ PlainNode<Dim> asked_node(int fields, double orders, double friction, Draw& draw
   for (auto& c : node.contacts) {
     const auto odds = [&](double share) { return uniform(draw, 0, 1) < share; };
     c.acts = !odds(0.1);
-    c.both_ways = odds(0.2);
-    c.holds_slip = c.both_ways && odds(0.6);
+    c.bilateral = odds(0.2);
+    c.holds_slip = c.bilateral && odds(0.6);
     c.friction = friction > 0;
-    c.closing = odds(0.4) ? uniform(draw, 0, 0.4) : 0;
+    c.target_approach = odds(0.4) ? uniform(draw, 0, 0.4) : 0;
     c.law = {uniform(draw, 0, friction), odds(0.3) ? uniform(draw, friction, 1.5 * friction) : 0};
   }
   return node;
@@ -368,8 +370,8 @@ void check_without_friction() {
   CAPTURE(Dim);
   CAPTURE(kFields);
   Draw draw(20 + kFields);
-  ContactsTogether<Dim> solver;
-  NodesTogether<Dim, kFields> batch;
+  NodeSolver<Dim> solver;
+  LaneSolver<Dim, kFields> batch;
   std::vector<PlainNode<Dim>> nodes;
   for (int k = 0; k < 29; ++k) nodes.push_back(asked_node<Dim>(kFields, 1, 0, draw));
   std::vector<PlainNode<Dim>> lanes = nodes;
@@ -408,8 +410,8 @@ void check_with_friction() {
   CAPTURE(Dim);
   CAPTURE(kFields);
   Draw draw(40 + kFields);
-  ContactsTogether<Dim> solver;
-  NodesTogether<Dim, kFields> batch;
+  NodeSolver<Dim> solver;
+  LaneSolver<Dim, kFields> batch;
   std::vector<PlainNode<Dim>> nodes;
   constexpr int kNodes = 61;
   for (int k = 0; k < kNodes; ++k) nodes.push_back(asked_node<Dim>(kFields, 1, 0.15, draw));
@@ -478,8 +480,8 @@ void check_stacks() {
   CAPTURE(Dim);
   CAPTURE(kFields);
   Draw draw(60 + kFields);
-  ContactsTogether<Dim> solver;
-  NodesTogether<Dim, kFields> batch;
+  NodeSolver<Dim> solver;
+  LaneSolver<Dim, kFields> batch;
   std::vector<PlainNode<Dim>> nodes;
   for (int k = 0; k < 21; ++k)
     nodes.push_back(stack<Dim>(kFields, uniform(draw, 0.5, 2), 5, k % 3 ? uniform(draw, 0, 0.8) : 0, draw));
@@ -515,7 +517,7 @@ TEST_CASE_TEMPLATE("pairs that are all held whichever way they go need one leap,
                    TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(80);
-  ContactsTogether<Dim> solver;
+  NodeSolver<Dim> solver;
   for (int trial = 0; trial < 60; ++trial) {
     const int fields = 3 + trial % 10;
     PlainNode<Dim> node = random_node<Dim>(fields, 2, draw);
@@ -523,9 +525,9 @@ TEST_CASE_TEMPLATE("pairs that are all held whichever way they go need one leap,
     std::erase_if(node.contacts, [&](const auto& c) { return std::abs(c.a - c.b) > 1; });  // a chain
     if (node.contacts.size() < 2) continue;
     for (auto& c : node.contacts) {
-      c.both_ways = true;
+      c.bilateral = true;
       c.holds_slip = sticks;
-      c.closing = uniform(draw, -0.5, 0.5);
+      c.target_approach = uniform(draw, -0.5, 0.5);
       c.friction = false;
     }
     const Solved found = solve_one(node, solver);
@@ -535,8 +537,8 @@ TEST_CASE_TEMPLATE("pairs that are all held whichever way they go need one leap,
     const auto after = node.after();
     for (const auto& c : node.contacts) {
       const Vec<Dim> slip = after[index(c.b)] - after[index(c.a)];
-      CHECK(std::abs(slip.dot(c.normal) + c.closing) < 1e-7);
-      if (sticks) CHECK((slip + c.closing * c.normal).norm() < 1e-7);
+      CHECK(std::abs(slip.dot(c.normal) + c.target_approach) < 1e-7);
+      if (sticks) CHECK((slip + c.target_approach * c.normal).norm() < 1e-7);
     }
   }
 }
@@ -554,7 +556,7 @@ TEST_CASE_TEMPLATE(
     ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(82);
-  ContactsTogether<Dim> solver;
+  NodeSolver<Dim> solver;
   int unsettled = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const bool jams = trial % 2;
@@ -569,7 +571,7 @@ TEST_CASE_TEMPLATE(
         for (double& inverse : other.inverse_mass) inverse /= mass;
         for (auto& v : other.velocity) v *= speed;
         for (auto& c : other.contacts) {
-          c.closing *= speed;
+          c.target_approach *= speed;
           if (speed < 1) std::swap(c.a, c.b), c.normal = -c.normal;
         }
         CHECK(solve_one(other, solver).settled == settled);
@@ -582,14 +584,14 @@ TEST_CASE_TEMPLATE(
 
 TEST_CASE("lanes of nodes in other units get the same bits") {
   Draw draw(83);
-  NodesTogether<3, 4> batch;
+  LaneSolver<3, 4> batch;
   std::vector<PlainNode<3>> nodes, others;
   for (int k = 0; k < 40; ++k) {
     nodes.push_back(asked_node<3>(4, 3, 0.3, draw));
     others.push_back(nodes.back());
     for (double& inverse : others.back().inverse_mass) inverse *= 0x1p30;
     for (auto& v : others.back().velocity) v *= 0x1p12;
-    for (auto& c : others.back().contacts) c.closing *= 0x1p12;
+    for (auto& c : others.back().contacts) c.target_approach *= 0x1p12;
   }
   CHECK(solve_lanes(nodes, batch) == solve_lanes(others, batch));
   for (std::size_t k = 0; k < nodes.size(); ++k)
@@ -600,10 +602,10 @@ TEST_CASE("lanes of nodes in other units get the same bits") {
 TEST_CASE_TEMPLATE("jams conserve momentum, and give no more energy than there was", D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(84);
-  ContactsTogether<Dim> solver;
+  NodeSolver<Dim> solver;
   for (int trial = 0; trial < 60; ++trial) {
     PlainNode<Dim> node = jam<Dim>(3 + trial % 6, 0.5, draw);
-    for (auto& c : node.contacts) c.closing = 0, c.holds_slip = false;
+    for (auto& c : node.contacts) c.target_approach = 0, c.holds_slip = false;
     solve_one(node, solver);
     const auto after = node.after();
     double energy = 0, before = 0, taken = 0;
@@ -625,20 +627,20 @@ TEST_CASE_TEMPLATE("jams conserve momentum, and give no more energy than there w
 
 TEST_CASE("a node of one contact asks its law once, also where it closes a gap between fields at rest") {
   Draw draw(85);
-  ContactsTogether<3> solver;
+  NodeSolver<3> solver;
   for (int trial = 0; trial < 20; ++trial) {
     PlainNode<3> node;
     node.velocity.assign(2, trial % 2 ? Vec<3>(1, 2, 3) : Vec<3>(Vec<3>::Zero()));
     node.inverse_mass = {uniform(draw, 0.1, 2), uniform(draw, 0.1, 2)};
     PlainContact<3> c{0, 1, random_direction<3>(draw)};
-    c.closing = uniform(draw, 1, 100);
-    c.both_ways = true;
+    c.target_approach = uniform(draw, 1, 100);
+    c.bilateral = true;
     node.contacts.push_back(c);
     const Solved found = solve_one(node, solver);
     CHECK(found.settled);
     CHECK(found.asked == 1);
     CHECK(node.missing() <= 1e-12 * node.largest());
-    CHECK(node.contacts[0].impulse.dot(c.normal) == doctest::Approx(node.reduced(c) * c.closing));
+    CHECK(node.contacts[0].impulse.dot(c.normal) == doctest::Approx(node.reduced(c) * c.target_approach));
   }
 }
 

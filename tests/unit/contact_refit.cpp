@@ -58,16 +58,16 @@ void check_flight() {
       step.advance(dt);
       std::map<std::array<int, Dim>, Known> now;
       for (const auto& node : step.contact_list().nodes) {
-        const auto& entry = step.contact_list().entries[static_cast<std::size_t>(node.entry_begin)];
+        const auto& geometry = step.contact_list().pairs.geometry[node.pair_begin];
         std::array<int, Dim> at;
-        std::copy_n(node.node.data(), Dim, at.begin());
-        now[at] = {entry.normal, entry.separation};
+        std::copy_n(node.index.data(), Dim, at.begin());
+        now[at] = {geometry.normal, geometry.separation};
         const auto found = before.find(at);
-        const bool same = found != before.end() && found->second.normal == entry.normal;
+        const bool same = found != before.end() && found->second.normal == geometry.normal;
         ++(same ? kept : fitted);
         if (same)
-          worst = std::max(
-              worst, std::abs(entry.separation - found->second.separation - dt * closes.dot(entry.normal)));
+          worst = std::max(worst, std::abs(geometry.separation - found->second.separation -
+                                           dt * closes.dot(geometry.normal)));
       }
       before = now;
     }

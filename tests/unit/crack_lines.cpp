@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/contact_list.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {
@@ -82,9 +82,9 @@ cracks:
   std::vector<std::uint64_t> names;
   int most = 0;
   for (const auto& node : list.nodes) {
-    most = std::max(most, node.entry_end - node.entry_begin);
-    for (int e = node.entry_begin; e < node.entry_end; ++e)
-      names.push_back(entry_key(step.state(), list, node, list.entries[static_cast<std::size_t>(e)]));
+    most = std::max(most, node.pair_end - node.pair_begin);
+    for (int e = node.pair_begin; e < node.pair_end; ++e)
+      names.push_back(pair_key(step.state(), list, node, list.pairs.pair[e]));
   }
   CHECK(most == 4);  // each crack, on both sides of the other
   std::sort(names.begin(), names.end());

@@ -1,4 +1,4 @@
-#include "engine/contact/nodal/motion.hpp"
+#include "engine/contact/impulses/node_motion.hpp"
 
 #include <doctest/doctest.h>
 

@@ -450,8 +450,8 @@ TEST_CASE("a slip of one body has its friction work, impulse and area in the led
         overlap.bodies.geometry(), {overlap.bodies.surfaces, before}, kStep, number};
     compute_contact_forces(motion, overlap.pairs, 1, overlap.contacts, history);
     assemble_point_forces(overlap.bodies.surfaces, overlap.contacts, forces);
-    ContactBooks<2> ledger;
-    ledger.open(2, 1);
+    ContactLedger<2> ledger;
+    ledger.reset(2, 1);
     record_contacts(overlap.bodies.surfaces, overlap.pairs, overlap.contacts, kStep, ledger);
     before = overlap.bodies.positions;
     return ledger;
@@ -490,8 +490,8 @@ TEST_CASE("forces on a rigid body have impulse, moment about its pivot and work 
   std::vector<Vec<2>> before = overlap.bodies.positions;
   item(before, last) -= Vec<2>(0.1, 0.2);
   const Vec<2> pivot(2.5, 1), arm = item(overlap.bodies.positions, last) - pivot;
-  ContactBooks<2> ledger;
-  ledger.open(2, 0);
+  ContactLedger<2> ledger;
+  ledger.reset(2, 0);
   record_rigid_bodies(overlap.bodies.geometry(), {overlap.bodies.surfaces, before}, overlap.pairs, forces,
                       {Vec<2>::Zero(), pivot}, 0.5, ledger);
   CHECK(ledger.rigid_impulse[0] == Vec<2>::Zero());

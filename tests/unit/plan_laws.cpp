@@ -68,7 +68,7 @@ TEST_CASE(
 TEST_CASE(
     "curves of tractions are followed as they are stated, and nowhere steeper than a hundred moduli a cell") {
   NonlinearInterface law;
-  law.compression = Pressed::contact;
+  law.compression = CompressionModel::contact;
   // Pieces of 50, 400 and −200 units; of 99 and 300.
   law.normal_curve = {{0, 1e-6, 2e-6, 5e-6}, {0, 50e-6 * kUnit, 450e-6 * kUnit, -150e-6 * kUnit}};
   law.shear_curve = {{0, 1e-6, 2e-6}, {0, 99e-6 * kUnit, 399e-6 * kUnit}};
@@ -80,7 +80,7 @@ TEST_CASE(
                             {0, 0, 50e-6 * kUnit, 450e-6 * kUnit, -150e-6 * kUnit}) < 1e-12);
   CHECK(relative_difference(one.shear_curve.jump, {0, 1e-6, 4e-6}) < 1e-12);
   CHECK(one.shear_curve.traction == law.shear_curve.traction);
-  law.compression = Pressed::spring;
+  law.compression = CompressionModel::spring;
   for (const double pressed : {0.0, 20.0, 700.0}) {  // 0: as it begins to open
     CAPTURE(pressed);
     law.compression_stiffness = pressed * kUnit;
@@ -107,7 +107,7 @@ TEST_CASE("bonds begin with ten moduli a cell or what is stated, a hundred at mo
   CHECK(relative_difference(stiffness(99, 3), {99, 3}) < 1e-12);
   CHECK(relative_difference(stiffness(101, 700), {100, 100}) < 1e-12);
   CHECK(relative_difference(stiffness(0.1, 0), {1.01 * 0.5, 1.01 * 0.5}) < 1e-12);
-  bond.compression = Pressed::contact;
+  bond.compression = CompressionModel::contact;
   CHECK(relative_difference(stiffness(99, 3), {99, 0}) < 1e-12);
 }
 

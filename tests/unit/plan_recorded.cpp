@@ -116,7 +116,7 @@ std::vector<std::string> plan_lines(const Scene& scene) {
                              : plan.body_splits[b]    ? ", splits"
                                                       : ", never splits"));
   line("law", law_text(scene.contact.law, scene));
-  for (const ContactPair& pair : scene.contact.pairs) line("law of a pair", law_text(pair.law, scene));
+  for (const PairLawSpec& pair : scene.contact.pairs) line("law of a pair", law_text(pair.law, scene));
   for (const CrackSpec& crack : scene.cracks) line("law of a crack", law_text(crack.law, scene));
   for (const CrackTip& tip : crack_tips(scene))
     line("tip", fmt::format("{} of crack {}", tip.name, tip.crack));

@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "engine/contact/nodal/fit.hpp"
+#include "engine/contact/geometry/normal_fit.hpp"
 #include "engine/errors.hpp"
 #include "engine/output/checkpoint_file.hpp"
 #include "engine/run/contact_memory.hpp"

@@ -79,27 +79,27 @@ void check_grid(const Scene& scene, bool springs, bool bonds, bool heat) {
   std::map<int, Met> met;  // by slot
   int normals = 0;
   for (const ContactNode<Dim>& node : list.nodes)
-    for (int e = node.entry_begin; e < node.entry_end; ++e) {
-      const auto k = static_cast<std::size_t>(e);
-      const ContactEntry<Dim>& entry = list.entries[k];
-      for (const auto& [side, sign] : {std::pair(entry.a, 1.0), std::pair(entry.b, -1.0)}) {
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const auto& [pair, geometry, before, status, impulse, slip, spring, bond, fit] = list.pairs;
+      const Vec<Dim>&normal = geometry[e].normal, &pushed = impulse[e].now;
+      for (const auto& [side, sign] : {std::pair(pair[e].a, 1.0), std::pair(pair[e].b, -1.0)}) {
         if (side < 0) continue;
         Met& now = met[list.fields[static_cast<std::size_t>(node.field_begin + side)].slot];
         for (int d = 0; d < Dim; ++d)
-          if (entry.touching) now.impulse[static_cast<std::size_t>(d)] += sign * entry.impulse[d];
-        now.touching = now.touching || entry.touching;
-        if (entry.normal.norm() > 0 && entry.separation < now.gap) {
-          now.gap = entry.separation;
-          for (int d = 0; d < Dim; ++d) now.normal[static_cast<std::size_t>(d)] = sign * entry.normal[d];
+          if (status[e].touching) now.impulse[static_cast<std::size_t>(d)] += sign * pushed[d];
+        now.touching = now.touching || status[e].touching;
+        if (normal.norm() > 0 && geometry[e].separation < now.gap) {
+          now.gap = geometry[e].separation;
+          for (int d = 0; d < Dim; ++d) now.normal[static_cast<std::size_t>(d)] = sign * normal[d];
           ++normals;
         }
-        if (!list.bridges.empty() && list.bridges[k].acts && list.bridges[k].jump.norm() > now.farthest) {
-          now.farthest = list.bridges[k].jump.norm();
+        if (!spring.empty() && spring[e].acts && spring[e].jump.value.norm() > now.farthest) {
+          now.farthest = spring[e].jump.value.norm();
           for (int d = 0; d < Dim; ++d)
-            now.jump[static_cast<std::size_t>(d)] = sign * list.bridges[k].jump[d];
+            now.jump[static_cast<std::size_t>(d)] = sign * spring[e].jump.value[d];
         }
-        if (!list.bonds.empty() && list.bonds[k].before >= 0)
-          now.damage = std::max<double>(now.damage, list.bonds[k].way);
+        if (!bond.empty() && bond[e].damage_before >= 0)
+          now.damage = std::max<double>(now.damage, bond[e].damage);
       }
     }
   CHECK(normals > 0);

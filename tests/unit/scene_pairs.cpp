@@ -65,7 +65,7 @@ TEST_CASE("a cohesive law has its keys, and its initial stiffness from the cells
   CHECK(law.plateau == 0.25);
   CHECK(law.normal_toughness == doctest::Approx(200));
   CHECK(law.mode_exponent == 1.5);
-  CHECK(law.compression == Pressed::contact);
+  CHECK(law.compression == CompressionModel::contact);
   CHECK(scene.contact.law.friction == 0.2);
   CHECK(scene.contact.crack_upper[0] == doctest::Approx(3e-3));
   CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
@@ -92,7 +92,7 @@ TEST_CASE("curves of tractions are read, written and handed down to pairs") {
   auto other = all;
   other.compression_stiffness = 7e9;
   CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == doctest::Approx(-0.7e6));
-  other.compression = Pressed::contact;
+  other.compression = CompressionModel::contact;
   CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == 0);
   CHECK(pair.pressed_curve(0.5e-3).at(-2e-3) == doctest::Approx(-10e6));
 }

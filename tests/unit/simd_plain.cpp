@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kernels/simd/compress.hpp"
-#include "kernels/simd/foremost.hpp"
+#include "kernels/simd/support.hpp"
 #include "kernels/simd/math.hpp"
 
 using namespace mpmfast;
@@ -98,7 +98,7 @@ TEST_CASE("lanes change places, are added to their neighbours, and the largest o
 TEST_CASE("the foremost of values that come in lanes is the largest of those that count, and where it was") {
   Draw draw(93);
   for (int round = 0; round < 200; ++round) {
-    Foremost foremost;
+    SupportSearch foremost;
     double most = -std::numeric_limits<double>::infinity();
     int at = -1;
     const int takes = round % 5;

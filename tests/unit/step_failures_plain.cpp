@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/nodal/list.hpp"
+#include "engine/contact/pairs/find_pairs.hpp"
 #include "engine/plan/seed.hpp"
 #include "engine/step/crowding.hpp"
 #include "tests/random.hpp"
@@ -358,7 +358,7 @@ bodies:
 
 template <int Dim>
 void check_refused() {
-  const double pair = sizeof(ListedEntry<Dim>) + sizeof(ContactEntry<Dim>) + 8 * (Dim + 5);
+  const double pair = PairFinder<Dim>::kPairBytes + kPairBytes<Dim> + PairMemory<Dim>::kPairBytes;
   Scene scene = three_blocks(Dim, "bspline2");
   scene.contact.active = true;
   State<Dim> state;

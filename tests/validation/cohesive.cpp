@@ -219,10 +219,10 @@ TEST_CASE("a crack moves with its bodies: a node off its end is broken or whole 
       const Vec<2> tangent(std::cos(angle), std::sin(angle));
       int broken = 0, whole = 0, wrong = 0;
       for (const auto& node : list.nodes)
-        for (int e = node.entry_begin; e < node.entry_end; ++e) {
-          const Vec<2> place = node.node.cast<double>() * state.grid.cell - state.time * flight;
+        for (int e = node.pair_begin; e < node.pair_end; ++e) {
+          const Vec<2> place = node.index.cast<double>() * state.grid.cell - state.time * flight;
           const double from_end = (place - Vec<2>(0.031, 0.03)).dot(tangent) / state.grid.cell;
-          const bool is_broken = list.bonds[static_cast<std::size_t>(e)].broken();
+          const bool is_broken = list.pairs.bond[e].is_broken();
           (is_broken ? broken : whole) += 1;
           if (std::abs(from_end) > 1.1 && is_broken != (from_end < 0)) ++wrong;
         }

@@ -99,7 +99,7 @@ boundaries: {left: wall, right: wall}
         astray, std::abs(line.sides[1][middle][0] - line.sides[0][middle][0] + 0.5e-3 - (right - left)));
     if (step.state().time > 2.4e-3) least = std::min(least, right - left);
     apart = right - left;
-    peak = std::max<std::uint64_t>(peak, step.contact_list().entries.size());
+    peak = std::max<std::uint64_t>(peak, step.contact_list().pairs.size());
   }
   const double left = kinetic_energy(particles) + step.stored_energy();
   MESSAGE("widest ", widest, " least ", least, " at last ", apart, " energy ", left / start, " astray ",

@@ -38,7 +38,7 @@ BodyPairs make_body_pairs(const Scene& scene, const Plan& plan, const State<Dim>
   out.field = plan.body_field;
   out.table = plan.pairs;
   out.laws.push_back(scene.contact.law.acts);
-  for (const ContactPair& pair : scene.contact.pairs) out.laws.push_back(pair.law.acts);
+  for (const PairLawSpec& pair : scene.contact.pairs) out.laws.push_back(pair.law.acts);
   out.springs = scene.contact.springs;
   out.cell = scene.grid.cell;
   for (const BodySpec& body : scene.bodies) out.rigid.push_back(is_rigid(scene, body));

@@ -6,7 +6,7 @@ namespace mpmfast::penalty {
 
 template <int Dim>
 void record_contacts(const Surfaces<Dim>& surfaces, const BodyPairs& pairs,
-                     const std::vector<ThreadContacts<Dim>>& contacts, double dt, ContactBooks<Dim>& out) {
+                     const std::vector<ThreadContacts<Dim>>& contacts, double dt, ContactLedger<Dim>& out) {
   for (const auto& of_thread : contacts)
     for (std::size_t t = 0; t < of_thread.contacts.size(); ++t) {
       const PointContact<Dim>& contact = of_thread.contacts[t];
@@ -25,7 +25,7 @@ void record_contacts(const Surfaces<Dim>& surfaces, const BodyPairs& pairs,
 template <int Dim>
 void record_rigid_bodies(const SurfaceGeometry<Dim>& current, const SurfaceGeometry<Dim>& previous,
                          const BodyPairs& pairs, const std::vector<Vec<Dim>>& forces,
-                         const std::vector<Vec<Dim>>& pivots, double dt, ContactBooks<Dim>& out) {
+                         const std::vector<Vec<Dim>>& pivots, double dt, ContactLedger<Dim>& out) {
   const auto& bodies = current.surfaces().bodies;
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     if (!pairs.rigid[b]) continue;
@@ -45,14 +45,14 @@ void record_rigid_bodies(const SurfaceGeometry<Dim>& current, const SurfaceGeome
 }
 
 template void record_contacts<2>(const Surfaces<2>&, const BodyPairs&, const std::vector<ThreadContacts<2>>&,
-                                 double, ContactBooks<2>&);
+                                 double, ContactLedger<2>&);
 template void record_contacts<3>(const Surfaces<3>&, const BodyPairs&, const std::vector<ThreadContacts<3>>&,
-                                 double, ContactBooks<3>&);
+                                 double, ContactLedger<3>&);
 template void record_rigid_bodies<2>(const SurfaceGeometry<2>&, const SurfaceGeometry<2>&, const BodyPairs&,
                                      const std::vector<Vec<2>>&, const std::vector<Vec<2>>&, double,
-                                     ContactBooks<2>&);
+                                     ContactLedger<2>&);
 template void record_rigid_bodies<3>(const SurfaceGeometry<3>&, const SurfaceGeometry<3>&, const BodyPairs&,
                                      const std::vector<Vec<3>>&, const std::vector<Vec<3>>&, double,
-                                     ContactBooks<3>&);
+                                     ContactLedger<3>&);
 
 }  // namespace mpmfast::penalty

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "engine/contact/books.hpp"
+#include "engine/contact/ledger/contact_ledger.hpp"
 #include "engine/contact/penalty/body_pairs.hpp"
 #include "engine/contact/penalty/point_contact.hpp"
 #include "engine/contact/penalty/surface_geometry.hpp"
@@ -15,7 +15,7 @@ namespace mpmfast::penalty {
 /// the undeformed area of both surfaces in contact. @param out  opened
 template <int Dim>
 void record_contacts(const Surfaces<Dim>& surfaces, const BodyPairs& pairs,
-                     const std::vector<ThreadContacts<Dim>>& contacts, double dt, ContactBooks<Dim>& out);
+                     const std::vector<ThreadContacts<Dim>>& contacts, double dt, ContactLedger<Dim>& out);
 
 /// Records impulse, moment and work of the forces on rigid bodies.
 /// @param forces    by point, N
@@ -24,6 +24,6 @@ void record_contacts(const Surfaces<Dim>& surfaces, const BodyPairs& pairs,
 template <int Dim>
 void record_rigid_bodies(const SurfaceGeometry<Dim>& current, const SurfaceGeometry<Dim>& previous,
                          const BodyPairs& pairs, const std::vector<Vec<Dim>>& forces,
-                         const std::vector<Vec<Dim>>& pivots, double dt, ContactBooks<Dim>& out);
+                         const std::vector<Vec<Dim>>& pivots, double dt, ContactLedger<Dim>& out);
 
 }  // namespace mpmfast::penalty

@@ -53,7 +53,7 @@ void Penalty<Dim>::compute_forces(const State<Dim>& state, const std::vector<Vec
 
 template <int Dim>
 void Penalty<Dim>::record(const std::vector<Vec<Dim>>& pivots, double dt) {
-  ledger_.open(pivots.size(), pairs_.laws.size() - 1);
+  ledger_.reset(pivots.size(), pairs_.laws.size() - 1);
   penalty::record_contacts(*surfaces_, pairs_, contacts_, dt, ledger_);
   penalty::record_rigid_bodies(current(), previous(), pairs_, forces_, pivots, dt, ledger_);
   sums_.tangential_energy = penalty::tangential_energy(contacts_);

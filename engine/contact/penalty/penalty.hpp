@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/contact/books.hpp"
+#include "engine/contact/ledger/contact_ledger.hpp"
 #include "engine/contact/penalty/detection.hpp"
 #include "engine/contact/penalty/friction.hpp"
 #include "engine/state/archive.hpp"
@@ -40,7 +40,7 @@ class Penalty {
 
   /// By boundary point, N.
   const std::vector<Vec<Dim>>& forces() const { return forces_; }
-  const ContactBooks<Dim>& ledger() const { return ledger_; }
+  const ContactLedger<Dim>& ledger() const { return ledger_; }
   /// Energy of the springs at the positions of the particles, J. It finds contacts anew.
   double stored_energy(const State<Dim>& state);
   /// Points of integration in contact in this step, and the most in any step.
@@ -79,7 +79,7 @@ class Penalty {
   std::vector<penalty::ThreadContacts<Dim>> contacts_;  ///< by thread
   penalty::FrictionHistory<Dim> history_;
   std::vector<Vec<Dim>> forces_;
-  ContactBooks<Dim> ledger_;
+  ContactLedger<Dim> ledger_;
   Sums sums_;
 };
 

@@ -40,7 +40,7 @@ class PairEntries {
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) name(scene.bodies[b].field, b);
   }
 
-  void describe(Slot& entry, ContactPair pair) {
+  void describe(Slot& entry, PairLawSpec pair) {
     constexpr const char* kExpected = "a map {between: [BODY, BODY] or materials: [NAME, NAME], law, …}";
     bool named = false;
     entry.map(kExpected, [&](Keys& map) {
@@ -73,7 +73,7 @@ class PairEntries {
   }
   const std::string& field(int body) const { return scene_.bodies[static_cast<std::size_t>(body)].field; }
 
-  void describe_two(Slot& slot, bool materials, ContactPair& pair) const {
+  void describe_two(Slot& slot, bool materials, PairLawSpec& pair) const {
     std::size_t count = 2;
     slot.list(materials ? "a list of two materials" : "a list of two bodies", 2, 2, count,
               [&](Slot& item, std::size_t k) {
@@ -95,7 +95,7 @@ class PairEntries {
     });
   }
 
-  void check(Slot& who, const ContactPair& pair) const {
+  void check(Slot& who, const PairLawSpec& pair) const {
     if (pair.materials)
       check_mixed(who, pair);
     else if (field(pair.between[0]) == field(pair.between[1]))
@@ -106,7 +106,7 @@ class PairEntries {
   }
 
   /// A field of several materials has no single one that a pair of materials could mean.
-  void check_mixed(Slot& who, const ContactPair& pair) const {
+  void check_mixed(Slot& who, const PairLawSpec& pair) const {
     std::map<std::string, int> material;
     for (const BodySpec& body : scene_.bodies) {
       const auto [known, first] = material.emplace(body.field, body.material);
@@ -118,11 +118,11 @@ class PairEntries {
     }
   }
 
-  void check_twin(Slot& who, const ContactPair& pair) const {
+  void check_twin(Slot& who, const PairLawSpec& pair) const {
     const auto key = [&](int k) {
       return pair.materials ? scene_.materials[static_cast<std::size_t>(k)].name : field(k);
     };
-    for (const ContactPair& other : scene_.contact.pairs) {
+    for (const PairLawSpec& other : scene_.contact.pairs) {
       if (other.materials != pair.materials) continue;
       const auto same = [&](std::size_t i, std::size_t j) {
         return key(other.between[0]) == key(pair.between[i]) && key(other.between[1]) == key(pair.between[j]);
@@ -132,12 +132,12 @@ class PairEntries {
   }
 
   /// history.csv calls a pair NAME+NAME. No other name has a '+'.
-  void check_columns(Slot& who, const ContactPair& pair) const {
-    const auto name = [&](const ContactPair& of, std::size_t k) {
+  void check_columns(Slot& who, const PairLawSpec& pair) const {
+    const auto name = [&](const PairLawSpec& of, std::size_t k) {
       const auto index = static_cast<std::size_t>(of.between[k]);
       return of.materials ? scene_.materials[index].name : scene_.bodies[index].name;
     };
-    for (const ContactPair& other : scene_.contact.pairs)
+    for (const PairLawSpec& other : scene_.contact.pairs)
       if (other.materials != pair.materials && name(other, 0) == name(pair, 0) &&
           name(other, 1) == name(pair, 1))
         return who.report(
@@ -162,7 +162,7 @@ void describe_pairs(Keys& contact, Keys& top, Scene& scene) {
     PairEntries entries(scene, unread_bodies(top, scene));
     slot.list("a list of maps {between: …, law: …}", 0, Form::kNoEnd, count, [&](Slot& entry, std::size_t k) {
       entries.describe(
-          entry, entry.writes() ? scene.contact.pairs[k] : ContactPair{false, {0, 0}, scene.contact.law});
+          entry, entry.writes() ? scene.contact.pairs[k] : PairLawSpec{false, {0, 0}, scene.contact.law});
     });
   });
 }

@@ -53,7 +53,7 @@ void check_penalty(const Value& top, const Scene& scene) {
     return std::visit(
         [](const auto& one) {
           return one.scope == LawScope::everywhere || one.scope == LawScope::bonded ||
-                 one.scope == LawScope::bridged;
+                 one.scope == LawScope::interface;
         },
         law.acts);
   };
