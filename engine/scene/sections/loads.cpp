@@ -10,11 +10,12 @@ namespace mpmfast {
 namespace {
 
 /// The shapes that a place may have: those that no file describes.
+/// @param dimension  of the scene; 0: those of any
 std::vector<ShapeKind> region_kinds(int dimension) {
   std::vector<ShapeKind> out;
   for (const ShapeKind& kind : shape_kinds())
     if (kind.describe && !std::holds_alternative<StlShape>(kind.standard) &&
-        (kind.dimension == 0 || kind.dimension == dimension))
+        (kind.dimension == 0 || dimension == 0 || kind.dimension == dimension))
       out.push_back(kind);
   return out;
 }
@@ -23,7 +24,8 @@ std::vector<ShapeKind> region_kinds(int dimension) {
 void describe_place(Slot& slot, const Scene& scene, std::optional<Shape>& place) {
   if (slot.writes() && !place) return;
   Shape shape = place.value_or(BoxShape{});
-  const std::vector<ShapeKind> kinds = region_kinds(scene.dimension());
+  const bool of_scene = slot.reads() || slot.writes();  // else all that the format knows is listed
+  const std::vector<ShapeKind> kinds = region_kinds(of_scene ? scene.dimension() : 0);
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const ShapeKind& kind) {
     return kind.written && kind.standard.index() == shape.index();
   });
