@@ -310,18 +310,19 @@ contact: {law: frictionless}
       const auto& list = step.contact_list();
       const double* mass = step.state().nodes.column(Nodal::mass);
       for (const auto& node : list.nodes)
-        for (int e = node.entry_begin; e < node.entry_end; ++e) {
-          const auto& entry = list.entries[static_cast<std::size_t>(e)];
-          const double force = std::max(0.0, -entry.second.dot(entry.normal) / dt);
+        for (int e = node.pair_begin; e < node.pair_end; ++e) {
+          const double force =
+              std::max(0.0, -list.pairs.impulse[e].second.dot(list.pairs.geometry[e].normal) / dt);
           double inverse_mass = 0;
           for (int f = node.field_begin; f < node.field_end; ++f) {
-            const auto [field, slot] = list.fields[static_cast<std::size_t>(f)];
+            const auto [field, slot] = list.fields[f];
             if (!step.state().field_rigid[static_cast<std::size_t>(field)]) inverse_mass += 1 / mass[slot];
           }
           const double now = 0.5 * force * time * time * inverse_mass;
-          const double spring = entry.touched ? 0.9 * entry.spring_before + 0.1 * now : now;
-          CHECK(entry.spring == doctest::Approx(spring).epsilon(1e-9).scale(1e-12));
-          pressed += entry.spring > 0;
+          const PairHistory& before = list.pairs.before[e];
+          const double length = before.touched ? 0.9 * before.recovery_length + 0.1 * now : now;
+          CHECK(list.pairs.status[e].recovery_length == doctest::Approx(length).epsilon(1e-9).scale(1e-12));
+          pressed += list.pairs.status[e].recovery_length > 0;
         }
     }
     CHECK(pressed > 20);

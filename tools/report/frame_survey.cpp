@@ -51,7 +51,7 @@ void look_at(const FrameFile& file, const std::filesystem::path& path, std::size
 
 }  // namespace
 
-void Extent::include(const std::vector<double>& values, std::size_t stride) {
+void ValueRange::include(const std::vector<double>& values, std::size_t stride) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) continue;
     lower = std::min(lower, values[i]);

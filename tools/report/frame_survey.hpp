@@ -19,7 +19,7 @@
 namespace mpmfast {
 
 /// The finite values of one column in all frames.
-struct Extent {
+struct ValueRange {
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
   std::vector<double> sample;  ///< some of them
   bool empty() const { return !(lower <= upper); }
@@ -31,11 +31,11 @@ struct FrameSurvey {
   std::vector<SeriesFrame> frames;  ///< that are shown
   std::vector<std::uint32_t> ids;   ///< of all particles that are ever shown, ascending
   std::vector<FrameField> fields;
-  std::vector<Extent> extents;     ///< of the fields
-  std::array<Extent, 3> box;       ///< m, of the centres of particles that are shown
-  std::optional<Viewed> viewed;    ///< nothing: all of space is shown
-  std::array<Extent, 4> gradient;  ///< F in the plane: xx xy yx yy
-  std::vector<Polylines> cracks;   ///< of each of the frames
+  std::vector<ValueRange> extents;     ///< of the fields
+  std::array<ValueRange, 3> box;       ///< m, of the centres of particles that are shown
+  std::optional<Viewed> viewed;        ///< nothing: all of space is shown
+  std::array<ValueRange, 4> gradient;  ///< F in the plane: xx xy yx yy
+  std::vector<Polylines> cracks;       ///< of each of the frames
   std::size_t particle_stride = 1;
 };
 

@@ -35,7 +35,7 @@ struct FrameColumn {
   Packed packed = {};
 };
 
-Levels levels_of(const Extent& extent, bool fine) {
+Levels levels_of(const ValueRange& extent, bool fine) {
   if (extent.empty()) return Levels::even(0, 1, 8);
   if (fine) return Levels::even(extent.lower, extent.upper, 16);
   return extent.sample.empty() ? Levels::even(extent.lower, extent.upper, 8)
@@ -97,7 +97,7 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
   const double dim = dimension_;
   double widest = 0, volume = 1;
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
-    const Extent& side = survey_.box[d];
+    const ValueRange& side = survey_.box[d];
     if (side.empty()) continue;
     widest = std::max(widest, side.upper - side.lower);
     if (side.upper > side.lower) volume *= side.upper - side.lower;
@@ -161,7 +161,7 @@ std::vector<Vec<2>> without_needless(const std::vector<Vec<2>>& line, double mos
 Json FramePacker::describe_lines() const {
   constexpr double kMostSteps = 4000;  // across all frames: finer than a screen
   double widest = 0;
-  for (const Extent& side : survey_.box)
+  for (const ValueRange& side : survey_.box)
     if (!side.empty()) widest = std::max(widest, side.upper - side.lower);
   Json frames = Json::array();
   for (const Polylines& lines : survey_.cracks) {
