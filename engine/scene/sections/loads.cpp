@@ -35,7 +35,8 @@ void describe_place(Slot& slot, const Scene& scene, std::optional<Shape>& place)
     const auto choice = map.one_of(groups, static_cast<int>(known - kinds.begin()));
     if (choice.none()) map.report(fmt::format("needs a shape (one of {})", fmt::join(names_of(kinds), ", ")));
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (choice.takes(static_cast<int>(k)))
+      if (choice.takes(static_cast<int>(k)) &&
+          (kinds[k].dimension == 0 || kinds[k].dimension == scene.dimension()))
         map.need_at(kinds[k].name, kinds[k].note, "",
                     [&](Slot& one) { kinds[k].describe(one, shape, scene); });
   });
