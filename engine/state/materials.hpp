@@ -16,5 +16,9 @@ namespace mpmfast {
   MPMFAST_STRAIN_CHUNK(extern, 3, Law);
 MPMFAST_LAWS(MPMFAST_DECLARE)
 #undef MPMFAST_DECLARE
+extern template bool deform_chunk<2>(const ParticleView<2>&, std::uint32_t, int, double, int,
+                                     const StrainRoom<2>&);
+extern template bool deform_chunk<3>(const ParticleView<3>&, std::uint32_t, int, double, int,
+                                     const StrainRoom<3>&);
 
 }  // namespace mpmfast

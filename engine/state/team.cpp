@@ -81,15 +81,21 @@ Team*& Team::led() {
   return team;
 }
 
-void Team::run(int most, Job job, const void* of) noexcept {
-  job_ = job;
-  of_ = of;
+bool Team::hand_out(int most, Job f) {
+  Team* team = led();
+  if (!team || team->busy_) return false;
+  team->run(most, f);
+  return true;
+}
+
+void Team::run(int most, const Job& job) noexcept {
+  job_ = &job;
   members_ = std::min(most, size_);
   done_.value.store(0, std::memory_order_relaxed);
   called_.value.fetch_add(1);
   call(called_);
   busy_ = 1;
-  job(of, {0, members_, this});
+  job({0, members_, this});
   busy_ = 0;
   await(done_, [&](int done) { return done == size_ - 1; });
 }
@@ -99,7 +105,7 @@ void Team::serve(int thread) {
   for (int seen = 0;; ++seen) {
     await(called_, [&](int called) { return called != seen; });
     if (!job_) break;
-    if (thread < members_) job_(of_, {thread, members_, this});
+    if (thread < members_) (*job_)({thread, members_, this});
     if (done_.value.fetch_add(1) == size_ - 2) call(done_);
   }
   own_number() = 0;
@@ -119,6 +125,18 @@ void Team::wait_for_all() {
     call(passed_);
   } else {
     await(passed_, [&](int now) { return now != passed; });
+  }
+}
+
+void on_threads(int threads, FunctionRef<void(const Member&)> f) {
+  if (threads <= 1) return f(Member{});
+  if (Team::hand_out(threads, f)) return;
+  if (omp_in_parallel()) return f(Member{});
+#pragma omp parallel num_threads(threads)
+  {
+    own_number() = omp_get_thread_num();
+    f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
+    own_number() = 0;
   }
 }
 

@@ -11,6 +11,8 @@
 #include <cstdint>
 #include <exception>
 
+#include "engine/state/function_ref.hpp"
+
 namespace mpmfast {
 
 class Team;
@@ -67,28 +69,20 @@ class Team {
   /// throws ends the program, as in a parallel region.
   /// @param most  so many of them at most
   /// @return false, and nothing done, if there is none
-  template <class F>
-  static bool hand_out(int most, const F& f) {
-    Team* team = led();
-    if (!team || team->busy_) return false;
-    team->run(
-        most, [](const void* of, const Member& member) { (*static_cast<const F*>(of))(member); }, &f);
-    return true;
-  }
+  static bool hand_out(int most, FunctionRef<void(const Member&)> f);
 
  private:
   friend struct Member;
-  using Job = void (*)(const void*, const Member&);
+  using Job = FunctionRef<void(const Member&)>;
 
   static Team*& led();  ///< the team of which this thread is the first
-  void run(int most, Job job, const void* of) noexcept;
+  void run(int most, const Job& job) noexcept;
   void serve(int thread);
   void dismiss();
   void wait_for_all();
 
   int size_ = 1, busy_ = 0;
-  Job job_ = nullptr;
-  const void* of_ = nullptr;
+  const Job* job_ = nullptr;
   int members_ = 1;
   Signal called_;  ///< rises with every job
   Signal done_;    ///< threads that have done theirs
@@ -97,18 +91,7 @@ class Team {
 };
 
 /// Calls f(member) on so many threads at once; on this one alone where threads are at work already.
-template <class F>
-void on_threads(int threads, const F& f) {
-  if (threads <= 1) return f(Member{});
-  if (Team::hand_out(threads, f)) return;
-  if (omp_in_parallel()) return f(Member{});
-#pragma omp parallel num_threads(threads)
-  {
-    own_number() = omp_get_thread_num();
-    f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
-    own_number() = 0;
-  }
-}
+void on_threads(int threads, FunctionRef<void(const Member&)> f);
 
 /// Calls f(begin, end) for stretches that make up [0, n), one a thread and in their order; for all at once
 /// where there are no more than a few.

@@ -12,6 +12,7 @@
 
 #include "engine/geometry/crossing.hpp"
 #include "engine/state/team.hpp"
+#include "engine/step/moves.hpp"
 #include "engine/step/passes.hpp"
 #include "engine/step/tile_loops.hpp"
 #include "kernels/basis/facts.hpp"
@@ -19,6 +20,7 @@
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/boundary.hpp"
 #include "kernels/transfer/heat.hpp"
+#include "kernels/transfer/move.hpp"
 #include "kernels/transfer/project.hpp"
 #include "kernels/transfer/re_extrapolate.hpp"
 #include "kernels/transfer/update.hpp"
@@ -298,7 +300,7 @@ class BasisPasses final : public Passes<Dim> {
       double f[Dim * Dim], edge[Dim * Dim];
       for (int e = 0; e < Dim * Dim; ++e)
         f[e] = particles.column(Quantity::deformation_gradient, e)[p] * particles.domain_share(p, e % Dim);
-      Basis::convect(f, state.bodies[particles.body()[p]].half_size, state.grid.inverse_cell, edge);
+      convect_domain<Dim>(f, state.bodies[particles.body()[p]].half_size, state.grid.inverse_cell, edge);
       for (int e = 0; e < Dim * Dim; ++e) particles.column(Quantity::domain_edges, e)[p] = edge[e];
     }
   }

@@ -66,15 +66,6 @@ struct CpdiBasis {
   static constexpr double kGridReach = Corner::kReach;
   static constexpr double kSpread = 0;  ///< differs from domain to domain
   static constexpr const char* kSays = Corner::kSays;
-  /// The half-edge vectors R = F diag(l), of a domain that is scaled where its half-diagonals outgrow
-  /// kMostHalfDiagonal cells: kMaxSupport nodes a side then always suffice.
-  /// @param f row-major deformation gradient; @param edge row-major result, m
-  template <class V>
-  static void convect(const V (&f)[Dim * Dim], const double (&half_size)[Dim], double inverse_cell,
-                      V (&edge)[Dim * Dim]) {
-    for (int e = 0; e < Dim * Dim; ++e) edge[e] = f[e] * half_size[e % Dim];
-    limit_domain<Dim>(kMostHalfDiagonal / inverse_cell, edge);
-  }
 
   template <int K>
   using Weights = ChunkWeights<Dim, K>;

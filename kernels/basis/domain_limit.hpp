@@ -115,4 +115,14 @@ inline void limit_domain(double length, V (&edge)[Dim * Dim]) {
   }
 }
 
+/// The half-edge vectors R = F diag(l), of a domain that is scaled where its half-diagonals outgrow
+/// kMostHalfDiagonal cells: CpdiBasis::kMaxSupport nodes a side then always suffice.
+/// @param f row-major deformation gradient; @param edge row-major result, m
+template <int Dim, class V>
+inline void convect_domain(const V (&f)[Dim * Dim], const double (&half_size)[Dim], double inverse_cell,
+                           V (&edge)[Dim * Dim]) {
+  for (int e = 0; e < Dim * Dim; ++e) edge[e] = f[e] * half_size[e % Dim];
+  limit_domain<Dim>(kMostHalfDiagonal / inverse_cell, edge);
+}
+
 }  // namespace mpmfast

@@ -138,8 +138,8 @@ inline bool stress_can_wait(const ParticleView<Dim>& p) {
 /// costs is the columns that it goes through. τ and c stay those of an earlier F.
 /// @return whether each J of the chunk is a positive number
 template <int Dim>
-inline bool deform_chunk(const ParticleView<Dim>& p, std::uint32_t begin, int count, double dt, int terms,
-                         const StrainRoom<Dim>& room) {
+bool deform_chunk(const ParticleView<Dim>& p, std::uint32_t begin, int count, double dt, int terms,
+                  const StrainRoom<Dim>& room) {
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);

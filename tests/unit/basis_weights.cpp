@@ -55,7 +55,7 @@ struct Chunk {
       half[i] = half_size * cell;
       for (int j = 0; j < Dim; ++j) rows[Dim * i + j] = f(i, j);
     }
-    LcpdiBasis<Dim>::convect(rows, half, 1.0 / cell, edges);
+    convect_domain<Dim>(rows, half, 1.0 / cell, edges);
     for (std::size_t e = 0; e < Dim * Dim; ++e) edge[e][k] = edges[e];
   }
 
