@@ -124,10 +124,9 @@ struct WeightRoom {
   alignas(64) typename Basis::template Weights<Basis::kMaxSupport> wide;
 };
 
-/// Stages the wanted weights of a chunk: one function for all passes of a basis, called once a chunk.
-/// @return false if a support needs more nodes, or leaves the window
+/// Stages the wanted weights of a chunk. @return false if a support needs more nodes, or leaves the window
 template <class Basis, int Dim, class Weights>
-[[gnu::noinline]] bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
+inline bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
   switch (wanted) {
     case Wanted::values:
       return Basis::template stage<Wanted::values>(g, out);

@@ -73,10 +73,11 @@ struct CpdiBasis {
   /// On kMinSupport nodes a side while the corners of every domain of the chunk begin their supports at two
   /// neighbouring nodes at most, else on kMaxSupport. The lanes beyond the chunk must not count: another
   /// thread may be moving those particles, and sums over more and over fewer nodes round differently.
+  /// (Not inline: long, called once a chunk, and the same in all passes.)
   /// @return false if K nodes are not enough, or a support leaves the window (which it then does on more,
   /// too)
   template <Wanted W = Wanted::both, int K>
-  static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
+  [[gnu::noinline]] static bool stage(const ChunkGeometry<Dim>& g, ChunkWeights<Dim, K>& out) {
     bool suits = true;
     constexpr double mean = 1.0 / kCorners<Dim>;
     for (int k = 0; k < g.count; k += kLanes) {
