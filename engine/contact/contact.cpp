@@ -5,8 +5,13 @@
 
 #include "engine/contact/geometry/free_directions.hpp"
 #include "engine/contact/geometry/kept_fits.hpp"
+#include "engine/contact/geometry/normal_fit.hpp"
+#include "engine/contact/impulses/corrections.hpp"
 #include "engine/contact/interface/extrapolated_jump.hpp"
+#include "engine/contact/interface/interfaces.hpp"
 #include "engine/contact/ledger/record_contact.hpp"
+#include "engine/contact/pairs/find_pairs.hpp"
+#include "engine/contact/pairs/pair_memory.hpp"
 #include "engine/contact/published/grid_geometry.hpp"
 #include "engine/state/team.hpp"
 
@@ -52,16 +57,41 @@ void visit_counters(Archive& archive, ContactCounters& c) {
 
 }  // namespace
 
+/// The classes of the phases, and what the step hands them.
+template <int Dim>
+struct Contact<Dim>::Phases {
+  PairFinder<Dim> finder;
+  PairMemory<Dim> memory;
+  NormalFit<Dim> fit;
+  Interfaces<Dim> interfaces;
+  Corrections<Dim> corrections;
+  FreeDirections<Dim> free;
+  StepTimes times{};
+  std::vector<Vec<Dim>> pivots;       ///< m, by field
+  std::vector<double> friction_sums;  ///< memory of record_friction, J
+
+  Phases(const Scene& scene, const Plan& plan, const PairLaws& laws, const Cracks<Dim>& cracks)
+      : finder(scene, laws, cracks),
+        memory(scene, plan, laws),
+        interfaces(scene, plan, laws, cracks),
+        corrections(scene, plan, laws) {}
+};
+
 template <int Dim>
 Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks)
     : scene_(scene),
-      has_geometry_(plan.contact_geometry),
       cracks_(cracks),
+      has_geometry_(plan.contact_geometry),
       laws_(scene, plan),
-      finder_(scene, laws_, cracks),
-      memory_(scene, plan, laws_),
-      interfaces_(scene, plan, laws_, cracks),
-      corrections_(scene, plan, laws_) {}
+      phases_(std::make_unique<Phases>(scene, plan, laws_, cracks)) {}
+
+template <int Dim>
+Contact<Dim>::~Contact() = default;
+
+template <int Dim>
+void Contact<Dim>::find_pairs(const State<Dim>& state) {
+  phases_->finder.find(state, phases_->memory, list_);
+}
 
 template <int Dim>
 void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& basis) {
@@ -69,11 +99,11 @@ void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& bas
   const auto is_crack = [](const ContactPair& pair) { return pair.crack >= 0; };
   if (!std::all_of(list_.pairs.pair.begin(), list_.pairs.pair.end(), is_crack)) {
     find_grid_normals(state, scene_.contact, list_);
-    fit_.run(state, scene_.contact, basis, list_);
+    phases_->fit.run(state, scene_.contact, basis, list_);
     find_grid_separations(state, scene_.contact, list_);
   }
   if (cracks_.active()) find_crack_separations(state, list_);
-  interfaces_.find(state, list_);
+  phases_->interfaces.find(state, list_);
   if (scene_.contact.detection == DetectionKind::velocity ||
       scene_.contact.separation == SeparationKind::none)
     for (PairGeometry<Dim>& geometry : list_.pairs.geometry)
@@ -82,42 +112,44 @@ void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& bas
 
 template <int Dim>
 void Contact<Dim>::yield_to(const Conditions<Dim>& conditions, int threads) {
-  step_.free.conditions = &conditions;
-  if (!conditions.empty() && corrections_.method().one_set)
-    yield_constrained_directions(step_.free, threads, list_);
+  phases_->free.conditions = &conditions;
+  if (!conditions.empty() && phases_->corrections.method().one_set)
+    yield_constrained_directions(phases_->free, threads, list_);
 }
 
 template <int Dim>
-void Contact<Dim>::begin_step(const std::vector<Vec<Dim>>& pivots, const StepTimes& times) {
-  step_.pivots = pivots;
-  step_.times = times;
+void Contact<Dim>::begin_step(const std::vector<Vec<Dim>>& pivots, double dt, double crossing) {
+  phases_->pivots = pivots;
+  phases_->times = {dt, crossing};
   ledger_.reset(pivots.size(), laws_.count());
 }
 
 template <int Dim>
 void Contact<Dim>::correct_first(State<Dim>& state) {
-  corrections_.correct_first(state, step_.free, step_.times, list_);
-  if (corrections_.method().first_stays) record_impulses(state, laws_, step_.pivots, list_, ledger_);
+  phases_->corrections.correct_first(state, phases_->free, phases_->times, list_);
+  if (phases_->corrections.method().first_stays)
+    record_impulses(state, laws_, phases_->pivots, list_, ledger_);
 }
 
 template <int Dim>
 void Contact<Dim>::correct_second(State<Dim>& state) {
-  corrections_.correct_second(state, step_.free, step_.times, interfaces_, list_);
-  record_impulses(state, laws_, step_.pivots, list_, ledger_);
-  if (!corrections_.method().one_set) end_step(state);
+  phases_->corrections.correct_second(state, phases_->free, phases_->times, phases_->interfaces, list_);
+  record_impulses(state, laws_, phases_->pivots, list_, ledger_);
+  if (!phases_->corrections.method().one_set) end_step(state);
 }
 
 template <int Dim>
 void Contact<Dim>::correct_re_extrapolated(State<Dim>& state) {
-  corrections_.correct_re_extrapolated(state, step_.free, step_.times, list_);
-  if (corrections_.method().one_set) end_step(state);
+  phases_->corrections.correct_re_extrapolated(state, phases_->free, phases_->times, list_);
+  if (phases_->corrections.method().one_set) end_step(state);
 }
 
 /// After the last correction: the interfaces and the friction work of the step.
 template <int Dim>
 void Contact<Dim>::end_step(State<Dim>& state) {
-  if (interfaces_.active()) interfaces_.end(state, step_.free, step_.times.dt, list_, ledger_);
-  record_friction(state, laws_, corrections_.method(), list_, ledger_, step_.friction_sums);
+  if (phases_->interfaces.active())
+    phases_->interfaces.end(state, phases_->free, phases_->times.dt, list_, ledger_);
+  record_friction(state, laws_, phases_->corrections.method(), list_, ledger_, phases_->friction_sums);
 }
 
 template <int Dim>
@@ -149,6 +181,16 @@ void Contact<Dim>::average_compression(State<Dim>& state) const {
 }
 
 template <int Dim>
+void Contact<Dim>::renumber_fits(const Tiling<Dim>& tiling) {
+  mpmfast::renumber_fits(tiling, list_.pairs.fit);
+}
+
+template <int Dim>
+void Contact<Dim>::invalidate_fits() {
+  list_.pairs.fit.assign(list_.pairs.fit.size(), {});
+}
+
+template <int Dim>
 void Contact<Dim>::drift_fits(const State<Dim>& state, double dt) {
   if (!list_.pairs.fit.empty()) mpmfast::drift_fits(state, dt, list_);
 }
@@ -157,7 +199,7 @@ template <int Dim>
 void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
   archive.number("contact/stored", ledger_.stored);
-  memory_.visit(archive, list_);
+  phases_->memory.visit(archive, list_);
 }
 
 template <int Dim>
@@ -175,7 +217,7 @@ std::size_t Contact<Dim>::bytes() const {
   const PairColumns<Dim>& pairs = list_.pairs;
   return bytes_in(list_.nodes, list_.fields, list_.node_at, pairs.pair, pairs.geometry, pairs.before,
                   pairs.status, pairs.impulse, pairs.slip, pairs.spring, pairs.bond, pairs.fit) +
-         memory_.bytes() + finder_.bytes() + fit_.bytes();
+         phases_->memory.bytes() + phases_->finder.bytes() + phases_->fit.bytes();
 }
 
 template class Contact<2>;

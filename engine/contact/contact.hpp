@@ -3,36 +3,40 @@
 /// @file Contact on nodes between velocity fields (theory §4): the phases of a step, in the order in which
 /// the step calls them.
 
+#include <memory>
 #include <vector>
 
 #include "engine/contact/contact_basis.hpp"
-#include "engine/cracks/cracks.hpp"
-#include "engine/contact/geometry/kept_fits.hpp"
-#include "engine/contact/geometry/normal_fit.hpp"
-#include "engine/contact/impulses/corrections.hpp"
-#include "engine/contact/interface/interfaces.hpp"
 #include "engine/contact/ledger/contact_ledger.hpp"
-#include "engine/contact/pairs/find_pairs.hpp"
+#include "engine/contact/pairs/contact_list.hpp"
 #include "engine/contact/pairs/pair_laws.hpp"
-#include "engine/contact/pairs/pair_memory.hpp"
+#include "engine/state/archive.hpp"
 
 namespace mpmfast {
+
+template <int Dim>
+class Conditions;
+template <int Dim>
+class Cracks;
 
 template <int Dim>
 class Contact {
  public:
   /// All of these must outlive it.
   Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks);
+  ~Contact();
 
   /// Pairs: lists the nodes where two or more fields have mass, with the contact pairs there.
-  void find_pairs(const State<Dim>& state) { finder_.find(state, memory_, list_); }
+  void find_pairs(const State<Dim>& state);
   /// Geometry: normals and separations of all pairs, for all corrections of the step; jumps of interfaces.
   void find_geometry(State<Dim>& state, const ContactBasis<Dim>& basis);
   /// On nodes where conditions prescribe components of the velocities, contact acts along the others only.
   void yield_to(const Conditions<Dim>& conditions, int threads);
 
-  /// Begins the ledger of a step. @param pivots  points about which moments count, by field, m
-  void begin_step(const std::vector<Vec<Dim>>& pivots, const StepTimes& times);
+  /// Begins the ledger of a step.
+  /// @param pivots    points about which moments count, by field, m
+  /// @param crossing  time in which the fastest wave or motion crosses a cell, s
+  void begin_step(const std::vector<Vec<Dim>>& pivots, double dt, double crossing);
   /// Impulses before the strain update, after the momentum update, and of re-extrapolated momenta
   /// (Corrections).
   void correct_first(State<Dim>& state);
@@ -47,8 +51,8 @@ class Contact {
 
   /// Fitted normals that outlast a step: after a sort, after a loss of particles, and after particles have
   /// moved.
-  void renumber_fits(const Tiling<Dim>& tiling) { mpmfast::renumber_fits(tiling, list_.pairs.fit); }
-  void invalidate_fits() { list_.pairs.fit.assign(list_.pairs.fit.size(), {}); }
+  void renumber_fits(const Tiling<Dim>& tiling);
+  void invalidate_fits();
   void drift_fits(const State<Dim>& state, double dt);
 
   /// What a step leaves to the next, for a checkpoint.
@@ -63,25 +67,16 @@ class Contact {
   std::size_t bytes() const;
 
  private:
+  struct Phases;
   void end_step(State<Dim>& state);
 
   const Scene& scene_;
-  bool has_geometry_;  ///< some law asks for normals and separations
   const Cracks<Dim>& cracks_;
+  bool has_geometry_;  ///< some law asks for normals and separations
   PairLaws laws_;
-  PairFinder<Dim> finder_;
-  PairMemory<Dim> memory_;
-  NormalFit<Dim> fit_;
-  Interfaces<Dim> interfaces_;
-  Corrections<Dim> corrections_;
+  std::unique_ptr<Phases> phases_;
   ContactList<Dim> list_;
   ContactLedger<Dim> ledger_;
-  struct StepInput {
-    FreeDirections<Dim> free;
-    StepTimes times{};
-    std::vector<Vec<Dim>> pivots;       ///< m, by field
-    std::vector<double> friction_sums;  ///< memory of record_friction, J
-  } step_;
 };
 
 extern template class Contact<2>;

@@ -41,7 +41,7 @@ inline constexpr double kPieceRoundOff = 1e-9;
 /// Length that a crack grows straight before it may turn again, cells. The stress on a shorter part is not
 /// resolved by the grid.
 inline constexpr double kStraight = 3;
-/// Length of undamaged bonds between the foremost softening bond and the end of a growing crack, cells. The
+/// Length of undamaged bonds between the leading softening bond and the end of a growing crack, cells. The
 /// damage of bonds then decides when the crack grows.
 inline constexpr double kBondedLength = 4;
 /// Least normal traction behind the end at which a bonded crack may turn, relative to the strength; 0 to 1.

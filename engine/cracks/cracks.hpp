@@ -92,7 +92,7 @@ class Cracks {
   /// Are the sides of a crack at a node new, since an end grew past it in the last step?
   bool is_fresh(const State<Dim>& state, int crack, const NodeIndex<Dim>& node) const;
 
-  /// Reads or writes what lasts from step to step.
+  /// Reads or writes the state that persists from step to step.
   void visit(Archive& archive);
 
  private:

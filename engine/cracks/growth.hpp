@@ -20,7 +20,7 @@ struct GrowthStep {
 };
 
 /// Growth by the load at an end. The first piece grows where J, or K_θ²/E′ of the largest hoop stress,
-/// reaches the toughness. Later pieces keep the end kBondedLength ahead of the foremost softening bond.
+/// reaches the toughness. Later pieces keep the end kBondedLength ahead of the leading softening bond.
 /// @param strength  normal strength of the bonds, Pa
 /// @param cell      cell size, m
 GrowthStep decide_growth(const GrowthSpec& spec, const CrackEnd& end, const TipLoad& load, double strength,

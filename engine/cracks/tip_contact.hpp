@@ -13,7 +13,7 @@
 
 namespace mpmfast {
 
-/// Length of the line from its end to the foremost softening bond, m; nothing where no bond softens.
+/// Length of the line from its end to the leading softening bond, m; nothing where no bond softens.
 /// @param distance  up to which the line is searched, m
 template <int Dim>
 std::optional<double> length_to_softening(const State<Dim>& state, const ContactList<Dim>& contacts,

@@ -41,7 +41,7 @@ struct Tip {
   double bonded_length = 0;  ///< from the tip to the end of the line, m
 };
 
-/// The foremost softening bond is the tip of a crack that grew. Without one the crack has grown no damage
+/// The leading softening bond is the tip of a crack that grew. Without one the crack has grown no damage
 /// yet, and its tip is the end before growth.
 /// @param to_end  the line behind the end
 template <int Dim>

@@ -10,7 +10,7 @@
 
 namespace mpmfast {
 
-/// Load at a tip. The tip is the end of the line, or, after growth, the foremost softening bond behind it.
+/// Load at a tip. The tip is the end of the line, or, after growth, the leading softening bond behind it.
 struct TipLoad {
   Vec<2> position = Vec<2>::Zero();   ///< of the tip, m
   double energy_release_rate{};       ///< J, J/m²

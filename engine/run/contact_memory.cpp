@@ -7,6 +7,7 @@
 #include "engine/contact/geometry/fit_choice.hpp"
 #include "engine/contact/geometry/fit_slabs.hpp"
 #include "engine/contact/geometry/mean_normals.hpp"
+#include "engine/contact/pairs/pair_memory.hpp"
 #include "kernels/basis/facts.hpp"
 
 namespace mpmfast {

@@ -230,7 +230,7 @@ struct NonlinearInterface {
     TractionCurve whole = normal_curve;
     if (has_overlap()) return whole;
     const double stiffness = compression == CompressionModel::contact ? 0
-                             : compression_stiffness > 0     ? compression_stiffness
+                             : compression_stiffness > 0              ? compression_stiffness
                                                          : normal_curve.slope(normal_curve.piece_of(0, true));
     whole.jump.insert(whole.jump.begin(), -overlap);
     whole.traction.insert(whole.traction.begin(), -stiffness * overlap);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/constants.hpp"
+#include "kernels/contact/contact_status.hpp"
 #include "kernels/contact/delassus_operator.hpp"
 #include "kernels/dimension.hpp"
 
@@ -20,8 +21,6 @@ struct MovingField {
   Vec<Dim> velocity;    ///< m/s, with the impulses so far
   double inverse_mass;  ///< 1/kg
 };
-
-enum class ContactStatus { open, slip, stick };
 
 /// What a law answers for one contact while the others stay.
 template <int Dim>

@@ -9,8 +9,8 @@
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/materials/kinematics.hpp"
-#include "kernels/simd/support.hpp"
 #include "kernels/simd/math.hpp"
+#include "kernels/simd/support.hpp"
 
 namespace mpmfast {
 

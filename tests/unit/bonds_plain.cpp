@@ -415,7 +415,8 @@ TEST_CASE("shapes of softening have their formula, and the damage at each of the
       CHECK(std::abs(softening.at(way) - plain_softening(law, way)) < 1e-14);
       const auto height = [&](double at) { return plain_softening(law, at); };
       const double hold = std::min(way, softening.hold());
-      CHECK(std::abs(softening.integral(way) - integral(height, 0, hold, 1) - integral(height, hold, way)) < 1e-9);
+      CHECK(std::abs(softening.integral(way) - integral(height, 0, hold, 1) - integral(height, hold, way)) <
+            1e-9);
       const double lambda = 1 + length * way, left = plain_integrity(law, lambda, length);
       CHECK(law.integrity(lambda, length) == doctest::Approx(left).epsilon(1e-13));
       if (way > 0 && way < 1) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/contact/pairs/contact_list.hpp"
+#include "engine/contact/pairs/pair_memory.hpp"
 #include "tests/support.hpp"
 
 namespace mpmfast {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "kernels/simd/compress.hpp"
-#include "kernels/simd/support.hpp"
 #include "kernels/simd/math.hpp"
+#include "kernels/simd/support.hpp"
 
 using namespace mpmfast;
 

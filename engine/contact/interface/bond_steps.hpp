@@ -20,11 +20,11 @@ void break_bond(const Cohesive& law, const InterfaceSpring<Dim>& spring, Bond<Di
   bond.damage = 1;
 }
 
-/// Books the energy of a bond whose damage grew without a change of its jump. A bond that breaks while its
+/// Records the loss of a bond whose damage grew without a change of its jump. A bond that breaks while its
 /// surfaces overlap also loses the stored energy of the overlap.
 /// @param before  its integrity before
 template <int Dim>
-void book_damage(const Cohesive& law, double before, InterfaceSpring<Dim>& spring, Bond<Dim>& bond) {
+void record_damage(const Cohesive& law, double before, InterfaceSpring<Dim>& spring, Bond<Dim>& bond) {
   const double less = before - law.integrity_of(bond.damage);
   bond.lost +=
       0.5 * less * spring.stiffness.tension * parted<Dim>(spring.jump.value, spring.normal).squared();
@@ -43,7 +43,7 @@ void end_bond(const Cohesive& law, const Vec<Dim>& from, InterfaceSpring<Dim>& s
   const Integrity integrity = integrity_over(law, before, start, end);
   bond.lost = lost_over(spring.stiffness.tension, before, integrity, start, end);
   if (integrity.end < before) bond.damage = std::max(bond.damage, law.damage_at(integrity.end));
-  if (bond.is_broken()) book_damage(law, 0, spring, bond);
+  if (bond.is_broken()) record_damage(law, 0, spring, bond);
 }
 
 }  // namespace mpmfast

@@ -134,7 +134,7 @@ void Bonds<Dim>::carry(const State<Dim>& state, double dt, ContactList<Dim>& lis
     const double before = law.integrity_of(bond.damage);
     take_nearest(state, node, e, list);
     InterfaceSpring<Dim>& spring = pairs.spring[e];
-    if (bond.follows() && spring.acts) book_damage(law, before, spring, bond);
+    if (bond.follows() && spring.acts) record_damage(law, before, spring, bond);
     if (bond.is_broken()) spring.acts = false;
   });
 }

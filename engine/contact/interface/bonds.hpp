@@ -3,8 +3,8 @@
 /// @file The bonds of a contact list (kernels/contact/bond.hpp): which there are, and how their damage moves
 /// with the bodies from node to node.
 
-#include "engine/cracks/cracks.hpp"
 #include "engine/contact/pairs/pair_laws.hpp"
+#include "engine/cracks/cracks.hpp"
 
 namespace mpmfast {
 

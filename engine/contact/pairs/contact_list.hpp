@@ -10,7 +10,7 @@
 #include "engine/state/indexed.hpp"
 #include "engine/state/state.hpp"
 #include "engine/state/team.hpp"
-#include "kernels/contact/node_solver.hpp"
+#include "kernels/contact/contact_status.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {

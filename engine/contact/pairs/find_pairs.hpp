@@ -4,10 +4,10 @@
 
 #include <vector>
 
-#include "engine/cracks/cracks.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/contact/pairs/pair_laws.hpp"
 #include "engine/contact/pairs/pair_memory.hpp"
+#include "engine/cracks/cracks.hpp"
 
 namespace mpmfast {
 

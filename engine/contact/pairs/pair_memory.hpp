@@ -37,8 +37,8 @@ class PairMemory {
   /// Names pair e and gives it what the last step stored of it. May be called for different pairs at once.
   void restore(std::uint64_t key, std::size_t e, Cursor& cursor, ContactList<Dim>& list);
 
-  /// Writes what lasts to an archive, or reads it. Throws what the archive throws, and on contents that no
-  /// step wrote.
+  /// Writes the stored columns to an archive, or reads them. Throws what the archive throws, and on contents
+  /// that no step wrote.
   void visit(Archive& archive, ContactList<Dim>& list);
 
   std::size_t bytes() const { return bytes_in(keys_, stored_, springs_, bonds_, fits_); }

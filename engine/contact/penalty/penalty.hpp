@@ -51,7 +51,7 @@ class Penalty {
 
   std::size_t bytes() const;
 
-  /// Stores or restores what lasts from one step to the next.
+  /// Stores or restores the state that persists from step to step.
   void visit(Archive& archive);
 
  private:

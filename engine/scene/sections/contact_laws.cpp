@@ -134,9 +134,11 @@ void check_curves(Keys& map, const AnyLaw& law) {
   if (!curves || !map.good()) return;
   check_curve(map, "normal_curve", curves->normal_curve, true);
   check_curve(map, "shear_curve", curves->shear_curve, false);
-  const bool said_twice = curves->compression != CompressionModel::spring || curves->compression_stiffness > 0;
+  const bool said_twice =
+      curves->compression != CompressionModel::spring || curves->compression_stiffness > 0;
   if (!curves->has_overlap() || !said_twice) return;
-  const char* name = curves->compression != CompressionModel::spring ? "compression" : "compression_stiffness";
+  const char* name =
+      curves->compression != CompressionModel::spring ? "compression" : "compression_stiffness";
   map.check(map.stated(name) ? name : "normal_curve", [&](Slot& slot) {
     slot.report(fmt::format("normal_curve says already what overlap does, {} does too", name),
                 map.stated(name) ? "" : "It is that of `contact`");
