@@ -41,6 +41,7 @@ class Suspicions {
     if (scene_.output.frames > kMostFrames)
       say("output.frames", fmt::format("{} particle files take much of a disk", scene_.output.frames));
     falls();
+    loads();
     joints(scene_.contact.law, "contact");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
       if (!same_bond(scene_.contact.pairs[k].law, scene_.contact.law))
@@ -196,6 +197,30 @@ class Suspicions {
     if (steps > kMostSteps)
       say("time.end", fmt::format("about {:.2g} steps of {:.2g} s", steps, end / steps),
           "Is the time in the right unit?");
+  }
+
+  /// A load on a part of a surface where no body of its field lies.
+  void loads() {
+    for (std::size_t k = 0; k < scene_.loads.size(); ++k) {
+      const auto* pressure = std::get_if<PressureSpec>(&scene_.loads[k]);
+      if (!pressure || !pressure->where) continue;
+      const BodySpec& loaded = scene_.bodies[static_cast<std::size_t>(pressure->body)];
+      const Bounds part = bounds(*pressure->where);
+      const bool any = std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& body) {
+        return (&body == &loaded || (!body.field.empty() && body.field == loaded.field)) &&
+               meet(bounds(body.shape), part);
+      });
+      if (!any)
+        say(fmt::format("loads.pressure.{}.where", k),
+            fmt::format("nothing of body '{}' lies here, and the load acts on nothing", loaded.name));
+    }
+  }
+
+  /// Do two boxes have a point in common, along the axes of the scene?
+  bool meet(const Bounds& one, const Bounds& other) const {
+    for (std::size_t d = 0; d < static_cast<std::size_t>(scene_.dimension()); ++d)
+      if (one.upper[d] < other.lower[d] || other.upper[d] < one.lower[d]) return false;
+    return true;
   }
 
   /// Gravity towards a face without a wall, and nothing else that could hold what falls.

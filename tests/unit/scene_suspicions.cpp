@@ -1,4 +1,5 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <filesystem>
 #include <set>
@@ -25,6 +26,22 @@ std::string warnings(const std::string& text, const std::vector<Override>& overr
 TEST_CASE("a plain scene raises no suspicion, and one that nobody asks about none either") {
   CHECK(warnings(plain_scene()).empty());
   CHECK(warnings(solid_scene()).empty());
+}
+
+TEST_CASE("a pressure on a place where its body does not lie is told: the load acts on nothing") {
+  const auto at = [](const std::string& corner) {
+    return warnings(plain_scene() +
+                    "loads: {pressure: [{body: block, value: 1 kPa, where: {disk: {centre: [" + corner +
+                    "], radius: 1 mm}}}]}\n");
+  };
+  const Bounds body = bounds(parse(plain_scene()).bodies[0].shape);
+  const auto beside = [&](double gap) {
+    return at(fmt::format("{} m, {} m", body.upper[0] + gap, body.upper[1]));
+  };
+  CHECK(beside(0.9e-3).empty());
+  CHECK(holds(beside(1.1e-3),
+              "loads.pressure.0.where: nothing of body 'block' lies here, and the load acts on "
+              "nothing"));
 }
 
 TEST_CASE("a density that nothing has is told with what was likely meant") {
