@@ -30,7 +30,7 @@ if(MPMFAST_TESTS)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/stability/recorded_runs.cpp
     ${PROJECT_SOURCE_DIR}/tests/validation/cohesive_limits.cpp TARGET_DIRECTORY validation_tests
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  foreach(name curved_springs scene_resolved two_pairs)
+  foreach(name curved_springs output_framing scene_resolved two_pairs)
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/unit/${name}.cpp TARGET_DIRECTORY unit_tests
       PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()
