@@ -13,6 +13,7 @@
 #include <map>
 #include <sstream>
 
+#include "engine/contact/pairs/pair_memory.hpp"
 #include "engine/run/make_row.hpp"
 #include "tests/forged.hpp"
 #include "tests/support.hpp"
