@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "kernels/contact/resolve_pair.hpp"
-#include "tests/pressed_node.hpp"
+#include "tests/compressed_node.hpp"
 
 namespace {
 
@@ -23,7 +23,7 @@ template <int Dim>
 void solve(benchmark::State& state) {
   constexpr std::size_t draws = 256;  // enough that the branches are not learnt by heart
   std::mt19937_64 draw(20);
-  std::vector<PressedNode<Dim>> nodes;
+  std::vector<CompressedNode<Dim>> nodes;
   for (std::size_t i = 0; i < draws; ++i) nodes.emplace_back(static_cast<int>(state.range(0)), kOrders, draw);
   const Coulomb friction{0.2, 0};
   NodeSolver<Dim> solver;
@@ -52,7 +52,7 @@ template <int Dim, int kFields>
 void solve_in_lanes(benchmark::State& state) {
   constexpr int draws = 256;
   std::mt19937_64 draw(20);
-  std::vector<PressedNode<Dim>> nodes;
+  std::vector<CompressedNode<Dim>> nodes;
   for (int i = 0; i < draws; ++i) nodes.emplace_back(kFields, kOrders, draw);
   const Coulomb friction{0.2, 0};
   SetRule<Dim> rule;
@@ -62,7 +62,7 @@ void solve_in_lanes(benchmark::State& state) {
   std::int64_t unsettled = 0;
   for (auto _ : state) {
     while (!solver.is_full()) {
-      const PressedNode<Dim>& node = nodes[next];
+      const CompressedNode<Dim>& node = nodes[next];
       const int lane = solver.begin_node();
       for (int k = 0; k < kFields; ++k) {
         const MovingField<Dim>& field = node.fields[static_cast<std::size_t>(k)];

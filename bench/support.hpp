@@ -17,7 +17,7 @@ namespace mpmfast::bench {
 template <int Dim>
 inline constexpr int kBlockSide = Dim == 2 ? 224 : 29;
 
-/// A block of neo-Hookean solid in a grid with room to move, cut into `cuts` bodies along x and along y.
+/// A block of neo-Hookean solid in a grid with space to move, cut into `cuts` bodies along x and along y.
 template <int Dim>
 std::string block_yaml(const std::string& basis, const std::string& update, int cuts = 1) {
   constexpr int side = kBlockSide<Dim>, margin = 16;

@@ -25,7 +25,7 @@ struct Block : Running<Dim> {
     auto& state = this->step.state();
     strain_block(this->step);
     passes->shape_domains(state);
-    state.nodes.plan(state.nodes.quantities(), true);  // room for Δv*, though nothing is in contact
+    state.nodes.plan(state.nodes.quantities(), true);  // space for Δv*, though nothing is in contact
     this->advance(2);
     passes->sort(state);  // wide supports may have drifted out of their windows
     work = PassWork<Dim>(basis, state.tiling.slots() / this->particles());

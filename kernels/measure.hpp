@@ -34,7 +34,7 @@ inline constexpr int kMeasures = 20;
 
 /// The interval a number must lie in, and its name in messages.
 struct Limit {
-  const char* says;  ///< "positive"
+  const char* description;  ///< "positive"
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   bool lower_open = false, upper_open = false;
@@ -55,10 +55,10 @@ inline constexpr Limit kNotNegative{"zero or more", 0};
 
 /// A word that a parameter may be; a parameter that is a choice has an array of them.
 template <class E>
-struct Word {
+struct Keyword {
   E value;
   const char* name;
-  const char* says;  ///< one line for `mpmfast list`
+  const char* description;  ///< one line for `mpmfast list`
 };
 
 /// A parameter that is one number.

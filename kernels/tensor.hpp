@@ -12,6 +12,6 @@ inline constexpr int kSymmetric = Dim == 2 ? 4 : 6;
 /// What the stretch along the normal of a plane does: nothing (plane strain; three dimensions), what leaves
 /// no stress there (plane stress), or what a circle about the axis x = 0 does (axisymmetry: x is the radius,
 /// y runs along the axis, z round it).
-enum class Depth { held, relaxed, hoop };
+enum class PlaneKind { plane_strain, plane_stress, axisymmetric };
 
 }  // namespace mpmfast

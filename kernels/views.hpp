@@ -35,7 +35,7 @@ struct ParticleView {
   double* stretch;                 ///< along the plane's normal
   double* temperature_slope[Dim];  ///< ∇T, K/m
   StateView<Dim> state;
-  Depth depth;
+  PlaneKind plane_kind;
 };
 
 /// Consecutive particles of one body in one tile, sorted by cell.
@@ -117,9 +117,9 @@ inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const Partic
   return g;
 }
 
-/// Room for the weights of one chunk on any support of a basis.
+/// Workspace for the weights of one chunk on any support of a basis.
 template <int Dim, class Basis>
-struct WeightRoom {
+struct WeightWorkspace {
   alignas(64) typename Basis::template Weights<Basis::kMinSupport> narrow;
   alignas(64) typename Basis::template Weights<Basis::kMaxSupport> wide;
 };
@@ -142,14 +142,14 @@ inline bool stage(Wanted wanted, const ChunkGeometry<Dim>& g, Weights& out) {
 /// @return false if a particle's support left the window (the rest of the run is then skipped).
 template <int Dim, class Basis, class F>
 inline bool for_each_chunk_of_run(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
-                                  WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
+                                  WeightWorkspace<Dim, Basis>& workspace, Wanted wanted, F f) {
   for (std::uint32_t begin = run.begin; begin < run.end; begin += kChunk<Dim>) {
     const int count = static_cast<int>(run.end - begin < kChunk<Dim> ? run.end - begin : kChunk<Dim>);
     const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
-    if (stage<Basis>(wanted, g, room.narrow))
-      f(room.narrow, run, begin, count);
-    else if (Basis::kMaxSupport > Basis::kMinSupport && stage<Basis>(wanted, g, room.wide))
-      f(room.wide, run, begin, count);
+    if (stage<Basis>(wanted, g, workspace.narrow))
+      f(workspace.narrow, run, begin, count);
+    else if (Basis::kMaxSupport > Basis::kMinSupport && stage<Basis>(wanted, g, workspace.wide))
+      f(workspace.wide, run, begin, count);
     else
       return false;
   }
@@ -219,9 +219,10 @@ template <int Dim>
 
 /// As for_each_chunk_of_run, of all runs of the tile.
 template <int Dim, class Basis, class F>
-inline bool for_each_chunk(const TileContext<Dim>& c, WeightRoom<Dim, Basis>& room, Wanted wanted, F f) {
+inline bool for_each_chunk(const TileContext<Dim>& c, WeightWorkspace<Dim, Basis>& workspace, Wanted wanted,
+                           F f) {
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
-    if (!for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], room, wanted, f)) return false;
+    if (!for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], workspace, wanted, f)) return false;
   return true;
 }
 

@@ -21,14 +21,14 @@ Scene scene_file(const std::string& name, const std::vector<Override>& overrides
 
 std::vector<const char*> bases() {
   std::vector<const char*> words;
-  for (const BasisFacts& basis : kBasisFacts) words.push_back(basis.word);
+  for (const BasisFacts& basis : kBasisFacts) words.push_back(basis.keyword);
   return words;
 }
 
 std::vector<const char*> apic_bases() {
   std::vector<const char*> words;
   for (const BasisFacts& basis : kBasisFacts)
-    if (basis.spread > 0) words.push_back(basis.word);
+    if (basis.spread > 0) words.push_back(basis.keyword);
   return words;
 }
 

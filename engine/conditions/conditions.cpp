@@ -5,7 +5,7 @@
 
 #include "engine/conditions/wall_row.hpp"
 #include "engine/quantities/time_table.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -39,7 +39,7 @@ Conditions<Dim>::Conditions(const Scene& scene) : scene_(&scene), walls_(scene) 
     if (const auto* wall = std::get_if<WallSpec>(&scene.boundaries[b].condition)) {
       components_.push_back({index, axis_vector<Dim>(wall->axis), true});
       for (int d = 0; d < Dim; ++d)
-        if (wall->held && d != wall->axis) components_.push_back({index, axis_vector<Dim>(d), false});
+        if (wall->fixed && d != wall->axis) components_.push_back({index, axis_vector<Dim>(d), false});
     } else {
       const auto& box = std::get<VelocityBoxSpec>(scene.boundaries[b].condition);
       Vec<Dim> direction;
@@ -61,7 +61,7 @@ void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
     const double plane = wall->position + integral_to(table, t);
     const double cells = (plane - grid.origin[static_cast<std::size_t>(wall->axis)]) / grid.cell;
     const WallRow at = wall_row(cells, wall->upper);
-    const double cut = wall->place != WallPlace::plane || at.cut == 1
+    const double cut = wall->enforcement != WallEnforcement::plane || at.cut == 1
                            ? 1
                            : std::max(thinnest_cut(scene_->method.basis), at.cut);
     stale_ |= at.row != row_[b] || (cut < 1) != (cut_[b] < 1);
@@ -70,7 +70,7 @@ void Conditions<Dim>::prepare(const State<Dim>& state, double t, double dt) {
   }
   if (stale_) {
     list_nodes(state);
-    walls_.forget_nodes();  // rows that others prescribe are left to them
+    walls_.invalidate_nodes();  // rows that others prescribe are left to them
   }
   stale_ = false;
   for (auto& c : combinations_) orthonormalise(c);
@@ -87,7 +87,7 @@ bool Conditions<Dim>::covers(std::size_t b, const NodeIndex<Dim>& node) const {
   const auto& condition = scene_->boundaries[b].condition;
   if (const auto* wall = std::get_if<WallSpec>(&condition)) {
     const int beyond = (wall->upper ? 1 : -1) * (node[wall->axis] - row_[b]);
-    return beyond >= (wall->place == WallPlace::surface ? SurfaceWalls<Dim>::kRowsBeyond : 0);
+    return beyond >= (wall->enforcement == WallEnforcement::surface ? SurfaceWalls<Dim>::kRowsBeyond : 0);
   }
   const auto& box = std::get<VelocityBoxSpec>(condition);
   const auto& grid = scene_->grid;
@@ -160,14 +160,14 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
   if (components_.empty()) return;
   const auto& tiling = state.tiling;
   combination_at_.assign(static_cast<std::size_t>(tiling.slots()), -1);
-  std::vector<int> members, others, held;
+  std::vector<int> members, others, constrained;
   std::vector<std::pair<int, std::array<NodeIndex<Dim>, kRows>>> cut;
-  for (const auto& stack : tiling.stacks)
+  for (const auto& block : tiling.node_blocks)
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      const NodeIndex<Dim> node = tiling.node(stack, local);
+      const NodeIndex<Dim> node = tiling.node(block, local);
       components_at(node, members);
       if (members.empty()) continue;
-      held.clear();
+      constrained.clear();
       cut.clear();
       for (int c : members) {
         const auto rows = around_plane(c, node);
@@ -178,12 +178,12 @@ void Conditions<Dim>::list_nodes(const State<Dim>& state) {
                                components_at(row, others);
                                return alone_along(c, others);
                              });
-        if (!follows) held.push_back(c);
+        if (!follows) constrained.push_back(c);
         // A support that reaches further out has the first row beyond the plane too: one entry a column.
         if (follows && (*rows)[1] == node) cut.emplace_back(c, *rows);
       }
-      const int combination = held.empty() ? -1 : combination_of(held);
-      for (int t = stack.begin; t < stack.end; ++t) {
+      const int combination = constrained.empty() ? -1 : combination_of(constrained);
+      for (int t = block.begin; t < block.end; ++t) {
         const int field = tiling.node_tiles[static_cast<std::size_t>(t)].field;
         if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
         if (combination >= 0) {
@@ -302,21 +302,21 @@ void Conditions<Dim>::apply_cuts(const State<Dim>& state, Velocity velocity, Pus
 }
 
 template <int Dim>
-void Conditions<Dim>::share_pressed(State<Dim>& state) const {
+void Conditions<Dim>::share_compression_weight(State<Dim>& state) const {
   const double* mass = state.nodes.column(Nodal::mass);
-  double* pressed = state.nodes.column(Nodal::pressed);
+  double* compression_weight = state.nodes.column(Nodal::compression_weight);
   for (const Cut& cut : cuts_) {
     const auto has_mass = [&](int slot) { return slot >= 0 && mass[slot] > 0; };
     double least = 1;
     for (const int slot : cut.slot)
-      if (has_mass(slot)) least = std::min(least, pressed[slot] / mass[slot]);
+      if (has_mass(slot)) least = std::min(least, compression_weight[slot] / mass[slot]);
     for (const int slot : cut.slot)
-      if (has_mass(slot)) pressed[slot] = least * mass[slot];
+      if (has_mass(slot)) compression_weight[slot] = least * mass[slot];
   }
 }
 
 template <int Dim>
-void Conditions<Dim>::book(int component, double impulse, double dt) {
+void Conditions<Dim>::record_impulse(int component, double impulse, double dt) {
   const Component& c = components_[static_cast<std::size_t>(component)];
   const auto b = static_cast<std::size_t>(c.boundary);
   ledger_.force[b] += (impulse / dt) * c.direction;
@@ -408,7 +408,7 @@ void Conditions<Dim>::react(State<Dim>& state, double dt, double share) {
   };
   apply_cuts(state, free_velocity, [&](int component, int slot, const Vec<Dim>& e, double impulse) {
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
-    book(component, impulse, dt);
+    record_impulse(component, impulse, dt);
   });
   walls_.react(state, dt, ledger_);
 }
@@ -428,7 +428,7 @@ void Conditions<Dim>::enforce(State<Dim>& state, double dt) {
   apply_cuts(state, velocity, [&](int component, int slot, const Vec<Dim>& e, double impulse) {
     state.nodes.set(Nodal::momentum, slot, state.nodes.vector(Nodal::momentum, slot) + impulse * e);
     state.nodes.set(Nodal::force, slot, state.nodes.vector(Nodal::force, slot) + (impulse / dt) * e);
-    book(component, impulse, dt);
+    record_impulse(component, impulse, dt);
   });
   walls_.enforce(state, dt, ledger_);
   if (gives_back_) return;

@@ -33,9 +33,9 @@ class Conditions {
   /// The speeds of the step from t to t + dt, and the nodes that they act on.
   void prepare(const State<Dim>& state, double t, double dt);
   /// After a sort: slots have new numbers.
-  void forget_nodes() {
+  void invalidate_nodes() {
     stale_ = true;
-    walls_.forget_nodes();
+    walls_.invalidate_nodes();
   }
 
   /// What lasts from one step to the next.
@@ -53,14 +53,14 @@ class Conditions {
 
   /// What conditions prescribe of a slot's velocity: which combination of theirs (−1: none), and axes, a bit
   /// each.
-  struct Held {
+  struct Constraint {
     int combination = -1;
     unsigned axes{};
     bool any() const { return combination >= 0 || axes != 0; }
   };
-  Held held(int slot) const {
+  Constraint constraint(int slot) const {
     return {combination_at_.empty() ? -1 : combination_at_[static_cast<std::size_t>(slot)],
-            walls_.held_axes(slot)};
+            walls_.constrained_axes(slot)};
   }
   /// Where the plane of some wall is held (`at: plane`), adds the slots of which a component is prescribed.
   void list_held_slots(std::vector<int>& slots) const {
@@ -69,15 +69,15 @@ class Conditions {
   }
   /// Gives the nodes of a line about a plane the least share of pressed mass that one of them has: the plane
   /// moves with its wall where they all move with the same mean of velocities that do.
-  void share_pressed(State<Dim>& state) const;
+  void share_compression_weight(State<Dim>& state) const;
   /// The part of x along what is left free.
-  Vec<Dim> free_part(const Held& held, Vec<Dim> x) const {
-    if (held.combination >= 0) {
-      const Combination& c = combinations_[static_cast<std::size_t>(held.combination)];
+  Vec<Dim> free_part(const Constraint& constraint, Vec<Dim> x) const {
+    if (constraint.combination >= 0) {
+      const Combination& c = combinations_[static_cast<std::size_t>(constraint.combination)];
       for (int k = 0; k < c.count; ++k) x -= x.dot(c.direction[k]) * c.direction[k];
     }
     for (int d = 0; d < Dim; ++d)
-      if (held.axes >> d & 1) x[d] = 0;
+      if (constraint.axes >> d & 1) x[d] = 0;
     return x;
   }
 
@@ -133,7 +133,7 @@ class Conditions {
   void apply(State<Dim>& state, double dt, Change change);
   template <class Velocity, class Push>
   void apply_cuts(const State<Dim>& state, Velocity velocity, Push push) const;
-  void book(int component, double impulse, double dt);
+  void record_impulse(int component, double impulse, double dt);
   void take_shares(const State<Dim>& state, double share);
 
   const Scene* scene_;

@@ -119,13 +119,13 @@ void RigidBodies<Dim>::set_nodes(State<Dim>& state) const {
   for (const Body& body : bodies_)
     if (body.turns) turning[body.field] = &body;
   const double* mass = state.nodes.column(Nodal::mass);
-  for (const auto& stack : state.tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t) {
+  for (const auto& block : state.tiling.node_blocks)
+    for (int t = block.begin; t < block.end; ++t) {
       const auto field = static_cast<std::size_t>(state.tiling.node_tiles[static_cast<std::size_t>(t)].field);
       if (!turning[field]) continue;
       for (int local = 0; local < kTileNodes<Dim>; ++local) {
         const int slot = t * kTileNodes<Dim> + local;
-        const NodeIndex<Dim> node = state.tiling.node(stack, local);
+        const NodeIndex<Dim> node = state.tiling.node(block, local);
         Vec<Dim> arm;
         for (int d = 0; d < Dim; ++d)
           arm[d] = state.grid.origin[d] + node[d] * state.grid.cell - pivots_[field][d];

@@ -34,8 +34,8 @@ SurfaceWalls<Dim>::SurfaceWalls(const Scene& scene)
       holds_(scene.method.update == UpdateKind::flip) {
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const auto* wall = std::get_if<WallSpec>(&scene.boundaries[b].condition);
-    if (!wall || wall->place != WallPlace::surface) continue;
-    const double friction = wall->held ? std::numeric_limits<double>::infinity() : wall->friction;
+    if (!wall || wall->enforcement != WallEnforcement::surface) continue;
+    const double friction = wall->fixed ? std::numeric_limits<double>::infinity() : wall->friction;
     walls_.push_back(
         {static_cast<int>(b), wall->axis, wall->upper ? 1 : -1, friction, largest(wall->speed) > 0});
   }
@@ -106,7 +106,7 @@ void SurfaceWalls<Dim>::add(State<Dim>& state, Nodal q, const Column& column, in
 
 /// The velocity that closes the gap by the end of the step, and the wall's where it is closed.
 template <int Dim>
-double SurfaceWalls<Dim>::closing(const Column& column) const {
+double SurfaceWalls<Dim>::target_approach(const Column& column) const {
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
   return wall.speed +
          wall.out *
@@ -119,7 +119,7 @@ double SurfaceWalls<Dim>::closing(const Column& column) const {
 template <int Dim>
 void SurfaceWalls<Dim>::decide(const State<Dim>& state) {
   if (walls_.empty()) return;
-  held_.assign(static_cast<std::size_t>(state.tiling.slots()), 0);
+  constrained_.assign(static_cast<std::size_t>(state.tiling.slots()), 0);
   const double near = kTouch * state.grid.cell;
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
@@ -129,16 +129,17 @@ void SurfaceWalls<Dim>::decide(const State<Dim>& state) {
       column.stuck = false;
       continue;
     }
-    column.target = closing(column);
+    column.target = target_approach(column);
     column.touches = -wall.out * of_momentum(state, column, column.target, wall.axis).sum > 0;
     if (!column.touches && column.gap < near) {
       column.touches = wall.out * of_momentum(state, column, wall.speed, wall.axis).sum > 0;
-      if (column.touches) column.target = column.gap < 0 ? closing(column) : wall.speed;
+      if (column.touches) column.target = column.gap < 0 ? target_approach(column) : wall.speed;
     }
     column.stuck = column.stuck && column.touches;
     if (!column.touches) continue;
     for (const int slot : column.slot)
-      if (slot >= 0) held_[static_cast<std::size_t>(slot)] |= static_cast<std::uint8_t>(1u << wall.axis);
+      if (slot >= 0)
+        constrained_[static_cast<std::size_t>(slot)] |= static_cast<std::uint8_t>(1u << wall.axis);
   }
 }
 
@@ -240,7 +241,7 @@ void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryLedger<Dim>&
       add(state, Nodal::momentum, column, wall.axis, forced, 1);
     } else {
       column.touches = false;
-      column.target = closing(column);
+      column.target = target_approach(column);
     }
   }
 }
@@ -263,13 +264,13 @@ void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryLedger<Dim
     if (column.touches)
       apply_friction(state, dt, column, ledger);
     else
-      let_go(state, dt, column, ledger);
+      release(state, dt, column, ledger);
 }
 
 /// What has stuck and parts: the grid was held before the forces, and what those do since is not strained.
 template <int Dim>
-void SurfaceWalls<Dim>::let_go(const State<Dim>& state, double dt, Column& column,
-                               BoundaryLedger<Dim>& ledger) {
+void SurfaceWalls<Dim>::release(const State<Dim>& state, double dt, Column& column,
+                                BoundaryLedger<Dim>& ledger) {
   const double* mass = state.nodes.column(Nodal::mass);
   if (column.stuck && whole_)
     for_each_sideways(column, [&](int d, const Friction& friction) {

@@ -49,7 +49,7 @@ class SurfaceWalls {
 
   explicit SurfaceWalls(const Scene& scene);
   bool empty() const { return walls_.empty(); }
-  void forget_nodes() { stale_ = true; }
+  void invalidate_nodes() { stale_ = true; }
   /// What lasts from one step to the next: the columns that stick.
   void visit(Archive& archive);
 
@@ -58,7 +58,9 @@ class SurfaceWalls {
   /// Which columns touch, from the momenta as they are: the same ones are held wherever walls act.
   void decide(const State<Dim>& state);
   /// Axes along which a wall holds the slot in this step, a bit each.
-  unsigned held_axes(int slot) const { return held_.empty() ? 0 : held_[static_cast<std::size_t>(slot)]; }
+  unsigned constrained_axes(int slot) const {
+    return constrained_.empty() ? 0 : constrained_[static_cast<std::size_t>(slot)];
+  }
   /// Puts nodal velocities on the lines of the columns that touch: `velocity`, before forces, or
   /// `re_extrapolated`, after them, with what friction takes of both.
   void impose_velocity(State<Dim>& state, Nodal velocities, BoundaryLedger<Dim>& ledger);
@@ -147,7 +149,7 @@ class SurfaceWalls {
             BoundaryLedger<Dim>& ledger) const;
   void hold_slip(State<Dim>& state, const Column& column);
   void apply_friction(State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
-  void let_go(const State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
+  void release(const State<Dim>& state, double dt, Column& column, BoundaryLedger<Dim>& ledger);
   double friction_work(const State<Dim>& state, const Column& column, int axis,
                        const Friction& friction) const;
   /// Calls f(axis, Friction) for every axis along which the wall has friction on the column.
@@ -158,7 +160,7 @@ class SurfaceWalls {
   }
   void straighten_velocity(State<Dim>& state, Nodal velocities, const Column& column, double target,
                            int axis) const;
-  double closing(const Column& column) const;
+  double target_approach(const Column& column) const;
 
   const Scene* scene_;
   double share_;  ///< of −P v_s that particles take as a force
@@ -168,9 +170,9 @@ class SurfaceWalls {
   bool stale_ = true;
   std::vector<Wall> walls_;
   std::vector<Column> columns_;
-  std::vector<std::pair<int, int>> at_;  ///< slot of a column's row at the plane, its index; in order
-  std::vector<int> first_;               ///< by wall, into at_
-  std::vector<std::uint8_t> held_;       ///< by slot: see held_axes
+  std::vector<std::pair<int, int>> at_;    ///< slot of a column's row at the plane, its index; in order
+  std::vector<int> first_;                 ///< by wall, into at_
+  std::vector<std::uint8_t> constrained_;  ///< by slot: see constrained_axes
   std::vector<Near> near_;
   std::vector<Friction> frictions_;
   std::vector<std::uint64_t>

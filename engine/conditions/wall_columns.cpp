@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "engine/conditions/surface_walls.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -43,13 +43,13 @@ void SurfaceWalls<Dim>::list(const State<Dim>& state, const Prescribed& prescrib
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     const Wall& wall = walls_[w];
     first_.push_back(static_cast<int>(at_.size()));
-    for (const auto& stack : tiling.stacks) {
-      const int layer = wall.row - stack.first_node[wall.axis];
+    for (const auto& block : tiling.node_blocks) {
+      const int layer = wall.row - block.first_node[wall.axis];
       if (layer < 0 || layer >= kTileSide) continue;
       for (int local = 0; local < kTileNodes<Dim>; ++local) {
-        const NodeIndex<Dim> node = tiling.node(stack, local);
+        const NodeIndex<Dim> node = tiling.node(block, local);
         if (node[wall.axis] != wall.row) continue;
-        for (int n = stack.begin; n < stack.end; ++n) {
+        for (int n = block.begin; n < block.end; ++n) {
           const int field = tiling.node_tiles[static_cast<std::size_t>(n)].field;
           if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
           at_.emplace_back(n * kTileNodes<Dim> + local, static_cast<int>(columns_.size()));

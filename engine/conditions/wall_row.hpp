@@ -33,19 +33,19 @@ struct Interval {
 };
 
 /// What the walls leave along an axis at a time, in cells from the grid's origin.
-inline Interval room_between_walls(const Scene& scene, int axis, double time) {
-  Interval room{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+inline Interval space_between_walls(const Scene& scene, int axis, double time) {
+  Interval space{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   for (const BoundarySpec& b : scene.boundaries) {
     const auto* wall = std::get_if<WallSpec>(&b.condition);
     if (!wall || wall->axis != axis) continue;
     const double plane = wall->position + integral_to(wall->speed, time);
     const double cells = (plane - scene.grid.origin[static_cast<std::size_t>(axis)]) / scene.grid.cell;
     if (wall->upper)
-      room.upper = std::min(room.upper, cells);
+      space.upper = std::min(space.upper, cells);
     else
-      room.lower = std::max(room.lower, cells);
+      space.lower = std::max(space.lower, cells);
   }
-  return room;
+  return space;
 }
 
 /// The least distance, in cells, of a plane from the last row inside. A thinner sliver of material is

@@ -13,7 +13,7 @@
 #include "engine/contact/pairs/find_pairs.hpp"
 #include "engine/contact/pairs/pair_memory.hpp"
 #include "engine/contact/published/grid_geometry.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -166,7 +166,7 @@ void Contact<Dim>::list_separable_slots(int threads, std::vector<int>& slots) co
 template <int Dim>
 void Contact<Dim>::average_compression(State<Dim>& state) const {
   const double* mass = state.nodes.column(Nodal::mass);
-  double* weight = state.nodes.column(Nodal::pressed);
+  double* weight = state.nodes.column(Nodal::compression_weight);
   for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, kFewNodes, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list_.nodes[k];
     if (has_separable_pair(list_, node) || has_springs(list_, node)) return;

@@ -15,7 +15,7 @@ struct Candidates;
 template <int Dim>
 struct CandidatePiece;
 template <int Dim>
-struct CloudRoom;
+struct CloudWorkspace;
 
 template <int Dim>
 class ContactBasis {
@@ -28,7 +28,7 @@ class ContactBasis {
   /// Appends the candidates of one piece whose basis functions cover the node to the cloud in hand.
   virtual void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece,
                                double inverse_cell, const NodeIndex<Dim>& node,
-                               CloudRoom<Dim>& cloud) const = 0;
+                               CloudWorkspace<Dim>& cloud) const = 0;
   /// Volumes, volume gradients, mean positions and displacements of the slots, as planned.
   /// @param cracks_alone  displacements serve cracks: only nodes near them want any
   virtual void project_geometry(State<Dim>& state, bool cracks_alone, bool cracks_displaced) = 0;

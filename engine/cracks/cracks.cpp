@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "engine/cracks/growth.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -26,7 +26,7 @@ void Cracks<Dim>::find_all_crossings(const State<Dim>& state, const Supports<Dim
     auto& out = element(crossings_, t);
     out.clear();
     if (fields_.cracked(element(tiles, t).field))
-      find_crossings(state, supports, element(tiles, t), segments_, element(search_, own_number()), out);
+      find_crossings(state, supports, element(tiles, t), segments_, element(search_, thread_index()), out);
   });
 }
 

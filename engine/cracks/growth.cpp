@@ -27,10 +27,11 @@ void add_piece(CrackLine<Dim>& line, bool end, const Vec<2>& direction, double l
 }
 
 /// Rayleigh wave speed of the body of a crack, m/s.
-double surface_wave_speed(const Scene& scene, const CrackSpec& crack, Depth depth) {
+double surface_wave_speed(const Scene& scene, const CrackSpec& crack, PlaneKind plane_kind) {
   const int material = element(scene.bodies, crack.body).material;
-  return std::visit([&](const auto& law) { return rayleigh_speed(law, depth == Depth::relaxed); },
-                    element(scene.materials, material).model);
+  return std::visit(
+      [&](const auto& law) { return rayleigh_speed(law, plane_kind == PlaneKind::plane_stress); },
+      element(scene.materials, material).model);
 }
 
 }  // namespace
@@ -83,7 +84,7 @@ bool grow_end(const Scene& scene, const State<Dim>& state, int crack, bool end, 
   CrackLine<Dim>& line = element(lines, crack);
   CrackEnd& tip = line.ends[end];
   const double cell = state.grid.cell, piece = spec.growth.advance * cell;
-  tip.due = state.time + piece / surface_wave_speed(scene, spec, state.depth);
+  tip.due = state.time + piece / surface_wave_speed(scene, spec, state.plane_kind);
   if (load.at_outline) {
     add_piece(line, end, load.direction, kBeyondOutline * cell, 0);
     tip.grows = false;

@@ -22,8 +22,9 @@ template <int Dim>
 double modulus_of(const State<Dim>& state, int field) {
   for (std::size_t b = 0; b < state.bodies.size(); ++b)
     if (state.body_field[b] == field && !state.bodies[b].rigid)
-      return std::visit([&](const auto& law) { return plane_modulus(law, state.depth == Depth::relaxed); },
-                        state.materials[static_cast<std::size_t>(state.bodies[b].material)]);
+      return std::visit(
+          [&](const auto& law) { return plane_modulus(law, state.plane_kind == PlaneKind::plane_stress); },
+          state.materials[static_cast<std::size_t>(state.bodies[b].material)]);
   return 0;
 }
 

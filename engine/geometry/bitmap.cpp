@@ -73,8 +73,8 @@ class Inflater {
     stream_.avail_in = static_cast<uInt>(piece.size());
     int result = Z_OK;
     do {
-      stream_.next_out = room_.data();
-      stream_.avail_out = static_cast<uInt>(room_.size());
+      stream_.next_out = buffer_.data();
+      stream_.avail_out = static_cast<uInt>(buffer_.size());
       result = inflate(&stream_, Z_NO_FLUSH);
     } while (result == Z_OK && stream_.avail_out == 0 && stream_.total_out <= most);
     return (result == Z_OK || result == Z_STREAM_END || result == Z_BUF_ERROR) && stream_.total_out <= most;
@@ -82,7 +82,7 @@ class Inflater {
 
  private:
   z_stream stream_{};
-  std::array<unsigned char, 32768> room_;
+  std::array<unsigned char, 32768> buffer_;
 };
 
 /// stb_image takes the memory that a chunk says it needs, and all that its data expand to: looks whether each

@@ -166,7 +166,7 @@ Annulus annulus_of(const Shape& shape) {
   return {disk.centre, 0, disk.radii[0]};
 }
 
-/// Rings of particles about the centre, as many on each as its length has room for, mirrored at the x axis.
+/// Rings of particles about the centre, as many on each as its length has space for, mirrored at the x axis.
 Seeds fill_rings(const Shape& shape, const CellLattice& grid) {
   const Annulus annulus = annulus_of(shape);
   const double thickness = annulus.outer - annulus.inner;

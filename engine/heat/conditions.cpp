@@ -15,7 +15,7 @@ namespace {
 constexpr int kRowsAround = 2;
 
 /// Where the face of a condition is at a time, m: that of its wall, or of the grid.
-double place_of(const Scene& scene, const HeatConditionSpec& condition, double t) {
+double position_of(const Scene& scene, const HeatConditionSpec& condition, double t) {
   for (const BoundarySpec& boundary : scene.boundaries) {
     const auto* wall = std::get_if<WallSpec>(&boundary.condition);
     if (wall && wall->axis == condition.axis && wall->upper == condition.upper)
@@ -34,9 +34,9 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
   fed_.clear();
   const auto& conditions = scene_->heat.conditions;
   const auto& grid = scene_->grid;
-  for (const auto& stack : state.tiling.stacks)
+  for (const auto& block : state.tiling.node_blocks)
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      const NodeIndex<Dim> node = state.tiling.node(stack, local);
+      const NodeIndex<Dim> node = state.tiling.node(block, local);
       for (std::size_t c = 0; c < conditions.size(); ++c) {
         const HeatConditionSpec& condition = conditions[c];
         bool in = true, inside = false;
@@ -52,7 +52,7 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
           }
         }
         if (!in) continue;
-        for (int t = stack.begin; t < stack.end; ++t) {
+        for (int t = block.begin; t < block.end; ++t) {
           const int field = state.tiling.node_tiles[static_cast<std::size_t>(t)].field;
           if (state.field_rigid[static_cast<std::size_t>(field)]) continue;
           NodeIndex<Dim> row = node;
@@ -103,7 +103,7 @@ void Heat<Dim>::mirror(const State<Dim>& state, Fed& fed) const {
 /// alone would keep their share of what comes through the face, ∫ k ∂T/∂n N_i dS, as if they were insulated.
 /// With it, a straight line of temperatures stays, wherever the face cuts the cells.
 template <int Dim>
-void Heat<Dim>::let_through(State<Dim>& state, const Fed& fed, double dt) {
+void Heat<Dim>::apply_boundary_flow(State<Dim>& state, const Fed& fed, double dt) {
   auto& nodes = state.nodes;
   const double* capacity = nodes.column(Nodal::heat_capacity);
   if (!(capacity[fed.slot] > 0) || !(capacity[fed.across] > 0)) return;
@@ -123,7 +123,7 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
   const auto& grid = scene_->grid;
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     if (!conditions[c].face) continue;
-    const double plane = place_of(*scene_, conditions[c], t);
+    const double plane = position_of(*scene_, conditions[c], t);
     const double cells = (plane - grid.origin[static_cast<std::size_t>(conditions[c].axis)]) / grid.cell;
     const int row = wall_row(cells, conditions[c].upper).row;
     stale_ |= row != row_[c];
@@ -137,7 +137,7 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
   for (Fed& fed : fed_) {
     const HeatConditionSpec& condition = conditions[static_cast<std::size_t>(fed.condition)];
     if (fed.across >= 0) {
-      let_through(state, fed, dt);
+      apply_boundary_flow(state, fed, dt);
       continue;
     }
     if (holds(fed)) {

@@ -5,7 +5,7 @@
 
 #include "engine/contact/pairs/neighbours.hpp"
 #include "engine/heat/heat.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -45,9 +45,9 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       const double share = share_of(state, contact, node, e);
       if (share == 0) continue;
       const ConductanceSpec& surface = contact.conductance_of(fields, node, pair);
-      const bool joined = !pairs.spring.empty() && pairs.spring[e].acts;
+      const bool springs_act = !pairs.spring.empty() && pairs.spring[e].acts;
       const bool touches =
-          joined || pairs.status[e].touching || geometry.separation < kTouches * state.grid.cell;
+          springs_act || pairs.status[e].touching || geometry.separation < kTouches * state.grid.cell;
       const double gap = std::max(0.0, geometry.separation);
       if (touches) {
         crossing.conductance = capped(surface.touching);
@@ -122,7 +122,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
   for_each_of(n, state.threads, 64, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     // Of each group, its slots are found from its first one: nodes have few fields.
-    const auto joined = [&](int s, int t) {
+    const auto tied = [&](int s, int t) {
       for (int e = node.pair_begin; e < node.pair_end; ++e) {
         const Crossing& c = crossings_[static_cast<std::size_t>(e)];
         if (c.tied && ((c.a == s && c.b == t) || (c.a == t && c.b == s))) return true;
@@ -130,16 +130,16 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
       return false;
     };
     const int count = node.field_end - node.field_begin;
-    std::vector<int>& room = rooms_[static_cast<std::size_t>(own_number())];
-    room.resize(2 * static_cast<std::size_t>(count));
-    int *const slots = room.data(), *const group = slots + count;
+    std::vector<int>& workspace = workspaces_[static_cast<std::size_t>(thread_index())];
+    workspace.resize(2 * static_cast<std::size_t>(count));
+    int *const slots = workspace.data(), *const group = slots + count;
     for (int f = 0; f < count; ++f) {
       slots[f] = list.fields[node.field_begin + f].slot;
       group[f] = f;
     }
     for (int f = 0; f < count; ++f)
       for (int g = 0; g < f; ++g)
-        if (group[f] != group[g] && joined(slots[f], slots[g])) {
+        if (group[f] != group[g] && tied(slots[f], slots[g])) {
           const int from = group[f], to = group[g];
           for (int h = 0; h < count; ++h)
             if (group[h] == from) group[h] = to;
@@ -162,7 +162,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
 /// Heat of friction, by effusivities: as two half-spaces share it that are equally warm where they touch.
 /// (The books want one order, and a node has little to do: one thread.)
 template <int Dim>
-void Heat<Dim>::rub(State<Dim>& state, const Contact<Dim>& contact, double dt) {
+void Heat<Dim>::add_friction_heat(State<Dim>& state, const Contact<Dim>& contact, double dt) {
   const auto& list = contact.list();
   double* flow = state.nodes.column(Nodal::heat_flow);
   for (const auto& node : list.nodes)

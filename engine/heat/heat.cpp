@@ -8,7 +8,7 @@
 
 #include "engine/plan/materials.hpp"
 #include "engine/state/slots.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -31,7 +31,7 @@ Heat<Dim>::Heat(const Scene& scene, const Plan& plan)
   plane_.assign(scene.heat.conditions.size(), std::numeric_limits<double>::quiet_NaN());
   effusivity_.assign(plan.fields.size(), 0);
   rigid_ = plan.field_rigid;
-  rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+  workspaces_.resize(static_cast<std::size_t>(omp_get_max_threads()));
   double diffusivity = 0, conductivity = 0;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const MaterialSpec& material = scene.materials[static_cast<std::size_t>(scene.bodies[b].material)];
@@ -68,7 +68,7 @@ bool Heat<Dim>::advance(State<Dim>& state, HeatCarrier<Dim>& carrier, const Cont
   if (ties_) tie(state, contact, Nodal::temperature);
   feed(state, state.time, dt);
   if (crosses_) {
-    rub(state, contact, dt);
+    add_friction_heat(state, contact, dt);
     cross(state, contact, dt);
   }
   if (ties_) tie(state, contact, Nodal::heat_flow);
@@ -89,15 +89,15 @@ bool Heat<Dim>::advance(State<Dim>& state, HeatCarrier<Dim>& carrier, const Cont
 template <int Dim>
 void Heat<Dim>::find_temperatures(State<Dim>& state, Nodal out) const {
   auto& nodes = state.nodes;
-  const auto& stacks = state.tiling.stacks;
-  const auto n = static_cast<std::int64_t>(stacks.size());
+  const auto& blocks = state.tiling.node_blocks;
+  const auto n = static_cast<std::int64_t>(blocks.size());
   const double *capacity = nodes.column(Nodal::heat_capacity), *content = nodes.column(Nodal::heat_content);
   double* temperature = nodes.column(out);
   for_each_of(n, state.threads, 64, [&](std::int64_t s) {
-    const auto& stack = stacks[static_cast<std::size_t>(s)];
+    const auto& block = blocks[static_cast<std::size_t>(s)];
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      const NodeIndex<Dim> node = state.tiling.node(stack, local);
-      for (int t = stack.begin; t < stack.end; ++t) {
+      const NodeIndex<Dim> node = state.tiling.node(block, local);
+      for (int t = block.begin; t < block.end; ++t) {
         const int slot = t * kTileNodes<Dim> + local;
         double sum = content[slot];
         for (int d = 0; d < Dim; ++d)

@@ -39,7 +39,7 @@ class Heat {
   /// One step. @return whether all temperatures are positive numbers
   bool advance(State<Dim>& state, HeatCarrier<Dim>& carrier, const Contact<Dim>& contact, double dt);
   /// After a sort: slots have new numbers.
-  void forget_nodes() { stale_ = true; }
+  void invalidate_nodes() { stale_ = true; }
 
   /// Of a node in the last step, K.
   double temperature(const State<Dim>& state, int slot) const {
@@ -94,14 +94,16 @@ class Heat {
   Jump mean_jump(const State<Dim>& state, const Contact<Dim>& contact, const ContactNode<Dim>& node,
                  std::size_t entry) const;
   void tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quantity);
-  void rub(State<Dim>& state, const Contact<Dim>& contact, double dt);
+  void add_friction_heat(State<Dim>& state, const Contact<Dim>& contact, double dt);
   void cross(State<Dim>& state, const Contact<Dim>& contact, double dt);
   void list_nodes(const State<Dim>& state);
   void mirror(const State<Dim>& state, Fed& fed) const;
-  void let_through(State<Dim>& state, const Fed& fed, double dt);
+  void apply_boundary_flow(State<Dim>& state, const Fed& fed, double dt);
   /// What areas want beside a section: 2π r about an axis, m; else 1.
   static double around(const State<Dim>& state, const NodeIndex<Dim>& node) {
-    return state.depth == Depth::hoop ? kFullTurn * (state.grid.origin[0] + node[0] * state.grid.cell) : 1;
+    return state.plane_kind == PlaneKind::axisymmetric
+               ? kFullTurn * (state.grid.origin[0] + node[0] * state.grid.cell)
+               : 1;
   }
   /// Of a jump, what goes in a step that is x times as long as the jump would last: at most half
   /// (Heat::cross).
@@ -133,10 +135,10 @@ class Heat {
   std::vector<double> effusivity_;  ///< √(k ρ c), by field
   std::vector<bool> rigid_;         ///< by field
   std::vector<Fed> fed_;
-  std::vector<int> row_;                 ///< by condition: the first row of nodes at or beyond its face
-  std::vector<double> plane_;            ///< by condition: where its face is, in cells from the grid's origin
-  std::vector<Crossing> crossings_;      ///< as the entries of the contact list
-  std::vector<std::vector<int>> rooms_;  ///< by thread: the groups of a node's fields
+  std::vector<int> row_;             ///< by condition: the first row of nodes at or beyond its face
+  std::vector<double> plane_;        ///< by condition: where its face is, in cells from the grid's origin
+  std::vector<Crossing> crossings_;  ///< as the entries of the contact list
+  std::vector<std::vector<int>> workspaces_;  ///< by thread: the groups of a node's fields
   HeatSums sums_;
   bool stale_ = true;
 };

@@ -55,8 +55,8 @@ class Pressure final : public Load<Dim> {
     pressure_ = mean_over(spec_.value, state.time, dt);
     if (pressure_ == 0) return;
     if (spec_.where) weight_.resize(static_cast<std::size_t>(state.tiling.slots()));
-    const auto stacks = static_cast<std::int64_t>(state.tiling.stacks.size());
-    for_each_of(stacks, state.threads, 16, [&](std::int64_t s) {
+    const auto blocks = static_cast<std::int64_t>(state.tiling.node_blocks.size());
+    for_each_of(blocks, state.threads, 16, [&](std::int64_t s) {
       for_each_loaded(state, static_cast<std::size_t>(s), [&](int slot, const Vec<Dim>& position) {
         if (spec_.where) weight_[static_cast<std::size_t>(slot)] = weight_at(state, slot, position);
         const Vec<Dim> force = force_on(state, slot, position);
@@ -67,7 +67,7 @@ class Pressure final : public Load<Dim> {
 
   double work(const State<Dim>& state, double dt) const override {
     double power = 0;
-    for (std::size_t s = 0; pressure_ != 0 && s < state.tiling.stacks.size(); ++s)
+    for (std::size_t s = 0; pressure_ != 0 && s < state.tiling.node_blocks.size(); ++s)
       for_each_loaded(state, s, [&](int slot, const Vec<Dim>& position) {
         const Vec<Dim> velocity =
             state.nodes.vector(Nodal::velocity, slot) - 0.5 * state.nodes.vector(Nodal::force, slot);
@@ -77,17 +77,17 @@ class Pressure final : public Load<Dim> {
   }
 
  private:
-  /// Calls f(slot, position of its node) for the nodes of the body's field on one stack that have mass.
+  /// Calls f(slot, position of its node) for the nodes of the body's field on one block that have mass.
   template <class F>
   void for_each_loaded(const State<Dim>& state, std::size_t s, const F& f) const {
-    const Stack<Dim>& stack = state.tiling.stacks[s];
+    const NodeBlock<Dim>& block = state.tiling.node_blocks[s];
     const double* mass = state.nodes.column(Nodal::mass);
-    for (int t = stack.begin; t < stack.end; ++t) {
+    for (int t = block.begin; t < block.end; ++t) {
       if (state.tiling.node_tiles[static_cast<std::size_t>(t)].field != field_) continue;
       for (int local = 0; local < kTileNodes<Dim>; ++local) {
         const int slot = t * kTileNodes<Dim> + local;
         if (!(mass[slot] > 0)) continue;
-        const NodeIndex<Dim> node = state.tiling.node(stack, local);
+        const NodeIndex<Dim> node = state.tiling.node(block, local);
         Vec<Dim> position;
         for (int d = 0; d < Dim; ++d) position[d] = origin_[d] + node[d] * cell_;
         f(slot, position);
@@ -105,7 +105,7 @@ class Pressure final : public Load<Dim> {
     Vec<Dim> area = state.nodes.vector(Nodal::volume_gradient, slot);
     if (spec_.along) area = area.dot(along_) * along_;
     if (spec_.where) area *= weight_[static_cast<std::size_t>(slot)];
-    if (state.depth == Depth::hoop) area *= kFullTurn * position[0];
+    if (state.plane_kind == PlaneKind::axisymmetric) area *= kFullTurn * position[0];
     return -pressure_ * area;
   }
 

@@ -87,14 +87,14 @@ void AnimatedPng::write(const std::filesystem::path& path) const {
   std::uint32_t sequence = 0;
   for (std::size_t k = 0; k < frames_.size(); ++k) {
     const Frame& frame = frames_[k];
-    std::string place;
-    put(place, sequence++, 4);
+    std::string control;
+    put(control, sequence++, 4);
     for (const int number : {frame.width, frame.height, frame.x, frame.y})
-      put(place, static_cast<std::uint32_t>(number), 4);
-    put(place, 1, 2);  // a second over the rate
-    put(place, static_cast<std::uint32_t>(rate_), 2);
-    place += std::string(2, '\0');  // stays, and replaces what is under it
-    put_chunk(out, "fcTL", place);
+      put(control, static_cast<std::uint32_t>(number), 4);
+    put(control, 1, 2);  // a second over the rate
+    put(control, static_cast<std::uint32_t>(rate_), 2);
+    control += std::string(2, '\0');  // stays, and replaces what is under it
+    put_chunk(out, "fcTL", control);
     if (k == 0) {
       put_chunk(out, "IDAT", frame.data);
       continue;

@@ -18,7 +18,7 @@
 namespace mpmfast {
 namespace {
 
-constexpr std::size_t kSeal = 512;  ///< the least that HDF5 leaves room for
+constexpr std::size_t kSeal = 512;  ///< the least that HDF5 leaves space for
 constexpr std::string_view kTitle = "mpmfast checkpoint\n";
 
 /// Title, version, number of columns, length of the whole file, hash of what follows; zeros to the end.
@@ -92,7 +92,7 @@ AsideFile::~AsideFile() {
   if (!done_) std::filesystem::remove(aside_, ignored);
 }
 
-void AsideFile::take_place() {
+void AsideFile::commit() {
   std::error_code error;
   std::filesystem::rename(aside_, path_, error);
   if (error) throw_file_error("write", path_, error.value());
@@ -109,7 +109,7 @@ void CheckpointWriter::keep(int version) {
   const Content content = hash_content(file, aside_.path());
   file.write_at(seal_text(version, columns_, content.bytes, content.hash), 0, aside_.path());
   file.sync(aside_.path());
-  aside_.take_place();
+  aside_.commit();
 }
 
 CheckpointReader::CheckpointReader(const std::filesystem::path& path)

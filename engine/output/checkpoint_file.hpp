@@ -25,7 +25,7 @@ class AsideFile {
   AsideFile(const AsideFile&) = delete;
   ~AsideFile();
   const std::filesystem::path& path() const { return aside_; }
-  void take_place();  ///< Throws FileError.
+  void commit();  ///< Throws FileError.
 
  private:
   std::filesystem::path path_, aside_;

@@ -86,11 +86,11 @@ Hdf5File::Lock Hdf5File::lock() {
   return Lock(one_at_a_time);
 }
 
-Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t room) {
+Hdf5File Hdf5File::create(const std::filesystem::path& path, std::size_t user_block) {
   Lock held = lock();
   quieten();
   const Hdf5Handle creation = properties(H5P_FILE_CREATE), how = access();
-  H5Pset_userblock(creation.id(), room);
+  H5Pset_userblock(creation.id(), user_block);
   H5Pset_obj_track_times(creation.id(), false);
   Hdf5Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, creation.id(), how.id()), H5Fclose);
   if (!file.valid()) fail("write", path);

@@ -39,8 +39,9 @@ class Hdf5Handle {
 
 class Hdf5File {
  public:
-  /// A new file whose first `room` bytes (512 or a larger power of two) are left to others. Throws FileError.
-  static Hdf5File create(const std::filesystem::path& path, std::size_t room);
+  /// A new file whose first `user_block` bytes (512 or a larger power of two) are left to others. Throws
+  /// FileError.
+  static Hdf5File create(const std::filesystem::path& path, std::size_t user_block);
   /// An existing file, to be read. Throws FileError.
   static Hdf5File open(const std::filesystem::path& path);
 

@@ -62,8 +62,8 @@ bool has_bonds(const Scene& scene) {
 }
 
 /// Do springs or bonds join surfaces of the scene?
-bool has_joints(const Scene& scene) {
-  const auto joint = [](const SurfaceLaw& law) { return joins(law.acts); };
+bool has_interfaces(const Scene& scene) {
+  const auto joint = [](const SurfaceLaw& law) { return has_springs(law.acts); };
   return (scene.contact.active && scene.contact.any(joint)) ||
          std::any_of(scene.cracks.begin(), scene.cracks.end(),
                      [&](const CrackSpec& crack) { return joint(crack.law); });
@@ -114,7 +114,7 @@ std::vector<std::string> column_names(const Scene& scene) {
   }
   names.push_back("dissipated_J");
   if (scene.output.overlap) names.insert(names.end(), {"overlap_m2", "inside_m2"});
-  if (scene.grid.leaving == LeavingKind::outflow) {
+  if (scene.grid.outflow == OutflowKind::outflow) {
     names.insert(names.end(), {"outflow_kg", "outflow_J"});
     for (std::size_t k = 0; k < dim; ++k) names.push_back(fmt::format("outflow_momentum_{}", kAxisNames[k]));
   }
@@ -128,7 +128,7 @@ std::vector<std::string> column_names(const Scene& scene) {
     for (const auto& body : scene.bodies) names.push_back(body.name + ".temperature_K");
   }
   if (has_bonds(scene)) names.push_back("interface_J");
-  if (has_joints(scene)) names.push_back("interface_stored_J");
+  if (has_interfaces(scene)) names.push_back("interface_stored_J");
   for (const CrackTip& tip : crack_tips(scene))
     for (const char* column : {".x_m", ".y_m", ".J_J_per_m2", ".KI_Pa_sqrt_m", ".KII_Pa_sqrt_m"})
       names.push_back(tip.name + column);
@@ -228,7 +228,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
     numbers.add(overlap.area);
     numbers.add(overlap.inside);
   }
-  if (scene.grid.leaving == LeavingKind::outflow) {
+  if (scene.grid.outflow == OutflowKind::outflow) {
     const Outflow outflow = row.outflow.value_or(Outflow{});
     numbers.add(outflow.mass);
     numbers.add(outflow.energy);
@@ -248,7 +248,7 @@ std::vector<double> history_numbers(const HistoryRow& row, const Scene& scene) {
       numbers.add(b < row.bodies.size() ? row.bodies[b].temperature : 0.0);
   }
   if (has_bonds(scene)) numbers.add(row.interface);
-  if (has_joints(scene)) numbers.add(row.joints);
+  if (has_interfaces(scene)) numbers.add(row.joints);
   for (std::size_t k = 0; k < crack_tips(scene).size(); ++k)
     numbers.add(k < row.tips.size() ? row.tips[k] : std::array<double, 5>{}, 5);
   for (std::size_t c = 0; c < scene.cracks.size(); ++c)

@@ -174,7 +174,7 @@ class ParticleSeries {
 /// @param reach   m, along each axis
 template <int Dim>
 void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>& particles,
-                         const Scene& scene, const std::vector<Vec<Dim>>& places, const Vec<Dim>& centre,
+                         const Scene& scene, const std::vector<Vec<Dim>>& positions, const Vec<Dim>& centre,
                          double reach, double time);
 
 /// Draws the particles (true deformed parallelograms in 2-D; a shaded projection of points in 3-D) coloured
@@ -273,9 +273,9 @@ void write_run_json(const std::filesystem::path& folder, const RunSummary& summa
 /// Version, commit, compiler and flags of this program.
 std::string program_text();
 
-/// The largest resident set of this process since forget_peak_memory(), bytes; where the system forgets
+/// The largest resident set of this process since reset_peak_memory(), bytes; where the system forgets
 /// nothing, since it began.
 std::uint64_t peak_memory_bytes();
-void forget_peak_memory();
+void reset_peak_memory();
 
 }  // namespace mpmfast

@@ -11,12 +11,12 @@
 
 #include "engine/output/first_overlaps.hpp"
 #include "engine/output/particle_access.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 namespace {
 
-/// A polygon with room for a parallelogram cut by four lines: 8 corners, or 19 (a half more with each cut)
+/// A polygon with space for a parallelogram cut by four lines: 8 corners, or 19 (a half more with each cut)
 /// should rounding make a sliver cross a line again and again.
 struct Polygon {
   std::array<Vec<2>, 20> corner;

@@ -112,12 +112,12 @@ void add_lines(const Polylines& lines, VtuFile& file) {
 }
 
 /// The particles in `order`. @param place  of a particle, by its index
-template <int Dim, class Place>
+template <int Dim, class Position>
 void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& particles, const Scene& scene,
-                     const std::vector<std::uint32_t>& order, const Place& place, double time,
+                     const std::vector<std::uint32_t>& order, const Position& position, double time,
                      const Polylines& lines = {}) {
   VtuFile file(order.size(),
-               [&](std::size_t i, double* out) { fill_vector<double, Dim>(place(order[i]), out); });
+               [&](std::size_t i, double* out) { fill_vector<double, Dim>(position(order[i]), out); });
   add_identity(particles, scene, order, file);
   if (particles.has(Quantity::velocity))
     file.add_point_data<float>(
@@ -147,15 +147,15 @@ void ParticleSeries<Dim>::append(const Particles<Dim>& particles, double time, c
 
 template <int Dim>
 void write_neighbourhood(const std::filesystem::path& vtu, const Particles<Dim>& particles,
-                         const Scene& scene, const std::vector<Vec<Dim>>& places, const Vec<Dim>& centre,
+                         const Scene& scene, const std::vector<Vec<Dim>>& positions, const Vec<Dim>& centre,
                          double reach, double time) {
   std::vector<std::uint32_t> order;
   for (const std::uint32_t p : order_by_id(particles)) {
-    if (!((places[p] - centre).template lpNorm<Eigen::Infinity>() <= reach)) continue;
+    if (!((positions[p] - centre).template lpNorm<Eigen::Infinity>() <= reach)) continue;
     order.push_back(p);
   }
   write_particles(
-      vtu, particles, scene, order, [&](std::uint32_t p) { return places[p]; }, time);
+      vtu, particles, scene, order, [&](std::uint32_t p) { return positions[p]; }, time);
 }
 
 template void write_neighbourhood(const std::filesystem::path&, const Particles<2>&, const Scene&,

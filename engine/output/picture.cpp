@@ -63,30 +63,30 @@ std::string axis_label(const Labels& labels, std::size_t axis) {
 double top_of(std::size_t lines) { return kFirstLine + kLine * static_cast<double>(lines) + kBelowTitles; }
 
 /// Pixels beside the box that its labels need.
-struct Sides {
+struct Margins {
   double left, right;
 };
 
-Sides sides_for(const Labels& labels, const Range& x, const Range& y, double scale) {
-  Sides sides{kLeft, labels.bar ? kRightWithBar : kRight};
+Margins margins_for(const Labels& labels, const Range& x, const Range& y, double scale) {
+  Margins margins{kLeft, labels.bar ? kRightWithBar : kRight};
   if (!labels.axes.empty()) {
     const Range across = in_unit(x, labels.length);
     const Ticks ticks = ticks_across(across, x.width() * scale);
     for (std::size_t k = 0; k < ticks.at.size(); ++k) {
       const double half = 0.5 * Canvas::text_width(ticks.label(k)), pixels = scale * labels.length.in_si;
-      sides.left = std::max(sides.left, half - (ticks.at[k] - across.lower) * pixels + kMargin);
-      sides.right = std::max(sides.right, half - (across.upper - ticks.at[k]) * pixels + kMargin);
+      margins.left = std::max(margins.left, half - (ticks.at[k] - across.lower) * pixels + kMargin);
+      margins.right = std::max(margins.right, half - (across.upper - ticks.at[k]) * pixels + kMargin);
     }
     const double number = ticks_up(in_unit(y, labels.length), y.width() * scale).width();
-    sides.left = std::max(sides.left, kBeforeNumber + number + kMargin);
+    margins.left = std::max(margins.left, kBeforeNumber + number + kMargin);
   }
   if (labels.bar) {
     const DisplayUnit unit = bar_unit(*labels.bar, labels.bar_unit);
     const double number = ticks_of_bar(in_unit(*labels.bar, unit), y.width() * scale).width();
-    sides.right = std::max({sides.right, kBar + kBarWidth + kAfterBar + number + kMargin,
-                            kBar + Canvas::text_width(unit.name) + kMargin});
+    margins.right = std::max({margins.right, kBar + kBarWidth + kAfterBar + number + kMargin,
+                              kBar + Canvas::text_width(unit.name) + kMargin});
   }
-  return sides;
+  return margins;
 }
 
 /// Round-off makes no pixel more.
@@ -98,29 +98,29 @@ double Picture::Layout::top() const { return top_of(lines); }
 
 Picture::Layout Picture::make_layout(Range x, Range y, const Labels& labels) {
   Layout layout{};
-  Sides sides{kLeft, labels.bar ? kRightWithBar : kRight};
+  Margins margins{kLeft, labels.bar ? kRightWithBar : kRight};
   constexpr int kTries = 3;  // wider labels make a smaller box, whose labels need no more
   for (int k = 0; k < kTries; ++k) {
-    layout.left = std::max(layout.left, sides.left);
-    layout.right = std::max(layout.right, sides.right);
-    const double room_x = kLongSide - layout.left - layout.right, room_y = kLongSide - top_of(2) - kBottom;
-    const auto fit = [&] { layout.scale = std::min(room_x / layout.x.width(), room_y / layout.y.width()); };
+    layout.left = std::max(layout.left, margins.left);
+    layout.right = std::max(layout.right, margins.right);
+    const double space_x = kLongSide - layout.left - layout.right, space_y = kLongSide - top_of(2) - kBottom;
+    const auto fit = [&] { layout.scale = std::min(space_x / layout.x.width(), space_y / layout.y.width()); };
     layout.x = x;
     layout.y = y;
     fit();
     widen(layout.x, kShortestBox / layout.scale);
     widen(layout.y, kShortestBox / layout.scale);
     fit();
-    sides = sides_for(labels, layout.x, layout.y, layout.scale);
+    margins = margins_for(labels, layout.x, layout.y, layout.scale);
   }
   layout.width = whole_pixels(layout.left + layout.x.width() * layout.scale + layout.right);
-  const double room = layout.width - 2 * kMargin;
+  const double space = layout.width - 2 * kMargin;
   const PictureText& longest = labels.longest;
   layout.note_below =
-      !longest.note.empty() && Canvas::text_width(longest.subtitle + ", " + longest.note) > room;
-  layout.title_lines = text_lines(longest.title, room, kMostTitleLines).size();
-  layout.lines = layout.title_lines + text_lines(longest.subtitle, room, kMostTitleLines).size();
-  if (layout.note_below) layout.lines += text_lines(longest.note, room, kMostTitleLines).size();
+      !longest.note.empty() && Canvas::text_width(longest.subtitle + ", " + longest.note) > space;
+  layout.title_lines = text_lines(longest.title, space, kMostTitleLines).size();
+  layout.lines = layout.title_lines + text_lines(longest.subtitle, space, kMostTitleLines).size();
+  if (layout.note_below) layout.lines += text_lines(longest.note, space, kMostTitleLines).size();
   layout.height = whole_pixels(layout.top() + layout.y.width() * layout.scale + kBottom);
   return layout;
 }
@@ -138,10 +138,10 @@ Picture::Picture(const Layout& layout, const Labels& labels, PictureFormat forma
 
 void Picture::write_titles(const PictureText& text) {
   canvas_.set_title(text.title);
-  const double room = canvas_.width() - 2 * kMargin;
+  const double space = canvas_.width() - 2 * kMargin;
   std::vector<std::string> lines;
   const auto add = [&](const std::string& part, std::size_t most) {
-    for (std::string& line : text_lines(part, room, std::max<std::size_t>(most, 1)))
+    for (std::string& line : text_lines(part, space, std::max<std::size_t>(most, 1)))
       lines.push_back(std::move(line));
   };
   add(text.title, layout_.title_lines);
@@ -173,7 +173,7 @@ void Picture::draw_axes() {
     canvas_.text({left - kBeforeNumber, y}, Align::right, up.label(k), kInk);
   }
   canvas_.text({left + 0.5 * width, bottom + 46}, Align::centre, axis_label(labels_, 0), kInk);
-  // Ends with the numbers below it, where there is room for all of it.
+  // Ends with the numbers below it, where there is space for all of it.
   const double end = std::max(left - kBeforeNumber, kMargin + Canvas::text_width(axis_label(labels_, 1)));
   canvas_.text({end, box_upper_left_.y - kAboveBox}, Align::right, axis_label(labels_, 1), kInk);
   draw_frame();

@@ -18,7 +18,7 @@ struct PictureText {
   std::string note;  ///< behind the subtitle, or below it in a narrow picture
 };
 
-/// What is written around the box; there is room for all of it.
+/// What is written around the box; there is space for all of it.
 struct Labels {
   /// The longest texts that this picture or another of its series may have.
   PictureText longest;

@@ -45,14 +45,14 @@ ViewBox::ViewBox(const std::array<Range, 3>& box, const DisplayUnit& unit)
   double beside = 0;  // pixels
   for (const Label& label : labels())
     beside = std::max(beside, Canvas::text_width(label.text) + std::abs(label.shift.x));
-  // Of kMostBox pixels the room beside the box on both sides; kLeastMargin has room for usual numbers.
+  // Of kMostBox pixels the space beside the box on both sides; kLeastMargin has space for usual numbers.
   const double margin = std::max(kLeastMargin, beside / std::max(beside, kMostBox - 2 * beside)) *
                         std::max(across_.width(), up_.width());
   across_ = {across_.lower - margin, across_.upper + margin};
   up_ = {up_.lower - margin, up_.upper + margin};
 }
 
-PixelPoint ViewBox::place(const Picture& picture, const Vec<3>& point) const {
+PixelPoint ViewBox::pixel_of(const Picture& picture, const Vec<3>& point) const {
   const Vec<3> view = to_view(point);
   return picture.at(view[0], view[1]);
 }
@@ -61,8 +61,8 @@ void ViewBox::draw_edges(Picture& picture) const {
   for (int c = 0; c < 8; ++c)
     for (int d = 0; d < 3; ++d)
       if ((c >> d & 1) == 0)
-        picture.canvas().line(place(picture, corner(lower_, upper_, c)),
-                              place(picture, corner(lower_, upper_, c | 1 << d)), 1.5, kBoxEdge);
+        picture.canvas().line(pixel_of(picture, corner(lower_, upper_, c)),
+                              pixel_of(picture, corner(lower_, upper_, c | 1 << d)), 1.5, kBoxEdge);
 }
 
 std::vector<ViewBox::Label> ViewBox::labels() const {
@@ -93,7 +93,7 @@ std::vector<ViewBox::Label> ViewBox::labels() const {
 
 void ViewBox::draw_labels(Picture& picture) const {
   for (const Label& label : labels()) {
-    const PixelPoint p = place(picture, label.at);
+    const PixelPoint p = pixel_of(picture, label.at);
     picture.canvas().text({p.x + label.shift.x, p.y + label.shift.y}, label.align, label.text, kLabelInk);
   }
 }

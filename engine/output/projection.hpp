@@ -26,7 +26,7 @@ class ViewBox {
   void draw_labels(Picture& picture) const;
 
  private:
-  PixelPoint place(const Picture& picture, const Vec<3>& point) const;
+  PixelPoint pixel_of(const Picture& picture, const Vec<3>& point) const;
 
   /// A text at a place of the box, so many pixels beside it.
   struct Label {

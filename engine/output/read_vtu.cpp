@@ -187,18 +187,19 @@ std::vector<double> VtuReader::values(const VtuArray& array) const {
 
 std::uint64_t VtuReader::checked_bytes(const VtuArray& array) const {
   const auto wrong = [&] { refuse(fmt::format("the data of '{}' are cut short or altered", array.name)); };
-  const std::uint64_t room = appended_.size();
+  const std::uint64_t available = appended_.size();
   const std::uint64_t tuple = bytes_of_type(array.type) * array.components;
-  if (array.tuples > kMostPacked * room / tuple || array.offset > room || room - array.offset < 3 * kWord)
+  if (array.tuples > kMostPacked * available / tuple || array.offset > available ||
+      available - array.offset < 3 * kWord)
     wrong();
   const std::uint64_t bytes = array.tuples * tuple;
   const Blocks blocks(appended_, array.offset);
-  if (blocks.count > (room - blocks.sizes) / kWord || blocks.size > kLargestBlock ||
+  if (blocks.count > (available - blocks.sizes) / kWord || blocks.size > kLargestBlock ||
       blocks.last > kLargestBlock)
     wrong();
   std::uint64_t at = blocks.begin(), unpacked = 0;
   for (std::uint64_t b = 0; b < blocks.count; ++b) {
-    if (blocks.packed(appended_, b) > room - at) wrong();
+    if (blocks.packed(appended_, b) > available - at) wrong();
     at += blocks.packed(appended_, b);
     unpacked += blocks.unpacked(b);
     if (unpacked > bytes) wrong();

@@ -50,7 +50,7 @@ std::uint64_t peak_memory_bytes() {
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
 
-void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 std::string program_text() {
   return fmt::format("mpmfast {} ({}), {}, {}", kVersion, kGit, kCompiler, kFlags);

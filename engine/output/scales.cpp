@@ -23,8 +23,8 @@ constexpr std::array<unsigned, 28> kBodies{
     0x00a5a5, 0xc33c78, 0xa587b4, 0x006969, 0xff965a, 0xffc3ff, 0x96d2a5, 0x875a78};
 
 template <std::size_t N>
-Colour interpolate(const std::array<unsigned, N>& points, double place) {
-  const double x = std::clamp(place, 0.0, 1.0) * (N - 1);
+Colour interpolate(const std::array<unsigned, N>& points, double position) {
+  const double x = std::clamp(position, 0.0, 1.0) * (N - 1);
   const auto i = std::min(static_cast<std::size_t>(x), N - 2);
   const double t = x - static_cast<double>(i);
   const Colour a = Colour::hex(points[i]), b = Colour::hex(points[i + 1]);
@@ -66,8 +66,8 @@ ColourScale::ColourScale(Range values) : range_(values) {
 
 Colour ColourScale::operator()(double value) const {
   if (std::isnan(value)) return {150, 150, 150};
-  const double place = (value - range_.lower) / range_.width();
-  return diverging_ ? interpolate(kDiverging, place) : interpolate(kSequential, place);
+  const double position = (value - range_.lower) / range_.width();
+  return diverging_ ? interpolate(kDiverging, position) : interpolate(kSequential, position);
 }
 
 Colour body_colour(std::size_t body) { return Colour::hex(kBodies[body % kBodies.size()]); }

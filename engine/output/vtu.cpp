@@ -30,12 +30,12 @@ void PackedArray::append(std::string_view data) {
 }
 
 void PackedArray::pack() {
-  std::vector<Bytef> room(compressBound(kBlock));
-  uLongf size = static_cast<uLongf>(room.size());
-  if (compress2(room.data(), &size, reinterpret_cast<const Bytef*>(block_.data()),
+  std::vector<Bytef> buffer(compressBound(kBlock));
+  uLongf size = static_cast<uLongf>(buffer.size());
+  if (compress2(buffer.data(), &size, reinterpret_cast<const Bytef*>(block_.data()),
                 static_cast<uLong>(block_.size()), kFastest) != Z_OK)
     throw std::runtime_error("zlib could not compress a particle column");
-  packed_.emplace_back(reinterpret_cast<const char*>(room.data()), size);
+  packed_.emplace_back(reinterpret_cast<const char*>(buffer.data()), size);
   block_.clear();
 }
 

@@ -35,7 +35,7 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
   AnyLaw law = surface.acts;
   if (auto* springs = std::get_if<Interface>(&law)) {
     const double unit = stiffest_modulus(scene) / cell;
-    springs->compression_stiffness = springs->pressed_stiffness();
+    springs->compression_stiffness = springs->overlap_stiffness();
     const auto all = {&springs->normal_stiffness, &springs->shear_stiffness, &springs->compression_stiffness};
     if (std::all_of(all.begin(), all.end(), [&](const double* one) { return *one >= kTied * unit; }))
       return Perfect{};
@@ -43,7 +43,7 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
   }
   if (auto* curves = std::get_if<NonlinearInterface>(&law)) {
     const double most = kStiffest * stiffest_modulus(scene) / cell;
-    curves->normal_curve = curves->pressed_curve(cell).widened(most);
+    curves->normal_curve = curves->curve_with_overlap(cell).widened(most);
     curves->shear_curve = curves->shear_curve.widened(most);
   }
   if (auto* bond = std::get_if<Cohesive>(&law)) {
@@ -51,7 +51,7 @@ inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
     double& stiffness = bond->initial_stiffness;
     stiffness = stiffness > 0 ? std::min(stiffness, kStiffest * unit) : kBonded * unit;
     stiffness = std::max(stiffness, kBrittle * bond->least_stiffness());
-    bond->compression_stiffness = std::min(bond->pressed_stiffness(), kStiffest * unit);
+    bond->compression_stiffness = std::min(bond->overlap_stiffness(), kStiffest * unit);
   }
   std::visit(
       [&](auto& one) {

@@ -108,9 +108,9 @@ double share_near_others(const Scene& scene) {
 std::string in_gibibytes(double bytes) { return fmt::format("{:.3g} GiB", bytes / 1073741824.0); }
 
 /// Of a picture that shows the box around all particles. It is drawn by output/picture.cpp: 1000 pixels wide
-/// or high, of which numbers, titles and the colour bar leave the plot kRoom.
+/// or high, of which numbers, titles and the colour bar leave the plot kPlotX by kPlotY.
 double pixels_of_picture(const Scene& scene) {
-  constexpr double kSide = 1000, kRoomX = 766, kRoomY = 852, kLeastRoom = 260;
+  constexpr double kSide = 1000, kPlotX = 766, kPlotY = 852, kLeastPlot = 260;
   if (scene.dimension() == 3) return kSide * kSide;
   const auto& size = scene.grid.size;
   Bounds box{{size[0], size[1], 0}, {}};
@@ -123,9 +123,9 @@ double pixels_of_picture(const Scene& scene) {
     }
   const auto width = [&](std::size_t d) { return std::max(box.upper[d] - box.lower[d], 0.01 * size[d]); };
   // Its sides may grow to those of the grid: of the shapes that it may come to have, that of most pixels.
-  const double steepness = std::clamp(kRoomY / kRoomX, width(1) / size[0], size[1] / width(0));
-  return (kSide - kRoomX + std::clamp(kRoomY / steepness, kLeastRoom, kRoomX)) *
-         (kSide - kRoomY + std::clamp(kRoomX * steepness, kLeastRoom, kRoomY));
+  const double steepness = std::clamp(kPlotY / kPlotX, width(1) / size[0], size[1] / width(0));
+  return (kSide - kPlotX + std::clamp(kPlotY / steepness, kLeastPlot, kPlotX)) *
+         (kSide - kPlotY + std::clamp(kPlotX * steepness, kLeastPlot, kPlotY));
 }
 
 /// Of a picture without its particles. A pixel takes 9 samples of 4 bytes, to which come 7 when it is

@@ -25,7 +25,7 @@ struct PassingNeed {
 /// tiles, the sort and contact
 PassingNeed passing_need(const Scene& scene, double particles, double later);
 
-/// Of the particles as they were seeded, those that a run with method.split makes room for in its estimates:
+/// Of the particles as they were seeded, those that a run with method.split makes space for in its estimates:
 /// each one halved once. A stretch of 2 of all particles beyond the longest edge takes as much.
 inline constexpr double kSplitAllowance = 1;
 

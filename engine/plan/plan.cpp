@@ -39,8 +39,8 @@ void plan_method(const MethodSpec& method, Plan& plan) {
                       : method.strain == StrainKind::last || method.strain == StrainKind::last_re_extrapolated
                           ? 0
                           : 0.5;
-  plan.force_with_mass =
-      plan.strain_first == 0 && plan.update != ParticleUpdate::apic && plan.depth != Depth::hoop;
+  plan.force_with_mass = plan.strain_first == 0 && plan.update != ParticleUpdate::apic &&
+                         plan.plane_kind != PlaneKind::axisymmetric;
   static_assert(kAllTerms == MethodSpec::kAllTerms && kInverse == MethodSpec::kInverse);
   plan.deformation_terms = method.deformation_terms;
 }
@@ -127,7 +127,7 @@ void plan_areas(const Scene& scene, Plan& plan) {
     need(scene.contact.area == AreaKind::nodal_volume ? Nodal::volume : Nodal::volume_gradient);
   if (!plan.pairs.empty() && plan.fields.size() > 2) need(Nodal::volume);
   if (!plan.displacements) return;
-  if (plan.bridges) need(Nodal::volume_gradient);
+  if (plan.interface_springs) need(Nodal::volume_gradient);
   need(Nodal::mass_offset);
   need(Nodal::mass_slope);
   if (scene.contact.separation != SeparationKind::displacement)
@@ -188,13 +188,14 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (plan.split_edge > 0) plan.particle_columns.push_back(Quantity::domain_share);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
   for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
-  if (plan.depth != Depth::held) plan.particle_columns.push_back(Quantity::out_of_plane_stretch);
+  if (plan.plane_kind != PlaneKind::plane_strain)
+    plan.particle_columns.push_back(Quantity::out_of_plane_stretch);
   plan.nodal_columns = {Nodal::mass, Nodal::momentum, Nodal::force, Nodal::velocity};
   if (plan.update == ParticleUpdate::xpic)
     for (Nodal q : {Nodal::star, Nodal::next, Nodal::series}) plan.nodal_columns.push_back(q);
   if (plan.occupation > 0) plan.nodal_columns.push_back(Nodal::occupied);
   if (plan.re_extrapolate) plan.nodal_columns.push_back(Nodal::re_extrapolated);
-  if (plan.moves_as_strained()) plan.nodal_columns.push_back(Nodal::pressed);
+  if (plan.moves_as_strained()) plan.nodal_columns.push_back(Nodal::compression_weight);
   if (plan.contact && plan.contact_geometry) plan_contact_columns(scene.contact, plan);
   plan_areas(scene, plan);
   if (plan.heat) plan_heat(scene, plan);
@@ -206,9 +207,9 @@ void plan_columns(const Scene& scene, Plan& plan) {
 Plan make_plan(const Scene& scene) {
   Plan plan;
   plan.dimension = scene.dimension();
-  plan.depth = scene.space == Space::plane_stress   ? Depth::relaxed
-               : scene.space == Space::axisymmetric ? Depth::hoop
-                                                    : Depth::held;
+  plan.plane_kind = scene.space == Space::plane_stress   ? PlaneKind::plane_stress
+                    : scene.space == Space::axisymmetric ? PlaneKind::axisymmetric
+                                                         : PlaneKind::plane_strain;
   plan.basis = scene.method.basis;
   plan.heat = scene.heat.active;
   plan_method(scene.method, plan);
@@ -223,11 +224,11 @@ Plan make_plan(const Scene& scene) {
   plan.contact = (meets && !plan.penalty) || cracked;
   plan.contact_geometry = any_law(scene, touches);
   plan.keeps_fits = plan.contact && plan.contact_geometry && scene.contact.refit > 0;
-  const auto bridges = [](const auto& law) { return law.scope == LawScope::interface; };
-  plan.bridges = plan.contact && any_law(scene, bridges);
+  const auto interface_springs = [](const auto& law) { return law.scope == LawScope::interface; };
+  plan.interface_springs = plan.contact && any_law(scene, interface_springs);
   plan.cracks_alone = cracked && plan.first_side.size() == 1;
-  plan.displacements = plan.bridges || (cracked && plan.contact_geometry);
-  plan.exact_fields = plan.bridges || any_law(scene, ties);
+  plan.displacements = plan.interface_springs || (cracked && plan.contact_geometry);
+  plan.exact_fields = plan.interface_springs || any_law(scene, ties);
   plan.first_correction = scene.contact.corrections == 2;
   plan.one_set = plan.re_extrapolate && scene.contact.decides_once();
   plan.paired = plan.contact && plan.order > 1 && !plan.full_mass && scene.method.contact_correction &&

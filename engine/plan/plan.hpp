@@ -15,7 +15,7 @@ namespace mpmfast {
 
 struct Plan {
   int dimension = 2;
-  Depth depth = Depth::held;
+  PlaneKind plane_kind = PlaneKind::plane_strain;
   BasisKind basis{};
   ParticleUpdate update{};
   PositionUpdate position{};
@@ -37,8 +37,8 @@ struct Plan {
   bool one_set = false;           ///< which pairs touch is decided once a step, for both corrections and v′
   bool contact_geometry = false;  ///< some law asks for normals and separations
   bool keeps_fits = false;        ///< normals outlast a step
-  bool bridges = false;           ///< some pair is joined by springs
-  bool cracks_alone = false;      ///< contact is that of the sides of cracks: only what reaches them has any
+  bool interface_springs = false;  ///< some pair is joined by springs
+  bool cracks_alone = false;       ///< contact is that of the sides of cracks: only what reaches them has any
   bool displacements = false;     ///< are projected with their slopes: for the jumps of interfaces and cracks
   bool exact_fields = false;      ///< some pair is tied for good, or by springs
   bool geometry = false;          ///< volume gradients and mean positions are projected

@@ -72,10 +72,12 @@ auto as_law_sees(const State<Dim>& state, const StateView<Dim>& columns, std::si
   MaterialState<Dim, double> evolving = state_of<Law>(columns, p);
   if constexpr (Evolving<Law>) evolving.volume_ratio = columns.volume_ratio[p] * cooled_volume(columns, p);
   if constexpr (Dim == 2) {
-    if (state.depth != Depth::held || columns.thermal_stretch) {
+    if (state.plane_kind != PlaneKind::plane_strain || columns.thermal_stretch) {
       double full[9];
       embed(deformation,
-            state.depth == Depth::held ? 1.0 : state.particles.column(Quantity::out_of_plane_stretch)[p],
+            state.plane_kind == PlaneKind::plane_strain
+                ? 1.0
+                : state.particles.column(Quantity::out_of_plane_stretch)[p],
             full);
       cool_at(columns, p, full);
       return f.template operator()<3>(full, widened(evolving));
@@ -187,8 +189,8 @@ struct Filling {
 
 /// Particle p of body b, unstrained at x. @param share  of a domain that is its own
 template <int Dim>
-void place(const BodySpec& body, std::size_t b, const Vec3& x, double share, const Filling& domain,
-           std::size_t p, Particles<Dim>& particles) {
+void seed_particle(const BodySpec& body, std::size_t b, const Vec3& x, double share, const Filling& domain,
+                   std::size_t p, Particles<Dim>& particles) {
   if (particles.has(Quantity::out_of_plane_stretch)) particles.column(Quantity::out_of_plane_stretch)[p] = 1;
   for (int d = 0; d < Dim; ++d) {
     const auto k = static_cast<std::size_t>(d);
@@ -218,7 +220,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
   state.grid.cell = scene.grid.cell;
   state.grid.inverse_cell = 1 / scene.grid.cell;
   state.tiling.set_domain(nodes);
-  state.depth = plan.depth;
+  state.plane_kind = plan.plane_kind;
   state.body_field = plan.body_field;
   state.field_rigid = plan.field_rigid;
   state.field_base.clear();
@@ -272,7 +274,9 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     const double density = density_of(scene.materials[static_cast<std::size_t>(scene.bodies[b].material)]);
     const Filling domain{volume, volume * density};
     // Axisymmetric particles are rings of a full turn.
-    const auto around = [&](const Vec3& x) { return plan.depth == Depth::hoop ? kFullTurn * x[0] : 1.0; };
+    const auto around = [&](const Vec3& x) {
+      return plan.plane_kind == PlaneKind::axisymmetric ? kFullTurn * x[0] : 1.0;
+    };
     const auto share_of = [&](std::size_t k) {
       return around(seeds[b].position[k]) * (seeds[b].share.empty() ? 1.0 : seeds[b].share[k]);
     };
@@ -287,11 +291,11 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
       inside -= kOnSurface * layer / of_body;
       std::size_t at = p + seeds[b].position.size();
       for (int k = 0; k < surface.count; ++k)
-        place(scene.bodies[b], b, surfaces[b].points[static_cast<std::size_t>(k)],
-              kOnSurface * layer / domain.volume * first[k] / area, domain, at++, particles);
+        seed_particle(scene.bodies[b], b, surfaces[b].points[static_cast<std::size_t>(k)],
+                      kOnSurface * layer / domain.volume * first[k] / area, domain, at++, particles);
     }
     for (std::size_t k = 0; k < seeds[b].position.size(); ++k, ++p) {
-      place(scene.bodies[b], b, seeds[b].position[k], inside * share_of(k), domain, p, particles);
+      seed_particle(scene.bodies[b], b, seeds[b].position[k], inside * share_of(k), domain, p, particles);
       if (!seeds[b].angle.empty()) turn_domain(particles, p, seeds[b].angle[k]);
     }
     if (!surfaces.empty()) p += static_cast<std::size_t>(state.surfaces.bodies[b].count);
@@ -322,8 +326,8 @@ void refresh_stress(State<Dim>& state) {
       }
       std::copy(t, t + kSymmetric<N>, tau);
     });
-    if constexpr (Dim == 2 && Relaxes<Law>)
-      if (state.depth == Depth::relaxed)
+    if constexpr (Dim == 2 && HasPlaneStress<Law>)
+      if (state.plane_kind == PlaneKind::plane_stress)
         c2 = law.plate_wave_speed_squared(f, state.particles.column(Quantity::out_of_plane_stretch)[p]);
     for (int s = 0; s < kSymmetric<Dim>; ++s)
       state.particles.column(Quantity::kirchhoff_stress, s)[p] = tau[s];

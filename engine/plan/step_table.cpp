@@ -56,7 +56,7 @@ std::string heat_said(const Plan& plan) {
 std::string loads_said(const Scene& scene, const Plan& plan) {
   std::string what = when(plan.gravity, "body force");
   for (const LoadSpec& load : scene.loads) {
-    const char* const said = std::visit([](const auto& spec) { return spec.kSays; }, load);
+    const char* const said = std::visit([](const auto& spec) { return spec.kDescription; }, load);
     if (what.find(said) == std::string::npos) what += (what.empty() ? "" : ", ") + std::string(said);
   }
   return what;
@@ -78,8 +78,8 @@ const std::array<TaskRow, kTasks> kTable{{
     {Task::sort, "sort", Timer::sort, "particles are sorted by row of tiles, field, tile, body and cell", "",
      "Step::sort_if_due", true,
      [](S, P) { return std::string("sort, when a particle has moved by half a cell"); }},
-    {Task::look_at_cracks, "look_at_cracks", Timer::contact_nodes,
-     "which side of a crack a particle sees nodes on", "", "Step::look_at_cracks", true,
+    {Task::find_crack_sides, "look_at_cracks", Timer::contact_nodes,
+     "which side of a crack a particle sees nodes on", "", "Step::find_crack_sides", true,
      [](S scene, P) {
        return when(has_cracks(scene), "sides of cracks, when particles or cracks have moved");
      }},
@@ -184,11 +184,12 @@ const std::array<TaskRow, kTasks> kTable{{
      false, [](S, P plan) { return when(has_rigid(plan), "rigid bodies move"); }},
     {Task::move_cracks, "move_cracks", Timer::contact_nodes, "points of cracks move with the grid", "",
      "Cracks::move", false, [](S scene, P) { return when(has_cracks(scene), "cracks move"); }},
-    {Task::leave, "leave", Timer::sort, "particles leave the grid", "", "Step::let_leave", true,
+    {Task::leave, "leave", Timer::sort, "particles leave the grid", "", "Step::remove_outflow", true,
      [](S scene, P) {
-       return when(scene.grid.leaving == LeavingKind::outflow, "particles beyond the grid are taken out");
+       return when(scene.grid.outflow == OutflowKind::outflow, "particles beyond the grid are taken out");
      }},
-    {Task::book, "book", Timer::nodes, "impulses and energies are booked", "", "Step::book", false, nullptr},
+    {Task::record_energies, "book", Timer::nodes, "impulses and energies are recorded", "",
+     "Step::record_energies", false, nullptr},
     {Task::grow_cracks, "grow_cracks", Timer::contact_nodes, "cracks grow", "", "Step::grow_cracks", true,
      [](S scene, P) {
        return when(std::any_of(scene.cracks.begin(), scene.cracks.end(),

@@ -17,7 +17,7 @@ enum class Task : std::uint8_t {
   start_rigid,
   split,
   sort,
-  look_at_cracks,
+  find_crack_sides,
   project,
   project_geometry,
   press_surfaces,
@@ -48,7 +48,7 @@ enum class Task : std::uint8_t {
   move_rigid,
   move_cracks,
   leave,
-  book,
+  record_energies,
   grow_cracks,
 };
 

@@ -34,18 +34,18 @@ std::map<int, Surface> surfaces(const State<Dim>& state) {
   const auto& tiling = state.tiling;
   std::vector<double> inside(static_cast<std::size_t>(state.fields()), 0.0);
   const auto for_each_slot = [&](const auto& f) {
-    for (const auto& stack : tiling.stacks)
-      for (int t = stack.begin; t < stack.end; ++t)
+    for (const auto& block : tiling.node_blocks)
+      for (int t = block.begin; t < block.end; ++t)
         for (int local = 0; local < kTileNodes<Dim>; ++local)
-          f(stack, static_cast<std::size_t>(tiling.node_tiles[static_cast<std::size_t>(t)].field),
+          f(block, static_cast<std::size_t>(tiling.node_tiles[static_cast<std::size_t>(t)].field),
             mass[t * kTileNodes<Dim> + local]);
   };
   for_each_slot(
       [&](const auto&, std::size_t field, double m) { inside[field] = std::max(inside[field], m); });
   std::map<int, Surface> layers;
-  for_each_slot([&](const auto& stack, std::size_t field, double m) {
+  for_each_slot([&](const auto& block, std::size_t field, double m) {
     if (!(m > 0 && m < kInside * inside[field])) return;
-    Surface& layer = layers[stack.first_node[Dim - 1] / kTileSide];
+    Surface& layer = layers[block.first_node[Dim - 1] / kTileSide];
     ++(state.field_rigid[field] ? layer.rigid : layer.deformable);
   });
   return layers;
@@ -87,10 +87,10 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   constexpr std::size_t kEnough = 200;
   const std::size_t now = step.contact_list().nodes.size();
   need.nodes = std::max(need.nodes, kMore * static_cast<double>(now));
-  const double of_places = 4.0 * static_cast<double>(state.tiling.places());
+  const double of_nodes = 4.0 * static_cast<double>(state.tiling.block_nodes());
   if (now >= kEnough) {  // what each takes is known
-    const double taken = static_cast<double>(step.contact_bytes()) - of_places;
-    need.bytes = of_places + taken * need.nodes / static_cast<double>(now);
+    const double taken = static_cast<double>(step.contact_bytes()) - of_nodes;
+    need.bytes = of_nodes + taken * need.nodes / static_cast<double>(now);
     return need;
   }
   constexpr double kGrowth = 1.25;  // lists grow by doubling
@@ -105,7 +105,7 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
     need.bytes +=
         std::min(need.nodes, kept + ahead) * kFilled * particles_of_cloud<Dim>(scene) * 8 * (Dim + shapes);
   }
-  need.bytes += kGrowth * of_node * need.nodes + of_places;
+  need.bytes += kGrowth * of_node * need.nodes + of_nodes;
   return need;
 }
 

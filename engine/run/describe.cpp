@@ -85,7 +85,7 @@ std::string grid_text(const Scene& scene) {
 
 std::string contact_text(const ContactSpec& contact) {
   if (!contact.active) return "none: all bodies share one velocity field";
-  std::string law = std::visit([](const auto& one) { return std::string(one.kWord); }, contact.law.acts);
+  std::string law = std::visit([](const auto& one) { return std::string(one.kKeyword); }, contact.law.acts);
   if (std::holds_alternative<Coulomb>(contact.law.acts))
     law += fmt::format(", friction {:g}", contact.law.friction);
   std::string pairs;
@@ -111,7 +111,7 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const double made = step.plan().split_edge > 0 ? kSplitAllowance : 0,
                made_bytes = made * static_cast<double>(particles.bytes() + state.tiling.bytes());
   const PassingNeed passing = passing_need(scene, (1 + made) * static_cast<double>(particles.size()), later);
-  const double program = kProgramBytes + static_cast<double>(step.room_bytes()) +
+  const double program = kProgramBytes + static_cast<double>(step.workspace_bytes()) +
                          (scene.output.checkpoint.active ? kCheckpointBytes : 0);
   std::string text = fmt::format(
       "{} of particles ({} bytes each), {} of nodes, {} of tiles and sorting, {} of the program,",
@@ -196,7 +196,7 @@ std::string describe(const Scene& scene, bool verbose) {
   }
   if (!overlap.empty()) line("overlap", overlap);
   line("node slots", fmt::format("{} in {} tiles, over {} places", step.state().tiling.slots(),
-                                 step.state().tiling.node_tiles.size(), step.state().tiling.places()));
+                                 step.state().tiling.node_tiles.size(), step.state().tiling.block_nodes()));
   line("memory", memory);
   line("checkpoint",
        checkpoint_text(scene.output.checkpoint, planned + particles.size() * sizeof(std::uint64_t)));

@@ -15,7 +15,7 @@ namespace {
 
 /// "coulomb, friction 0.3"
 std::string law_text(const SurfaceLaw& law) {
-  std::string text = std::visit([](const auto& one) { return std::string(one.kWord); }, law.acts);
+  std::string text = std::visit([](const auto& one) { return std::string(one.kKeyword); }, law.acts);
   if (std::holds_alternative<Coulomb>(law.acts)) text += fmt::format(", friction {:g}", law.friction);
   return text;
 }

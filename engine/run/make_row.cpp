@@ -85,7 +85,7 @@ HistoryRow make_row(Step<Dim>& step, const Scene& scene, double dt, RunCounters<
   row.dissipated = step.dissipated_energy();
   row.friction = sums.friction_work;
   row.interface = sums.interface_loss;
-  row.joints = step.joint_energy();
+  row.joints = step.interface_energy();
   row.boundary_work = sums.boundary_work;
   row.body_force_work = sums.body_force_work;
   fill_particle_sums(state.particles, scene, row);

@@ -13,7 +13,7 @@ namespace mpmfast {
 /// What left the grid so far, in a scene where that is allowed.
 template <int Dim>
 std::optional<Outflow> outflow_of(const Step<Dim>& step, const Scene& scene) {
-  return scene.grid.leaving == LeavingKind::outflow ? std::optional(step.sums().outflow) : std::nullopt;
+  return scene.grid.outflow == OutflowKind::outflow ? std::optional(step.sums().outflow) : std::nullopt;
 }
 
 /// Forces are means since the last row, which the counters remember; this one becomes the last.

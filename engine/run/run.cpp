@@ -283,20 +283,20 @@ class Run {
     };
     std::vector<std::string> warnings;
     attempt([&] { warnings = all_warnings(summarise("failed", failure.what())); });
-    if (physical && physical->place()) attempt([&] { write_failed(*physical->place()); });
+    if (physical && physical->position()) attempt([&] { write_failed(*physical->position()); });
     attempt([&] { write_frame(); });
     attempt([&] { draw("last"); });
     return warnings;
   }
 
-  void write_failed(const RunFailure::Place& place) {
+  void write_failed(const RunFailure::Position& position) {
     step_.find_stresses();
     const auto& state = step_.state();
     Vec<Dim> centre;
-    for (int d = 0; d < Dim; ++d) centre[d] = place[static_cast<std::size_t>(d)];
-    std::vector<Vec<Dim>> places;
-    for (std::size_t p = 0; p < state.particles.size(); ++p) places.push_back(step_.place_of(p));
-    write_neighbourhood(options_.folder / "failed.vtu", state.particles, scene_, places, centre,
+    for (int d = 0; d < Dim; ++d) centre[d] = position[static_cast<std::size_t>(d)];
+    std::vector<Vec<Dim>> positions;
+    for (std::size_t p = 0; p < state.particles.size(); ++p) positions.push_back(step_.position_of(p));
+    write_neighbourhood(options_.folder / "failed.vtu", state.particles, scene_, positions, centre,
                         kFailureReach * state.grid.cell, state.time);
   }
 
@@ -396,14 +396,14 @@ RunSummary go_on(const Scene& scene, const RunOptions& options, const NextOrigin
 
 RunSummary run_scene(const Scene& scene, const RunOptions& options) {
   const ThreadCount threads(options.threads);
-  forget_peak_memory();
+  reset_peak_memory();
   if (scene.dimension() == 3) return Run<3>(scene, options).execute();
   return Run<2>(scene, options).execute();
 }
 
 std::optional<RunSummary> resume_run(const RunOptions& options) {
   const ThreadCount threads(options.threads);
-  forget_peak_memory();
+  reset_peak_memory();
   const std::filesystem::path path = options.folder / kCheckpointName;
   std::error_code error;
   if (!std::filesystem::is_directory(options.folder, error))

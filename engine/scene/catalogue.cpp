@@ -9,16 +9,16 @@ namespace mpmfast {
 namespace {
 
 template <class E, std::size_t N>
-std::vector<CatalogueEntry> words_of(const std::array<Word<E>, N>& words) {
+std::vector<CatalogueEntry> keywords_of(const std::array<Keyword<E>, N>& words) {
   std::vector<CatalogueEntry> out;
-  for (const Word<E>& word : words) out.push_back({word.name, "", word.says});
+  for (const Keyword<E>& word : words) out.push_back({word.name, "", word.description});
   return out;
 }
 
 std::string sentence_on(const std::string& pattern) {
-  std::string says = known_at(pattern).says;
-  if (!says.empty()) says.pop_back();  // the full stop
-  return says;
+  std::string description = known_at(pattern).description;
+  if (!description.empty()) description.pop_back();  // the full stop
+  return description;
 }
 
 /// Materials and shapes: a name, its keys, a line. The map of the keys stands at before + name + after.
@@ -26,26 +26,28 @@ template <class Kind>
 std::vector<CatalogueEntry> kinds_of(const std::vector<Kind>& kinds, const std::string& before,
                                      const std::string& after = "") {
   std::vector<CatalogueEntry> out;
-  for (const Kind& kind : kinds) out.push_back({kind.name, keys_text(before + kind.name + after), kind.says});
+  for (const Kind& kind : kinds)
+    out.push_back({kind.name, keys_text(before + kind.name + after), kind.description});
   return out;
 }
 
 /// A law with its parameters.
 std::vector<CatalogueEntry> laws() {
   std::vector<CatalogueEntry> out;
-  for (const ContactLawKind& law : contact_laws()) out.push_back({law.name, law_keys_text(law), law.says});
+  for (const ContactLawKind& law : contact_laws())
+    out.push_back({law.name, law_keys_text(law), law.description});
   return out;
 }
 
 std::vector<CatalogueEntry> boundaries() {
-  std::vector<CatalogueEntry> out = words_of(kFaceKinds);
+  std::vector<CatalogueEntry> out = keywords_of(kFaceKinds);
   out.push_back({"{…}", keys_text("boundaries.FACE"), sentence_on("boundaries.FACE")});
   out.push_back({"NAME: {…}", keys_text("boundaries.NAME"), sentence_on("boundaries.NAME")});
   return out;
 }
 
 std::vector<CatalogueEntry> seedings() {
-  std::vector<CatalogueEntry> out = words_of(kSeedings);
+  std::vector<CatalogueEntry> out = keywords_of(kSeedings);
   out.push_back({"{angle: …}", "", sentence_on("bodies[].seeding.angle")});
   return out;
 }
@@ -71,26 +73,26 @@ struct Topic {
   std::vector<CatalogueEntry> (*entries)();
 };
 constexpr Topic kTopics[] = {
-    {"spaces", [] { return words_of(kSpaces); }},
+    {"spaces", [] { return keywords_of(kSpaces); }},
     {"materials", [] { return kinds_of(material_kinds(), "materials.NAME<model=", ">"); }},
-    {"bases", [] { return words_of(kBases); }},
-    {"updates", [] { return words_of(kUpdates); }},
-    {"strains", [] { return words_of(kStrains); }},
-    {"deformation_terms", [] { return words_of(kDeformationTerms); }},
-    {"positions", [] { return words_of(kPositions); }},
-    {"published", [] { return words_of(kPublishedContacts); }},
-    {"normals", [] { return words_of(kNormals); }},
-    {"separations", [] { return words_of(kSeparations); }},
-    {"detections", [] { return words_of(kDetections); }},
+    {"bases", [] { return keywords_of(kBases); }},
+    {"updates", [] { return keywords_of(kUpdates); }},
+    {"strains", [] { return keywords_of(kStrains); }},
+    {"deformation_terms", [] { return keywords_of(kDeformationTerms); }},
+    {"positions", [] { return keywords_of(kPositions); }},
+    {"published", [] { return keywords_of(kPublishedContacts); }},
+    {"normals", [] { return keywords_of(kNormals); }},
+    {"separations", [] { return keywords_of(kSeparations); }},
+    {"detections", [] { return keywords_of(kDetections); }},
     {"laws", laws},
-    {"areas", [] { return words_of(kAreas); }},
-    {"fields", [] { return words_of(kManyFields); }},
-    {"jumps", [] { return words_of(kJumps); }},
-    {"growth", [] { return words_of(kGrowthRules); }},
+    {"areas", [] { return keywords_of(kAreas); }},
+    {"fields", [] { return keywords_of(kManyFields); }},
+    {"jumps", [] { return keywords_of(kJumps); }},
+    {"growth", [] { return keywords_of(kGrowthRules); }},
     {"shapes", [] { return kinds_of(shape_kinds(), "bodies[]."); }},
     {"seedings", seedings},
     {"boundaries", boundaries},
-    {"leaving", [] { return words_of(kLeaving); }},
+    {"leaving", [] { return keywords_of(kOutflowKinds); }},
     {"output", [] { return keys_of("output"); }},
     {"pictures", pictures},
 };

@@ -8,7 +8,7 @@
 namespace mpmfast {
 
 struct CatalogueEntry {
-  std::string name, keys, says;  ///< keys may be empty
+  std::string name, keys, description;  ///< keys may be empty
 };
 
 /// materials, bases, updates, …

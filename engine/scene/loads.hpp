@@ -18,7 +18,7 @@ struct LoadNeeds {
 
 /// A pressure p on the surface of a body: the traction −p n, n the outward normal.
 struct PressureSpec {
-  static constexpr const char* kSays = "pressure on surfaces";
+  static constexpr const char* kDescription = "pressure on surfaces";
   int body = 0;                ///< index into Scene::bodies
   TimeTable value{{0}, {0}};   ///< p, Pa
   std::optional<Shape> where;  ///< holds the loaded part of the surface at the start; none: all of it

@@ -65,7 +65,7 @@ std::optional<Node> read_tree(const std::string& text, const std::filesystem::pa
 }
 
 /// @return the places of the bodies
-std::vector<BodyPlace> read_sections(const Node& root, Scene& scene, Problems& problems) {
+std::vector<BodyLocation> read_sections(const Node& root, Scene& scene, Problems& problems) {
   Keys top(Value(root, "", problems), "a map {title, space, grid, time, materials, bodies, …}");
   if (!top.reader().valid()) return {};
   if (find_value(root, "scene") && !find_value(root, "bodies")) {
@@ -91,10 +91,10 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file,
   Scene scene;
   scene.file = file;
   const auto root = read_tree(text, file, overrides, problems);
-  const auto places = root ? read_sections(*root, scene, problems) : std::vector<BodyPlace>();
+  const auto locations = root ? read_sections(*root, scene, problems) : std::vector<BodyLocation>();
   if (!problems.empty()) throw SceneError(problems.sorted());
   if (warnings) {
-    find_suspicions(*root, scene, places, problems);
+    find_suspicions(*root, scene, locations, problems);
     *warnings = problems.sorted();
   }
   scene.resolved_yaml = write_scene(scene);

@@ -66,13 +66,13 @@ enum class JumpKind { extrapolated, integrated };
 
 /// What becomes of a particle a cell beyond the grid: the run stops as failed, or goes on without it; or
 /// walls let none come there.
-enum class LeavingKind { stop, outflow, wall };
+enum class OutflowKind { stop, outflow, wall };
 
 struct GridSpec {
   Vec3 origin{0, 0, 0};  ///< m, lower corner of the domain that particles may occupy; a node lies there
   Vec3 size{0, 0, 0};    ///< m
   double cell = 0;       ///< m, edge of a (cubic) cell
-  LeavingKind leaving = LeavingKind::stop;
+  OutflowKind outflow = OutflowKind::stop;
 };
 
 struct TimeSpec {
@@ -137,7 +137,7 @@ struct BodySpec {
 
 /// Where a wall acts: on the nodes at and beyond its plane; at the plane where that cuts a cell; or on what
 /// reaches the plane, which it pushes and never pulls.
-enum class WallPlace { nodes, plane, surface };
+enum class WallEnforcement { nodes, plane, surface };
 
 /// A half-space beyond a plane normal to an axis: wall, piston, symmetry plane.
 struct WallSpec {
@@ -145,8 +145,8 @@ struct WallSpec {
   bool upper = false;   ///< what is at and beyond `position` in +axis (true) or −axis direction
   double position = 0;  ///< m, at time 0
   TimeTable speed;      ///< m/s along +axis; the plane moves with it
-  bool held = false;    ///< also fixes the tangential velocity
-  WallPlace place = WallPlace::nodes;
+  bool fixed = false;   ///< also fixes the tangential velocity
+  WallEnforcement enforcement = WallEnforcement::nodes;
   double friction = 0;  ///< Coulomb's, of a wall at the surface of bodies
 };
 /// Prescribed velocity along one direction at every node inside a box.

@@ -24,8 +24,9 @@ double wave_speed(const MaterialSpec& material) {
 /// What makes a reader of the scene raise an eyebrow: unit mistakes above all.
 class Suspicions {
  public:
-  Suspicions(const Node& root, const Scene& scene, const std::vector<BodyPlace>& places, Problems& found)
-      : root_(root), scene_(scene), places_(places), found_(found) {
+  Suspicions(const Node& root, const Scene& scene, const std::vector<BodyLocation>& locations,
+             Problems& found)
+      : root_(root), scene_(scene), locations_(locations), found_(found) {
     for (const MaterialSpec& material : scene.materials) speed_.push_back(wave_speed(material));
   }
 
@@ -33,7 +34,7 @@ class Suspicions {
     materials();
     bodies();
     if (!doubtful_) times();
-    find_idle_cells(place_of("grid.size"), scene_, found_);
+    find_idle_cells(location_of("grid.size"), scene_, found_);
     friction(scene_.contact.law.friction, "contact.friction");
     for (std::size_t k = 0; k < scene_.contact.pairs.size(); ++k)
       if (scene_.contact.pairs[k].law.friction != scene_.contact.law.friction)
@@ -71,11 +72,11 @@ class Suspicions {
     }
     return *node;
   }
-  Place place_of(const std::string& path) const { return node_at(path).place; }
+  SourceLocation location_of(const std::string& path) const { return node_at(path).location; }
   bool is_bare(const std::string& path) const { return parse_number(node_at(path).scalar).has_value(); }
 
   void say(const std::string& path, const std::string& what, const std::string& hint = "") {
-    found_.add(place_of(path), path, what, hint);
+    found_.add(location_of(path), path, what, hint);
   }
 
   void materials() {
@@ -85,7 +86,7 @@ class Suspicions {
       const MaterialSpec& material = scene_.materials[m];
       const std::string path = "materials." + material.name;
       if (!used.contains(static_cast<int>(m))) {  // a file that others include may hold more than each needs
-        if (!found_.is_included(place_of(path).source)) say(path, "no body is made of this material");
+        if (!found_.is_included(location_of(path).source)) say(path, "no body is made of this material");
         continue;
       }
       if (speed_[m] == 0) continue;
@@ -141,7 +142,7 @@ class Suspicions {
       const BodySpec& body = scene_.bodies[b];
       const double speed = speed_[static_cast<std::size_t>(body.material)];
       if (speed == 0) continue;
-      const std::string& path = places_[b].entry.path();
+      const std::string& path = locations_[b].entry.path();
       const double moves = std::hypot(body.velocity[0], body.velocity[1], body.velocity[2]);
       if (moves > speed)
         say(path + ".velocity",
@@ -235,7 +236,7 @@ class Suspicions {
     const bool held =
         std::any_of(scene_.boundaries.begin(), scene_.boundaries.end(), [&](const auto& boundary) {
           const auto* wall = std::get_if<WallSpec>(&boundary.condition);
-          return !wall || wall->held || (wall->axis == axis && wall->upper == (pull > 0));
+          return !wall || wall->fixed || (wall->axis == axis && wall->upper == (pull > 0));
         });
     const bool rigid = std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const BodySpec& body) {
       return speed_[static_cast<std::size_t>(body.material)] == 0;
@@ -347,7 +348,7 @@ class Suspicions {
 
   const Node& root_;
   const Scene& scene_;
-  const std::vector<BodyPlace>& places_;
+  const std::vector<BodyLocation>& locations_;
   Problems& found_;
   std::vector<double> speed_;  ///< of waves in each material
   bool doubtful_ = false;      ///< these speeds
@@ -355,9 +356,9 @@ class Suspicions {
 
 }  // namespace
 
-void find_suspicions(const Node& root, const Scene& scene, const std::vector<BodyPlace>& places,
+void find_suspicions(const Node& root, const Scene& scene, const std::vector<BodyLocation>& locations,
                      Problems& found) {
-  Suspicions(root, scene, places, found).all();
+  Suspicions(root, scene, locations, found).all();
   find_suspicious_text(root, found);
 }
 

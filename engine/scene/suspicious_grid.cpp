@@ -47,7 +47,7 @@ std::string lengths_text(const Vec3& lengths, std::size_t count) {
 
 }  // namespace
 
-void find_idle_cells(const Place& place, const Scene& scene, Problems& found) {
+void find_idle_cells(const SourceLocation& location, const Scene& scene, Problems& found) {
   const GridSpec& grid = scene.grid;
   const auto dimension = static_cast<std::size_t>(scene.dimension());
   std::vector<Bounds> boxes;
@@ -70,7 +70,7 @@ void find_idle_cells(const Place& place, const Scene& scene, Problems& found) {
     size[k] = (last - first) * grid.cell;
   }
   if (cells < kFewestCells || reached > kLeastReached * cells) return;
-  found.add(place, "grid.size",
+  found.add(location, "grid.size",
             fmt::format("bodies can reach {:.2g} % of its {:.3g} cells", 100 * reached / cells, cells),
             fmt::format("origin: {}, size: {} would do, with less memory and time",
                         lengths_text(origin, dimension), lengths_text(size, dimension)));

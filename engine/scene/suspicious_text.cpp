@@ -40,12 +40,12 @@ void walk(const Node& node, const std::string& path, const std::string& key, Pro
   for (const char* function : {"sin", "cos", "tan"}) {
     const std::string degrees = degrees_within(node.written, function);
     if (!degrees.empty())
-      found.add(node.place, path, fmt::format("a bare number is in radians in {}({})", function, degrees),
+      found.add(node.location, path, fmt::format("a bare number is in radians in {}({})", function, degrees),
                 fmt::format("Did you mean {}({} deg)?", function, degrees));
   }
   const auto bare = key == "angle" ? parse_number(node.scalar) : std::nullopt;
   if (bare && std::abs(*bare) > kTurn)
-    found.add(node.place, path, fmt::format("a bare number is in radians: {:g} turns", *bare / kTurn),
+    found.add(node.location, path, fmt::format("a bare number is in radians: {:g} turns", *bare / kTurn),
               fmt::format("Did you mean {} deg?", node.scalar));
 }
 

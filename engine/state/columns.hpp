@@ -32,10 +32,10 @@ class Column {
   }
 
   /// Grows if needed (contents are then lost and zeroed); never shrinks the memory.
-  /// @param room  elements that it grows to, if it must
-  void resize_discard(std::size_t n, std::size_t room = 0) {
+  /// @param capacity  elements that it grows to, if it must
+  void resize_discard(std::size_t n, std::size_t capacity = 0) {
     if (n + kPadding > capacity_) {
-      const std::size_t needed = (std::max(n, room) + kPadding) * sizeof(T);
+      const std::size_t needed = (std::max(n, capacity) + kPadding) * sizeof(T);
       const std::size_t grain = needed < kHuge ? 64 : kHugePage;
       const std::size_t bytes = (needed + grain - 1) / grain * grain;
       T* raw = static_cast<T*>(std::aligned_alloc(grain, bytes));

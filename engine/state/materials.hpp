@@ -10,15 +10,16 @@ namespace mpmfast {
 
 #define MPMFAST_STRAIN_CHUNK(prefix, Dim, Law)                                                          \
   prefix template bool strain_chunk<Dim, Law>(const ParticleView<Dim>&, const Law&, std::uint32_t, int, \
-                                              double, int, const StrainRoom<Dim>&, const ChunkStress<Dim>&)
+                                              double, int, const StrainWorkspace<Dim>&,                 \
+                                              const ChunkStress<Dim>&)
 #define MPMFAST_DECLARE(Law)            \
   MPMFAST_STRAIN_CHUNK(extern, 2, Law); \
   MPMFAST_STRAIN_CHUNK(extern, 3, Law);
 MPMFAST_LAWS(MPMFAST_DECLARE)
 #undef MPMFAST_DECLARE
 extern template bool deform_chunk<2>(const ParticleView<2>&, std::uint32_t, int, double, int,
-                                     const StrainRoom<2>&);
+                                     const StrainWorkspace<2>&);
 extern template bool deform_chunk<3>(const ParticleView<3>&, std::uint32_t, int, double, int,
-                                     const StrainRoom<3>&);
+                                     const StrainWorkspace<3>&);
 
 }  // namespace mpmfast

@@ -22,12 +22,13 @@ enum class Nodal {
   next,             ///< what an XPIC pass accumulates
   series,           ///< m (v − v*) of XPIC
   re_extrapolated,  ///< v′: what the particles give back with their new velocities, for the strain
-  pressed,  ///< Σ S_pi M_p times how far p is pressed: this share of a node moves particles with v⁺
-  volume_gradient,    ///< Σ G_pi V_p
-  mass_position,      ///< Σ S_pi M_p X_p
-  volume,             ///< Σ S_pi V_p
-  mass_displacement,  ///< Σ S_pi M_p (X_p − X_p0)
-  occupied,           ///< volume of the particles whose supports begin here: in one cell of a spline
+  compression_weight,  ///< Σ S_pi M_p times how far p is pressed: this share of a node moves particles with
+                       ///< v⁺
+  volume_gradient,     ///< Σ G_pi V_p
+  mass_position,       ///< Σ S_pi M_p X_p
+  volume,              ///< Σ S_pi V_p
+  mass_displacement,   ///< Σ S_pi M_p (X_p − X_p0)
+  occupied,            ///< volume of the particles whose supports begin here: in one cell of a spline
   /// Displacements extrapolated along their slopes H_p = I − F_p⁻¹: Σ S_pi M_p (X_p − X_p0 − H_p X_p), X_p
   /// from the grid's origin, and Σ S_pi M_p H_p (entries of H row by row)
   mass_offset,
@@ -46,7 +47,7 @@ inline constexpr int kNodalQuantities = 24;
 struct NodalInfo {
   Nodal quantity;
   std::string_view name;
-  bool vector, paired;  ///< paired: room for a second vector (v* and Δv*)
+  bool vector, paired;  ///< paired: space for a second vector (v* and Δv*)
   std::string_view reason;
   bool matrix = false;
 };
@@ -60,7 +61,7 @@ inline constexpr std::array<NodalInfo, kNodalQuantities> kNodalTable{{
     {Nodal::next, "next", true, true, "XPIC"},
     {Nodal::series, "series", true, false, "XPIC"},
     {Nodal::re_extrapolated, "re_extrapolated", true, false, "strain with re-extrapolation"},
-    {Nodal::pressed, "pressed", false, false, "what moves particles, with re-extrapolation"},
+    {Nodal::compression_weight, "pressed", false, false, "what moves particles, with re-extrapolation"},
     {Nodal::volume_gradient, "volume_gradient", true, false, "surfaces: normals, areas, loads"},
     {Nodal::mass_position, "mass_position", true, false, "separation by position"},
     {Nodal::volume, "volume", false, false, "normals, screening and contact areas by volume"},
@@ -97,7 +98,7 @@ class Nodes {
     }
   }
 
-  /// Room for n slots; keeps memory that is already there.
+  /// Capacity for n slots; keeps memory that is already there.
   void resize(std::size_t n) {
     size_ = n;
     for (Nodal q : quantities_)

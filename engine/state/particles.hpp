@@ -88,7 +88,7 @@ class Particles {
     return Dim == 2 ? info.components_2d : info.components_3d;
   }
 
-  /// Room for n particles in the columns of `quantities` (id and body are always there). Contents are zero.
+  /// Space for n particles in the columns of `quantities` (id and body are always there). Contents are zero.
   void allocate(std::size_t n, const std::vector<Quantity>& quantities) {
     count_ = n;
     quantities_ = quantities;
@@ -102,7 +102,7 @@ class Particles {
     next_id_ = static_cast<std::uint32_t>(n);
   }
 
-  /// Makes room for particles up to the n-th behind those that are there, which keep what they have. The
+  /// Makes space for particles up to the n-th behind those that are there, which keep what they have. The
   /// caller fills in what the new ones are.
   void grow(std::size_t n) {
     for (Quantity q : quantities_)

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file Who does what in a loop over tiles, contact nodes or stacks: a thread begins with its own share, so
+/// @file Who does what in a loop over tiles, contact nodes or blocks: a thread begins with its own share, so
 /// that it meets in every loop the particles and nodes that it met in the last one and still has in its
 /// caches, and helps the others when it is done.
 
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -65,7 +65,7 @@ void share_out(Shares& shares, std::int64_t n, int threads, std::int64_t at_once
                const F& f) {
   const int asked = n <= few ? 1 : threads;
   shares.cut(asked, n, at_once);
-  on_threads(asked, [&](const Member& me) { shares.for_each(me.thread, f); });
+  on_threads(asked, [&](const TeamThread& me) { shares.for_each(me.thread, f); });
 }
 
 }  // namespace mpmfast

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "engine/state/state.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 

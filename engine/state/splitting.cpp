@@ -17,9 +17,9 @@ enum class Edge { good, to_halve, held };
 
 /// Judges edges: of all particles one after another, so their columns are looked up once.
 template <int Dim>
-class EdgeLook {
+class EdgeCheck {
  public:
-  EdgeLook(const State<Dim>& state, const SplitRule& rule) : state_(&state), rule_(&rule) {
+  EdgeCheck(const State<Dim>& state, const SplitRule& rule) : state_(&state), rule_(&rule) {
     const auto& particles = state.particles;
     for (int e = 0; e < Dim * Dim; ++e) deformation_[e] = particles.column(Quantity::deformation_gradient, e);
     for (int k = 0; k < Dim; ++k) share_[k] = particles.column(Quantity::domain_share, k);
@@ -34,8 +34,8 @@ class EdgeLook {
     for (int d = 0; d < Dim; ++d) squared += square(deformation_[Dim * d + k][p]);
     if (!(square(length) * squared > square(rule_->longest)) || !rule_->body_splits[body]) return Edge::good;
     const bool small = share_[k][p] <= kLeastShare, sound = squared < 1e300;
-    const bool meets_axis =
-        state_->depth == Depth::hoop && !(std::abs(length * deformation_[k][p]) < 4 * from_axis_[p]);
+    const bool meets_axis = state_->plane_kind == PlaneKind::axisymmetric &&
+                            !(std::abs(length * deformation_[k][p]) < 4 * from_axis_[p]);
     return small || meets_axis || !sound ? Edge::held : Edge::to_halve;
   }
 
@@ -58,27 +58,27 @@ void copy_particle(Particles<Dim>& particles, std::size_t from, std::size_t to) 
 }
 
 template <int Dim>
-void move_by(Particles<Dim>& particles, Quantity q, std::size_t p, const Vec<Dim>& way) {
-  for (int d = 0; d < Dim; ++d) particles.column(q, d)[p] += way[d];
+void move_by(Particles<Dim>& particles, Quantity q, std::size_t p, const Vec<Dim>& offset) {
+  for (int d = 0; d < Dim; ++d) particles.column(q, d)[p] += offset[d];
 }
 
 /// Half the half-edge vector that the domain had at the start.
 template <int Dim>
-Vec<Dim> reference_way(const State<Dim>& state, std::size_t p, int k) {
+Vec<Dim> reference_offset(const State<Dim>& state, std::size_t p, int k) {
   const auto& particles = state.particles;
-  Vec<Dim> way = Vec<Dim>::Unit(k);
+  Vec<Dim> offset = Vec<Dim>::Unit(k);
   if (particles.has(Quantity::initial_deformation))
-    for (int d = 0; d < Dim; ++d) way[d] = particles.column(Quantity::initial_deformation, Dim * d + k)[p];
-  return 0.5 * state.bodies[particles.body()[p]].half_size[k] * particles.domain_share(p, k) * way;
+    for (int d = 0; d < Dim; ++d) offset[d] = particles.column(Quantity::initial_deformation, Dim * d + k)[p];
+  return 0.5 * state.bodies[particles.body()[p]].half_size[k] * particles.domain_share(p, k) * offset;
 }
 
 /// Temperatures are led along their slope to where the halves are, and what an equation of state holds of
 /// heat with them: what particles tell the nodes stays as it was, and so does the heat of both.
 template <int Dim>
-void lead_temperatures(State<Dim>& state, std::size_t p, std::size_t q, const Vec<Dim>& way) {
+void lead_temperatures(State<Dim>& state, std::size_t p, std::size_t q, const Vec<Dim>& offset) {
   auto& particles = state.particles;
   if (!particles.has(Quantity::temperature_slope)) return;
-  const double rise = particles.vector(Quantity::temperature_slope, p).dot(way);
+  const double rise = particles.vector(Quantity::temperature_slope, p).dot(offset);
   double* temperature = particles.column(Quantity::temperature);
   if (!(std::abs(rise) < temperature[p])) return;
   const double stored = state.bodies[particles.body()[p]].heat.stored;
@@ -103,14 +103,14 @@ Vec<Dim> half_edge(const State<Dim>& state, std::size_t p, int k) {
 template <int Dim>
 SplitCounters count_long_edges(const State<Dim>& state, const SplitRule& rule) {
   constexpr std::int64_t kBlock = 4096;
-  const EdgeLook<Dim> look(state, rule);
+  const EdgeCheck<Dim> check(state, rule);
   std::atomic<std::uint64_t> to_halve{0}, held{0};
   for_each_block(static_cast<std::int64_t>(state.particles.size()), kBlock, state.threads,
                  [&](std::int64_t begin, std::int64_t end) {
                    SplitCounters found;
                    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p)
                      for (int k = 0; k < Dim; ++k) {
-                       const Edge edge = look(p, k);
+                       const Edge edge = check(p, k);
                        found.splits += edge == Edge::to_halve;
                        found.held += edge == Edge::held;
                      }
@@ -122,10 +122,10 @@ SplitCounters count_long_edges(const State<Dim>& state, const SplitRule& rule) {
 
 template <int Dim>
 std::vector<std::uint32_t> long_along(const State<Dim>& state, const SplitRule& rule, int k) {
-  const EdgeLook<Dim> look(state, rule);
+  const EdgeCheck<Dim> check(state, rule);
   std::vector<std::uint32_t> found;
   for (std::size_t p = 0; p < state.particles.size(); ++p)
-    if (look(p, k) == Edge::to_halve) found.push_back(static_cast<std::uint32_t>(p));
+    if (check(p, k) == Edge::to_halve) found.push_back(static_cast<std::uint32_t>(p));
   const auto& id = state.particles.id();
   std::sort(found.begin(), found.end(), [&](auto a, auto b) { return id[a] < id[b]; });
   return found;
@@ -138,10 +138,11 @@ std::size_t halve(State<Dim>& state, const std::vector<std::uint32_t>& parents, 
   particles.grow(first + parents.size());
   for (std::size_t n = 0; n < parents.size(); ++n) {
     const std::size_t p = parents[n], q = first + n;
-    const Vec<Dim> way = 0.5 * half_edge(state, p, k), reference = reference_way(state, p, k);
+    const Vec<Dim> offset = 0.5 * half_edge(state, p, k), reference = reference_offset(state, p, k);
     // A ring's halves have their shares of its turn: as much as rings of their width are seeded with.
-    const double outer =
-        state.depth == Depth::hoop ? 0.5 * (1 + way[0] / particles.column(Quantity::position, 0)[p]) : 0.5;
+    const double outer = state.plane_kind == PlaneKind::axisymmetric
+                             ? 0.5 * (1 + offset[0] / particles.column(Quantity::position, 0)[p])
+                             : 0.5;
     particles.column(Quantity::domain_share, k)[p] *= 0.5;
     copy_particle(particles, p, q);
     particles.id()[q] = particles.next_id()++;
@@ -151,13 +152,13 @@ std::size_t halve(State<Dim>& state, const std::vector<std::uint32_t>& parents, 
       whole[q] = outer * whole[p];
       whole[p] -= whole[q];
     }
-    move_by<Dim>(particles, Quantity::position, p, -way);
-    move_by<Dim>(particles, Quantity::position, q, way);
+    move_by<Dim>(particles, Quantity::position, p, -offset);
+    move_by<Dim>(particles, Quantity::position, q, offset);
     if (particles.has(Quantity::reference_position)) {
       move_by<Dim>(particles, Quantity::reference_position, p, -reference);
       move_by<Dim>(particles, Quantity::reference_position, q, reference);
     }
-    lead_temperatures(state, p, q, way);
+    lead_temperatures(state, p, q, offset);
   }
   return first;
 }

@@ -23,7 +23,7 @@ struct State {
   std::vector<int> body_field;  ///< velocity field of each body
   std::vector<bool> field_rigid;
   std::vector<int> field_base;  ///< of sides of cracks the field of the body; of others themselves
-  Depth depth = Depth::held;
+  PlaneKind plane_kind = PlaneKind::plane_strain;
   std::vector<Material> materials;  ///< as Scene::materials; rigid ones hold a default
   int threads = 1;                  ///< that the passes use
   double time = 0;                  ///< s
@@ -51,7 +51,7 @@ struct State {
     columns(Quantity::out_of_plane_stretch, &v.stretch, 1);
     columns(Quantity::temperature_slope, v.temperature_slope, Dim);
     columns(Quantity::thermal_stretch, &v.state.thermal_stretch, 1);
-    v.depth = depth;
+    v.plane_kind = plane_kind;
     columns(Quantity::dissipated_energy, &v.state.dissipated, 1);
     columns(Quantity::internal_energy, &v.state.internal_energy, 1);
     columns(Quantity::plastic_strain, &v.state.plastic_strain, 1);

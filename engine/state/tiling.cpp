@@ -24,7 +24,7 @@ void Tiling<Dim>::set_domain(const std::array<int, 3>& nodes) {
 }
 
 template <int Dim>
-std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile, int field, int fields) const {
+std::int64_t Tiling<Dim>::tile_index(const NodeIndex<Dim>& tile, int field, int fields) const {
   std::int64_t index = 0;
   for (int d = Dim - 1; d >= 0; --d) {
     const int span = span_[static_cast<std::size_t>(d)];
@@ -35,13 +35,13 @@ std::int64_t Tiling<Dim>::place(const NodeIndex<Dim>& tile, int field, int field
 }
 
 template <int Dim>
-NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t place, int fields) const {
+NodeIndex<Dim> Tiling<Dim>::coordinates(std::int64_t tile_index, int fields) const {
   NodeIndex<Dim> tile;
   for (int d = 0; d < Dim; ++d) {
-    if (d == Dim - 1) place /= fields;
+    if (d == Dim - 1) tile_index /= fields;
     const int span = span_[static_cast<std::size_t>(d)];
-    tile[d] = static_cast<int>(place % span) - kMargin;
-    place /= span;
+    tile[d] = static_cast<int>(tile_index % span) - kMargin;
+    tile_index /= span;
   }
   return tile;
 }
@@ -68,16 +68,16 @@ void Tiling<Dim>::build(Particles<Dim>& particles, const std::vector<int>& body_
   sort(particles);
   cut_runs(particles, body_field);
   number_slots();
-  stack_up();
+  list_node_blocks();
 }
 
 template <int Dim>
 void Tiling<Dim>::regroup(Particles<Dim>& particles, const std::vector<int>& body_field) {
   order_maps();
-  sort_places(particles);
+  sort_by_tile_index(particles);
   cut_runs(particles, body_field);
   number_slots();
-  stack_up();
+  list_node_blocks();
 }
 
 namespace {
@@ -112,11 +112,11 @@ void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::
   archive.list("tiling/keys", buffers_.key);
   archive.number("tiling/bodies", bodies_);
   count_fields(body_field);
-  std::uint64_t rows = 1, places = static_cast<std::uint64_t>(fields_);
+  std::uint64_t rows = 1, rows_and_fields = static_cast<std::uint64_t>(fields_);
   for (int d = 0; d < Dim; ++d) {
     const auto span = static_cast<std::uint64_t>(span_[static_cast<std::size_t>(d)]);
     if (d < Dim - 1) rows *= span;
-    places *= span;
+    rows_and_fields *= span;
   }
   if (!first_side_.empty()) {
     groups_ = kMostGroups;
@@ -128,14 +128,14 @@ void Tiling<Dim>::visit(Archive& archive, Particles<Dim>& particles, const std::
   if (!archive.reading()) return;
   const auto groups = static_cast<std::uint64_t>(groups_);
   for (std::size_t k = 0; k < mapped_.size(); ++k) {
-    const std::uint64_t place = mapped_[k] / groups;
-    require(place < places);
-    check_sides(maps_[k], first_side_[place / rows % static_cast<std::uint64_t>(fields_)] >= 0);
+    const std::uint64_t tile_index = mapped_[k] / groups;
+    require(tile_index < rows_and_fields);
+    check_sides(maps_[k], first_side_[tile_index / rows % static_cast<std::uint64_t>(fields_)] >= 0);
   }
   if (buffers_.key.empty()) return;
   require(bodies_ == kinds_ * static_cast<int>(body_field.size()));
   check_keys(buffers_.key, particles, static_cast<std::uint64_t>(kinds_), static_cast<std::uint64_t>(bodies_),
-             places * groups);
+             rows_and_fields * groups);
   build(particles, body_field);
 }
 
@@ -192,8 +192,10 @@ void Tiling<Dim>::cut_runs(const Particles<Dim>& particles, const std::vector<in
   // Groups of a place write to the same nodes.
   for (std::size_t t = tile_keys_.size(), others = 0; t-- > 0;) {
     tiles[t].others = static_cast<int>(others);
-    const auto place_key = [&](std::size_t k) { return tile_keys_[k] / static_cast<std::uint64_t>(groups_); };
-    others = t > 0 && place_key(t) == place_key(t - 1) ? others + 1 : 0;
+    const auto tile_index_key = [&](std::size_t k) {
+      return tile_keys_[k] / static_cast<std::uint64_t>(groups_);
+    };
+    others = t > 0 && tile_index_key(t) == tile_index_key(t - 1) ? others + 1 : 0;
   }
   colour_strips();
 }
@@ -249,12 +251,13 @@ void Tiling<Dim>::colour_strips() {
 }
 
 template <int Dim>
-int Tiling<Dim>::find(std::int64_t place, int field) const {
+int Tiling<Dim>::find(std::int64_t tile_index, int field) const {
   const auto before = [](const NodeTile<Dim>& t, const std::pair<std::int64_t, int>& key) {
-    return t.place != key.first ? t.place < key.first : t.field < key.second;
+    return t.tile_index != key.first ? t.tile_index < key.first : t.field < key.second;
   };
-  const auto it = std::lower_bound(node_tiles.begin(), node_tiles.end(), std::pair{place, field}, before);
-  return it != node_tiles.end() && it->place == place && it->field == field
+  const auto it =
+      std::lower_bound(node_tiles.begin(), node_tiles.end(), std::pair{tile_index, field}, before);
+  return it != node_tiles.end() && it->tile_index == tile_index && it->field == field
              ? static_cast<int>(it - node_tiles.begin())
              : -1;
 }
@@ -275,7 +278,7 @@ int Tiling<Dim>::slot(const NodeIndex<Dim>& node, int field) const {
     tile[d] = floor_div(node[d], kTileSide);
     local = local * kTileSide + (node[d] - tile[d] * kTileSide);
   }
-  const int found = within(tile) ? find(place(tile), field) : -1;
+  const int found = within(tile) ? find(tile_index(tile), field) : -1;
   return found < 0 ? -1 : found * kTileNodes<Dim> + local;
 }
 
@@ -312,7 +315,7 @@ void Tiling<Dim>::for_each_node_tile(std::size_t t, const F& f) const {
   for (int c = 0; c < kCorners<Dim>; ++c) {
     NodeIndex<Dim> at;
     for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide + (c >> d & 1);
-    f(c, place(at), tile.field);
+    f(c, tile_index(at), tile.field);
     if (!sides) continue;
     unsigned seen = 0;
     for (int w = 0; w < kWindowNodes<Dim>; ++w) {
@@ -323,7 +326,8 @@ void Tiling<Dim>::for_each_node_tile(std::size_t t, const F& f) const {
       if (corner == c && side > 0) seen |= 1u << side;
     }
     for (int side = 1; side < 4; ++side)
-      if (seen >> side & 1) f(c, place(at), first_side_[static_cast<std::size_t>(tile.field)] + side - 1);
+      if (seen >> side & 1)
+        f(c, tile_index(at), first_side_[static_cast<std::size_t>(tile.field)] + side - 1);
   }
 }
 
@@ -360,9 +364,11 @@ void Tiling<Dim>::number_slots() {
       node_tiles.push_back(node_tile);
     });
   std::sort(node_tiles.begin(), node_tiles.end(), [](const auto& a, const auto& b) {
-    return a.place != b.place ? a.place < b.place : a.field < b.field;
+    return a.tile_index != b.tile_index ? a.tile_index < b.tile_index : a.field < b.field;
   });
-  const auto same = [](const auto& a, const auto& b) { return a.place == b.place && a.field == b.field; };
+  const auto same = [](const auto& a, const auto& b) {
+    return a.tile_index == b.tile_index && a.field == b.field;
+  };
   node_tiles.erase(std::unique(node_tiles.begin(), node_tiles.end(), same), node_tiles.end());
   // Tiles lie in order, and so does what is found for each of their corners, but for other fields between.
   std::array<int, kCorners<Dim>> last;
@@ -372,7 +378,7 @@ void Tiling<Dim>::number_slots() {
     int& here = last[static_cast<std::size_t>(c)];
     for (int k = here + 1; k < std::min(here + 1 + kAhead, static_cast<int>(node_tiles.size())); ++k) {
       const auto& node_tile = node_tiles[static_cast<std::size_t>(k)];
-      if (node_tile.place == at && node_tile.field == field) return here = k;
+      if (node_tile.tile_index == at && node_tile.field == field) return here = k;
     }
     return here = find(at, field);
   };
@@ -387,35 +393,37 @@ void Tiling<Dim>::number_slots() {
 }
 
 template <int Dim>
-void Tiling<Dim>::stack_up() {
-  stacks.clear();
+void Tiling<Dim>::list_node_blocks() {
+  node_blocks.clear();
   for (int t = 0; t < static_cast<int>(node_tiles.size());) {
-    Stack<Dim> stack{};
-    stack.begin = t;
-    const std::int64_t at = node_tiles[static_cast<std::size_t>(t)].place;
-    while (t < static_cast<int>(node_tiles.size()) && node_tiles[static_cast<std::size_t>(t)].place == at)
+    NodeBlock<Dim> block{};
+    block.begin = t;
+    const std::int64_t at = node_tiles[static_cast<std::size_t>(t)].tile_index;
+    while (t < static_cast<int>(node_tiles.size()) &&
+           node_tiles[static_cast<std::size_t>(t)].tile_index == at)
       ++t;
-    stack.end = t;
-    stack.first_node = coordinates(at) * kTileSide;
-    stacks.push_back(stack);
+    block.end = t;
+    block.first_node = coordinates(at) * kTileSide;
+    node_blocks.push_back(block);
   }
-  const auto place_of = [&](const Stack<Dim>& s) {
-    return node_tiles[static_cast<std::size_t>(s.begin)].place;
+  const auto tile_index_of = [&](const NodeBlock<Dim>& s) {
+    return node_tiles[static_cast<std::size_t>(s.begin)].tile_index;
   };
-  // Stacks lie in order of their places, and so do their neighbours on one side: one walk for each side.
+  // Blocks lie in order of their tile indices, and so do their neighbours on one side: one walk for each
+  // side.
   for (int k = 0; k < power(3, Dim); ++k) {
     NodeIndex<Dim> side;
     int digits = k;
     for (int d = 0; d < Dim; ++d, digits /= 3) side[d] = digits % 3 - 1;
     std::size_t next = 0;
-    for (auto& stack : stacks) {
-      const NodeIndex<Dim> at = stack.first_node / kTileSide + side;
-      stack.neighbour[k] = -1;
+    for (auto& block : node_blocks) {
+      const NodeIndex<Dim> at = block.first_node / kTileSide + side;
+      block.neighbour[k] = -1;
       if (!within(at)) continue;
-      const std::int64_t wanted = place(at);
-      while (next < stacks.size() && place_of(stacks[next]) < wanted) ++next;
-      if (next < stacks.size() && place_of(stacks[next]) == wanted)
-        stack.neighbour[k] = static_cast<int>(next);
+      const std::int64_t wanted = tile_index(at);
+      while (next < node_blocks.size() && tile_index_of(node_blocks[next]) < wanted) ++next;
+      if (next < node_blocks.size() && tile_index_of(node_blocks[next]) == wanted)
+        block.neighbour[k] = static_cast<int>(next);
     }
   }
 }
@@ -425,7 +433,7 @@ template <int Dim>
 std::size_t Tiling<Dim>::bytes() const {
   const std::size_t listed = std::max(node_tiles.size(), kCorners<Dim> * tiles.size());
   return tiles.size() * sizeof(ParticleTile<Dim>) + runs.size() * sizeof(ParticleRun<Dim>) +
-         listed * sizeof(NodeTile<Dim>) + stacks.size() * sizeof(Stack<Dim>) +
+         listed * sizeof(NodeTile<Dim>) + node_blocks.size() * sizeof(NodeBlock<Dim>) +
          (mapped_.size() + tile_keys_.size()) * sizeof(std::uint64_t) + maps_.size() * sizeof(SideMap<Dim>) +
          node_slots_.size() * sizeof(int) + buffers_.bytes();
 }

@@ -7,7 +7,7 @@
 /// so that it starts at offset b − 4t = 1 … 4 of the tile's window of 8 nodes a side, and may drift by a cell
 /// before the next sort. The window covers 2^Dim node tiles. A node tile exists for a field only where a
 /// particle tile of it needs one: memory follows the particles, not nodes × fields. Slots are numbered by
-/// (place, field), so the fields of a place are neighbours: a stack.
+/// (tile index, field), so the fields of one tile index are neighbours: a block.
 
 #include <array>
 #include <cstdint>
@@ -28,17 +28,17 @@ struct SideMap {
 /// A tile of nodes of one field.
 template <int Dim>
 struct NodeTile {
-  std::int64_t place;  ///< Tiling::place of its coordinates
+  std::int64_t tile_index;  ///< Tiling::tile_index of its coordinates
   int field;
   int particle_tile[kCorners<Dim>];  ///< corner c: the particle tile that lies c below; −1: none
 };
 
-/// The node tiles of all fields at one place.
+/// The node tiles of all fields at one tile index.
 template <int Dim>
-struct Stack {
+struct NodeBlock {
   int begin, end;                ///< into node_tiles
   NodeIndex<Dim> first_node;     ///< coordinates of its lowest node
-  int neighbour[power(3, Dim)];  ///< stacks around it (x fastest, itself in the middle); −1: none
+  int neighbour[power(3, Dim)];  ///< blocks around it (x fastest, itself in the middle); −1: none
 };
 
 /// Particle tiles that lie side by side in a field, and so their particles: into Tiling::tiles.
@@ -49,8 +49,8 @@ struct Strip {
 /// What the sort works with; kept from one to the next.
 struct SortBuffers {
   static constexpr int kDigit = 11;  ///< bits a radix pass
-  using Places = std::array<std::uint32_t, 1u << kDigit>;
-  std::vector<Places> next;               ///< where the next key of each digit goes, by thread
+  using DigitOffsets = std::array<std::uint32_t, 1u << kDigit>;
+  std::vector<DigitOffsets> next;         ///< where the next key of each digit goes, by thread
   std::vector<std::uint64_t> key, spare;  ///< spare: of the keys, then of each column that is put in order
   std::vector<std::uint32_t> order, order_spare;
   std::vector<std::array<std::uint32_t, 2>> ranges;  ///< where `order` has them: from, to
@@ -58,7 +58,7 @@ struct SortBuffers {
   std::size_t bytes() const {
     return (key.capacity() + spare.capacity()) * sizeof(std::uint64_t) +
            (order.capacity() + order_spare.capacity()) * sizeof(std::uint32_t) +
-           next.capacity() * sizeof(Places) + ranges.capacity() * sizeof(ranges[0]);
+           next.capacity() * sizeof(DigitOffsets) + ranges.capacity() * sizeof(ranges[0]);
   }
 };
 
@@ -78,7 +78,7 @@ class Tiling {
   /// Fields that are the sides of another behind cracks: the first of each, −1 where it has none.
   void set_sides(const std::vector<int>& first_side) { first_side_ = first_side; }
 
-  /// Makes room for the keys of n particles of bodies in these velocity fields, all in group 0.
+  /// Makes space for the keys of n particles of bodies in these velocity fields, all in group 0.
   void start_keys(std::size_t n, const std::vector<int>& body_field);
   /// Where a particle belongs, by the coordinates of its first support node. From the highest digit: index
   /// of the particle tile on the last axis, field, its place among those of this index, group, body, whether
@@ -93,7 +93,7 @@ class Tiling {
       tile[d] = floor_div(b, kTileSide);
       cell = cell * kTileSide + (b - tile[d] * kTileSide);
     }
-    auto key = static_cast<std::uint64_t>(place(tile, field, fields_));
+    auto key = static_cast<std::uint64_t>(tile_index(tile, field, fields_));
     key = key * static_cast<std::uint64_t>(groups_) * static_cast<std::uint64_t>(bodies_) +
           static_cast<std::uint64_t>(kinds_ * body + on_surface);
     buffers_.key[particle] = key * kTileNodes<Dim> + static_cast<std::uint64_t>(cell);
@@ -143,19 +143,19 @@ class Tiling {
   std::vector<ParticleTile<Dim>> tiles;
   std::vector<ParticleRun<Dim>> runs;
   std::vector<NodeTile<Dim>> node_tiles;
-  std::vector<Stack<Dim>> stacks;
+  std::vector<NodeBlock<Dim>> node_blocks;
   /// Strips whose windows do not overlap. (Colours of single tiles would pass over every other one: in 2-D
   /// half a kilobyte of each column, and what the processor fetched ahead of it.)
   std::array<std::vector<Strip>, kCorners<Dim>> colours;
 
   int slots() const { return static_cast<int>(node_tiles.size()) * kTileNodes<Dim>; }
-  /// Nodes of stacks, whatever the number of fields on them.
-  std::size_t places() const { return stacks.size() * kTileNodes<Dim>; }
+  /// Nodes of blocks, whatever the number of fields on them.
+  std::size_t block_nodes() const { return node_blocks.size() * kTileNodes<Dim>; }
   std::size_t bytes() const;
 
-  /// Coordinates of the local-th node of a stack.
-  NodeIndex<Dim> node(const Stack<Dim>& stack, int local) const {
-    NodeIndex<Dim> n = stack.first_node;
+  /// Coordinates of the local-th node of a block.
+  NodeIndex<Dim> node(const NodeBlock<Dim>& block, int local) const {
+    NodeIndex<Dim> n = block.first_node;
     for (int d = 0; d < Dim; ++d) {
       n[d] += local % kTileSide;
       local /= kTileSide;
@@ -169,16 +169,16 @@ class Tiling {
   bool within(const NodeIndex<Dim>& tile) const;
   /// The number of a tile's place, row by row along x, the last axis slowest. Of particle tiles with their
   /// field: in each row of the last axis, the places of one field after those of another.
-  std::int64_t place(const NodeIndex<Dim>& tile, int field = 0, int fields = 1) const;
-  NodeIndex<Dim> coordinates(std::int64_t place, int fields = 1) const;
-  int find(std::int64_t place, int field) const;
+  std::int64_t tile_index(const NodeIndex<Dim>& tile, int field = 0, int fields = 1) const;
+  NodeIndex<Dim> coordinates(std::int64_t tile_index, int fields = 1) const;
+  int find(std::int64_t tile_index, int field) const;
   void count_fields(const std::vector<int>& body_field);
   /// Keys of one group at one place.
   std::uint64_t group_span() const {
     return static_cast<std::uint64_t>(bodies_) * static_cast<std::uint64_t>(kTileNodes<Dim>);
   }
   void sort(Particles<Dim>& particles);
-  void sort_places(Particles<Dim>& particles);
+  void sort_by_tile_index(Particles<Dim>& particles);
   void put_in_order(Particles<Dim>& particles);
   void note_moves(std::size_t particles);
   void keep_ordered(Particles<Dim>& particles);
@@ -193,7 +193,7 @@ class Tiling {
   void order_maps();
   template <class F>
   void for_each_node_tile(std::size_t tile, const F& f) const;
-  void stack_up();
+  void list_node_blocks();
 
   std::array<int, 3> span_{1, 1, 1};  ///< tiles along each axis, with a margin
   SortBuffers buffers_;

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "engine/state/tiling.hpp"
 
 namespace mpmfast {
@@ -28,7 +28,7 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
   for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
     const auto digit = [&](std::size_t i) { return b.key[i] >> shift & (kValues - 1); };
     b.next.resize(static_cast<std::size_t>(omp_get_max_threads()));
-    on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+    on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
       const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
       auto& mine = b.next[thread];
       mine.fill(0);
@@ -36,9 +36,9 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
       for (std::size_t i = begin; i < end; ++i) ++mine[digit(i)];
       me.wait_for_all();
       if (thread == 0) {
-        std::uint32_t place = 0;
+        std::uint32_t offset = 0;
         for (std::size_t v = 0; v < kValues; ++v)
-          for (std::size_t t = 0; t < threads; ++t) place += std::exchange(b.next[t][v], place);
+          for (std::size_t t = 0; t < threads; ++t) offset += std::exchange(b.next[t][v], offset);
       }
       me.wait_for_all();
       for (std::size_t i = begin; i < end; ++i) {
@@ -62,7 +62,7 @@ void permute(T* values, SortBuffers& buffers) {
   auto* const spare = reinterpret_cast<unsigned char*>(buffers.spare.data());
   for (const auto& range : buffers.ranges) {
     const std::uint32_t begin = range[0], end = range[1];
-    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [=](const Member& me) {
+    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [=](const TeamThread& me) {
       const auto threads = static_cast<std::uint64_t>(me.threads),
                  thread = static_cast<std::uint64_t>(me.thread), n = static_cast<std::uint64_t>(end - begin);
       const auto first = begin + static_cast<std::uint32_t>(n * thread / threads),
@@ -94,7 +94,7 @@ void Tiling<Dim>::set_groups(const ParticleTile<Dim>& tile, const std::vector<Si
   NodeIndex<Dim> at;
   for (int d = 0; d < Dim; ++d) at[d] = tile.window[d] / kTileSide;
   const auto key =
-      static_cast<std::uint64_t>(place(at, tile.field, fields_)) * static_cast<std::uint64_t>(groups_);
+      static_cast<std::uint64_t>(tile_index(at, tile.field, fields_)) * static_cast<std::uint64_t>(groups_);
   for (std::size_t group = 0; group < maps.size(); ++group) {
     mapped_.push_back(key + group + 1);
     maps_.push_back(maps[group]);
@@ -108,7 +108,7 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
   const std::size_t n = particles.size();
   buffers_.order.resize(n);
   std::vector<std::uint64_t> largest_of(static_cast<std::size_t>(omp_get_max_threads()));
-  on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const Member& me) {
+  on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
     const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
     std::uint64_t most = 0;
     for (std::size_t p = n * thread / threads; p < n * (thread + 1) / threads; ++p) {
@@ -128,7 +128,7 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
 
 /// As sort(), where only the order within places is to change.
 template <int Dim>
-void Tiling<Dim>::sort_places(Particles<Dim>& particles) {
+void Tiling<Dim>::sort_by_tile_index(Particles<Dim>& particles) {
   auto &key = buffers_.key, &spare = buffers_.spare;
   auto& order = buffers_.order;
   order.resize(key.size());
@@ -194,8 +194,8 @@ template void Tiling<2>::set_groups(const ParticleTile<2>&, const std::vector<Si
 template void Tiling<3>::set_groups(const ParticleTile<3>&, const std::vector<SideMap<3>>&);
 template void Tiling<2>::sort(Particles<2>&);
 template void Tiling<3>::sort(Particles<3>&);
-template void Tiling<2>::sort_places(Particles<2>&);
-template void Tiling<3>::sort_places(Particles<3>&);
+template void Tiling<2>::sort_by_tile_index(Particles<2>&);
+template void Tiling<3>::sort_by_tile_index(Particles<3>&);
 template void Tiling<2>::put_in_order(Particles<2>&);
 template void Tiling<3>::put_in_order(Particles<3>&);
 template void Tiling<2>::note_moves(std::size_t);

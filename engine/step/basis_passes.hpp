@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "engine/geometry/crossing.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "engine/step/moves.hpp"
 #include "engine/step/passes.hpp"
 #include "engine/step/tile_loops.hpp"
@@ -32,8 +32,8 @@ template <int Dim, class Basis>
 class BasisPasses final : public Passes<Dim> {
  public:
   BasisPasses() {
-    rooms_.resize(static_cast<std::size_t>(omp_get_max_threads()));
-    for (auto& room : rooms_) room = std::make_unique<Room>();
+    workspaces_.resize(static_cast<std::size_t>(omp_get_max_threads()));
+    for (auto& workspace : workspaces_) workspace = std::make_unique<Workspace>();
   }
 
   void shape_domains(State<Dim>& state) override {
@@ -111,13 +111,13 @@ class BasisPasses final : public Passes<Dim> {
     for (int d = 0; d < Dim; ++d)
       inertia.column[1 + d] = load.column[1 + d] = nodes.column(Nodal::momentum, d);
     for (int e = 4; e < kLoadEntries<Dim>; ++e) load.column[e] = nodes.column(Nodal::force, (e - 4) % Dim);
-    outside_.assign(rooms_.size(), 0);
+    outside_.assign(workspaces_.size(), 0);
     const bool affine = state.particles.has(Quantity::velocity_slopes);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
-      int& outside = outside_[static_cast<std::size_t>(own_number())];
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
+      int& outside = outside_[static_cast<std::size_t>(thread_index())];
       if (outside) return;  // all of it will be done again
-      const bool inside = with_force && !rigid ? project_force_tile<Dim, Basis>(c, room.project, load)
-                                               : project_inertia(c, room.project, affine, inertia);
+      const bool inside = with_force && !rigid ? project_force_tile<Dim, Basis>(c, workspace.project, load)
+                                               : project_inertia(c, workspace.project, affine, inertia);
       if (!inside) outside = 1;
     });
     return *std::max_element(outside_.begin(), outside_.end()) == 0;
@@ -131,24 +131,24 @@ class BasisPasses final : public Passes<Dim> {
     const bool any = out.volume_gradient.column[0] || out.mass_position.column[0] ||
                      out.mass_displacement.column[0] || out.volume.column[0];
     if (any)
-      scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-        if (!cracks_alone || c.tile->cracked) project_geometry_tile<Dim, Basis>(c, room.project, out);
+      scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool) {
+        if (!cracks_alone || c.tile->cracked) project_geometry_tile<Dim, Basis>(c, workspace.project, out);
       });
     if (!nodes.has(Nodal::mass_slope)) return;
     NodeColumns<Dim + Dim * Dim> displaced;
     for (int k = 0; k < Dim; ++k) displaced.column[k] = nodes.column(Nodal::mass_offset, k);
     for (int k = 0; k < Dim * Dim; ++k) displaced.column[Dim + k] = nodes.column(Nodal::mass_slope, k);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool) {
       if (!cracks_displaced || c.tile->cracked)
-        project_displaced_tile<Dim, Basis>(c, room.project, displaced);
+        project_displaced_tile<Dim, Basis>(c, workspace.project, displaced);
     });
   }
 
   void occupy(State<Dim>& state) override {
     if constexpr (Basis::kSpread > 0) {
       const NodeColumns<1> out = state.nodes.template columns<1>(Nodal::occupied);
-      scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-        occupy_tile<Dim, Basis>(c, room.project, out);
+      scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool) {
+        occupy_tile<Dim, Basis>(c, workspace.project, out);
       });
     }
   }
@@ -163,8 +163,8 @@ class BasisPasses final : public Passes<Dim> {
             if (force_of(c.runs[r], p) != Vec<Dim>::Zero()) return true;
       return false;
     };
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
-      if (!rigid && acts_in(c)) push_tile<Dim, Basis>(c, room.project, force_of, out);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
+      if (!rigid && acts_in(c)) push_tile<Dim, Basis>(c, workspace.project, force_of, out);
     });
   }
 
@@ -176,18 +176,18 @@ class BasisPasses final : public Passes<Dim> {
       out.column[Dim + d] = state.nodes.column(Nodal::force, d);
     }
     const auto force_of = by_number(state, forces);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
-      if (!rigid) settle_tile<Dim, Basis>(c, room.project, in, dt, force_of, out);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
+      if (!rigid) settle_tile<Dim, Basis>(c, workspace.project, in, dt, force_of, out);
     });
   }
 
   bool strain_and_force(State<Dim>& state, double dt_strain, int terms) override {
     const auto velocity = state.nodes.columns(Nodal::velocity), force = state.nodes.columns(Nodal::force);
-    inverted_.assign(rooms_.size(), 0);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+    inverted_.assign(workspaces_.size(), 0);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
       if (rigid) return;
-      if (!strain_force(c, room, velocity, dt_strain, terms, state, force))
-        inverted_[static_cast<std::size_t>(own_number())] = 1;
+      if (!strain_force(c, workspace, velocity, dt_strain, terms, state, force))
+        inverted_[static_cast<std::size_t>(thread_index())] = 1;
     });
     return *std::max_element(inverted_.begin(), inverted_.end()) == 0;
   }
@@ -206,9 +206,9 @@ class BasisPasses final : public Passes<Dim> {
                                                                                : Nodal::velocity);
     NodeColumns<Dim + 1> out{};
     for (int d = 0; d < Dim; ++d) out.column[d] = nodes.column(Nodal::momentum, d);
-    if (nodes.has(Nodal::pressed)) out.column[Dim] = nodes.column(Nodal::pressed);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
-      if (!rigid) re_extrapolate_tile<Dim, Basis>(c, room.re_extrapolate, update, in, out);
+    if (nodes.has(Nodal::compression_weight)) out.column[Dim] = nodes.column(Nodal::compression_weight);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
+      if (!rigid) re_extrapolate_tile<Dim, Basis>(c, workspace.re_extrapolate, update, in, out);
     });
   }
 
@@ -220,8 +220,8 @@ class BasisPasses final : public Passes<Dim> {
 
   void project_heat(State<Dim>& state, HeatScale scale) override {
     auto& nodes = state.nodes;
-    for (auto& room : rooms_)
-      if (!room->heat) room->heat = std::make_unique<HeatRoom<Dim, Basis>>();
+    for (auto& workspace : workspaces_)
+      if (!workspace->heat) workspace->heat = std::make_unique<HeatWorkspace<Dim, Basis>>();
     NodeColumns<Dim + 2> content;
     content.column[0] = nodes.column(Nodal::heat_capacity);
     set_led(nodes, content.column + 1);
@@ -229,8 +229,8 @@ class BasisPasses final : public Passes<Dim> {
     for (int d = 0; d < Dim; ++d)
       flow.column[1 + d] =
           nodes.has(Nodal::conducting_surface) ? nodes.column(Nodal::conducting_surface, d) : nullptr;
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      project_heat_tile<Dim, Basis>(c, *room.heat, scale, content, flow);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool) {
+      project_heat_tile<Dim, Basis>(c, *workspace.heat, scale, content, flow);
     });
   }
 
@@ -238,8 +238,8 @@ class BasisPasses final : public Passes<Dim> {
     const NodeColumns<1> in = state.nodes.template columns<1>(Nodal::temperature_filter);
     NodeColumns<Dim + 1> out;
     set_led(state.nodes, out.column);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool) {
-      filter_heat_tile<Dim, Basis>(c, *room.heat, in, out);
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool) {
+      filter_heat_tile<Dim, Basis>(c, *workspace.heat, in, out);
     });
   }
 
@@ -251,8 +251,8 @@ class BasisPasses final : public Passes<Dim> {
     heat_reports_.assign(state.tiling.tiles.size(), {});
     loops_.for_each_deformable(state, [&](const TileContext<Dim>& c, int thread) {
       heat_reports_[static_cast<std::size_t>(c.tile - state.tiling.tiles.data())] =
-          update_heat_tile<Dim, Basis>(c, *rooms_[static_cast<std::size_t>(thread)]->heat, scale, filtered,
-                                       in);
+          update_heat_tile<Dim, Basis>(c, *workspaces_[static_cast<std::size_t>(thread)]->heat, scale,
+                                       filtered, in);
     });
     HeatReport all;
     for (const HeatReport& one : heat_reports_) {
@@ -269,21 +269,21 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece, double inverse_cell,
-                       const NodeIndex<Dim>& node, CloudRoom<Dim>& cloud) const override {
+                       const NodeIndex<Dim>& node, CloudWorkspace<Dim>& cloud) const override {
     mpmfast::append_covering<Dim, Basis>(from, piece, inverse_cell, node, cloud);
   }
 
-  std::size_t room_bytes(int threads) const override {
-    return std::min(rooms_.size(), static_cast<std::size_t>(threads)) * sizeof(Room);
+  std::size_t workspace_bytes(int threads) const override {
+    return std::min(workspaces_.size(), static_cast<std::size_t>(threads)) * sizeof(Workspace);
   }
 
  private:
-  struct Room {
-    ProjectRoom<Dim, Basis> project;
-    XpicRoom<Dim, Basis, 2 * Dim> xpic;
-    ReExtrapolateRoom<Dim, Basis> re_extrapolate;
-    UpdateRoom<Dim, Basis> update;
-    std::unique_ptr<HeatRoom<Dim, Basis>> heat;  ///< where a scene has any
+  struct Workspace {
+    ProjectWorkspace<Dim, Basis> project;
+    XpicWorkspace<Dim, Basis, 2 * Dim> xpic;
+    ReExtrapolateWorkspace<Dim, Basis> re_extrapolate;
+    UpdateWorkspace<Dim, Basis> update;
+    std::unique_ptr<HeatWorkspace<Dim, Basis>> heat;  ///< where a scene has any
   };
 
   /// Of all particles, whatever their tile and body: what first_node() reads does not differ between these.
@@ -311,11 +311,11 @@ class BasisPasses final : public Passes<Dim> {
     };
   }
 
-  /// Calls f(context, room, rigid) as TileLoops::for_each_by_colour.
+  /// Calls f(context, workspace, rigid) as TileLoops::for_each_by_colour.
   template <class F>
   void scatter_tiles(State<Dim>& state, F f) {
     loops_.for_each_by_colour(state, [&](const TileContext<Dim>& c, int thread, bool rigid) {
-      f(c, *rooms_[static_cast<std::size_t>(thread)], rigid);
+      f(c, *workspaces_[static_cast<std::size_t>(thread)], rigid);
     });
   }
 
@@ -327,22 +327,23 @@ class BasisPasses final : public Passes<Dim> {
     };
   }
 
-  static bool strain_force(const TileContext<Dim>& c, Room& room, const NodeColumns<Dim>& velocity,
+  static bool strain_force(const TileContext<Dim>& c, Workspace& workspace, const NodeColumns<Dim>& velocity,
                            double dt_strain, int terms, const State<Dim>& state,
                            const NodeColumns<Dim>& force) {
     if constexpr (Dim == 2) {
-      if (state.depth == Depth::hoop)
-        return strain_force_tile<Dim, Basis, Depth::hoop>(c, room.update, velocity, dt_strain, terms,
-                                                          visitor(state), force);
+      if (state.plane_kind == PlaneKind::axisymmetric)
+        return strain_force_tile<Dim, Basis, PlaneKind::axisymmetric>(
+            c, workspace.update, velocity, dt_strain, terms, visitor(state), force);
     }
-    return strain_force_tile<Dim, Basis>(c, room.update, velocity, dt_strain, terms, visitor(state), force);
+    return strain_force_tile<Dim, Basis>(c, workspace.update, velocity, dt_strain, terms, visitor(state),
+                                         force);
   }
 
-  static bool project_inertia(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+  static bool project_inertia(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
                               [[maybe_unused]] bool affine, const NodeColumns<1 + Dim>& out) {
     if constexpr (Basis::kSpread > 0)
-      if (affine) return project_affine_tile<Dim, Basis>(c, room, out);
-    return project_tile<Dim, Basis>(c, room, out);
+      if (affine) return project_affine_tile<Dim, Basis>(c, workspace, out);
+    return project_tile<Dim, Basis>(c, workspace, out);
   }
 
   /// Contents, and their slopes behind them.
@@ -355,10 +356,10 @@ class BasisPasses final : public Passes<Dim> {
   void xpic_columns(State<Dim>& state) {
     const auto in = state.nodes.template columns<NC>(Nodal::star),
                out = state.nodes.template columns<NC>(Nodal::next);
-    scatter_tiles(state, [&](const TileContext<Dim>& c, Room& room, bool rigid) {
+    scatter_tiles(state, [&](const TileContext<Dim>& c, Workspace& workspace, bool rigid) {
       if (rigid) return;
-      auto& xpic_room = reinterpret_cast<XpicRoom<Dim, Basis, NC>&>(room.xpic);
-      xpic_tile<Dim, Basis, NC>(c, xpic_room, in, out);
+      auto& xpic_workspace = reinterpret_cast<XpicWorkspace<Dim, Basis, NC>&>(workspace.xpic);
+      xpic_tile<Dim, Basis, NC>(c, xpic_workspace, in, out);
     });
   }
 
@@ -375,10 +376,11 @@ class BasisPasses final : public Passes<Dim> {
         state.nodes.has(Nodal::re_extrapolated) ? Nodal::re_extrapolated : Nodal::velocity);
     double low[Dim], high[Dim];
     for (int d = 0; d < Dim; ++d) low[d] = lower[d], high[d] = upper[d];
-    reports_.assign(rooms_.size(), {});
+    reports_.assign(workspaces_.size(), {});
     loops_.for_each_deformable(state, [&](const TileContext<Dim>& c, int thread) {
       const auto at = static_cast<std::size_t>(thread);
-      merge(update_tile<Dim, Basis, NV>(c, rooms_[at]->update, in, strain, rule, low, high, visitor(state)),
+      merge(update_tile<Dim, Basis, NV>(c, workspaces_[at]->update, in, strain, rule, low, high,
+                                        visitor(state)),
             reports_[at].report);
     });
     TileReport all;
@@ -396,7 +398,7 @@ class BasisPasses final : public Passes<Dim> {
   struct alignas(64) ThreadReport {
     TileReport report;
   };
-  std::vector<std::unique_ptr<Room>> rooms_;
+  std::vector<std::unique_ptr<Workspace>> workspaces_;
   TileLoops<Dim> loops_{omp_get_max_threads()};
   std::vector<ThreadReport> reports_;
   std::vector<HeatReport> heat_reports_;  ///< by tile: sums want one order

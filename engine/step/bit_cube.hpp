@@ -30,15 +30,15 @@ struct BitCube {
   std::array<std::uint16_t, static_cast<std::size_t>(kRows)> row{};
 
   /// Puts in a tile's nodes, a bit each (x fastest). @param place  of the tile in the cube, in tiles
-  void put(std::uint64_t nodes, const NodeIndex<Dim>& place) {
+  void put(std::uint64_t nodes, const NodeIndex<Dim>& tile) {
     for (int r = 0; r < kTileNodes<Dim> / kTileSide; ++r)
-      at(place, r) |=
-          static_cast<std::uint16_t>((nodes >> (r * kTileSide) & kNodesOfRow) << (place[0] * kTileSide));
+      at(tile, r) |=
+          static_cast<std::uint16_t>((nodes >> (r * kTileSide) & kNodesOfRow) << (tile[0] * kTileSide));
   }
-  std::uint64_t take(const NodeIndex<Dim>& place) {
+  std::uint64_t take(const NodeIndex<Dim>& tile) {
     std::uint64_t nodes = 0;
     for (int r = 0; r < kTileNodes<Dim> / kTileSide; ++r)
-      nodes |= std::uint64_t{at(place, r) >> (place[0] * kTileSide) & kNodesOfRow} << (r * kTileSide);
+      nodes |= std::uint64_t{at(tile, r) >> (tile[0] * kTileSide) & kNodesOfRow} << (r * kTileSide);
     return nodes;
   }
   /// Each becomes what any of it and the `count` below it along each axis is.
@@ -80,10 +80,10 @@ struct BitCube {
   }
   std::uint16_t& at(int r) { return row[static_cast<std::size_t>(r)]; }
   /// The r-th row of the tile.
-  std::uint16_t& at(const NodeIndex<Dim>& place, int r) {
+  std::uint16_t& at(const NodeIndex<Dim>& tile, int r) {
     int index = 0, stride = 1;
     for (int d = 1; d < Dim; ++d, r /= kTileSide, stride *= kSide)
-      index += (place[d] * kTileSide + r % kTileSide) * stride;
+      index += (tile[d] * kTileSide + r % kTileSide) * stride;
     return at(index);
   }
 };

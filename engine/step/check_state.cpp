@@ -40,7 +40,7 @@ void check_particles(const Particles<Dim>& particles, const std::vector<std::uin
 
 /// A cell more is let go, since walls and what leaves the grid are judged after a step.
 template <int Dim>
-void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper) {
+void check_positions(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper) {
   const double cell = state.grid.cell;
   for (std::size_t p = 0; p < state.particles.size(); ++p) {
     const Vec<Dim> x = state.particles.vector(Quantity::position, p);
@@ -75,7 +75,7 @@ template std::vector<std::uint16_t> bodies_by_id(const Particles<2>&);
 template std::vector<std::uint16_t> bodies_by_id(const Particles<3>&);
 template void check_particles(const Particles<2>&, const std::vector<std::uint16_t>&);
 template void check_particles(const Particles<3>&, const std::vector<std::uint16_t>&);
-template void check_places(const State<2>&, const Vec<2>&, const Vec<2>&);
-template void check_places(const State<3>&, const Vec<3>&, const Vec<3>&);
+template void check_positions(const State<2>&, const Vec<2>&, const Vec<2>&);
+template void check_positions(const State<3>&, const Vec<3>&, const Vec<3>&);
 
 }  // namespace mpmfast

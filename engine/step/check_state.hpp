@@ -28,6 +28,6 @@ void check_particles(const Particles<Dim>& particles, const std::vector<std::uin
 /// of the tile is seen by the step, which sorts anew where a support leaves its window.
 /// @param lower, upper  m, of the box that particles must stay in
 template <int Dim>
-void check_places(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper);
+void check_positions(const State<Dim>& state, const Vec<Dim>& lower, const Vec<Dim>& upper);
 
 }  // namespace mpmfast

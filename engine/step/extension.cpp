@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "engine/step/bit_cube.hpp"
 #include "kernels/basis/extension.hpp"
 #include "kernels/basis/facts.hpp"
@@ -53,9 +53,9 @@ Extension<Dim>::Extension(const Scene& scene, const Plan& plan)
   if (!active()) return;
   for (int order = 0; order <= degree_; ++order) {
     auto& of_order = candidates_.emplace_back();
-    const int places = 2 * kReach + 1 - order;
-    for (int k = 0; k < power(places, Dim); ++k) {
-      Candidate c{cube_node<Dim>(places, k), 0, {}};
+    const int per_side = 2 * kReach + 1 - order;
+    for (int k = 0; k < power(per_side, Dim); ++k) {
+      Candidate c{cube_node<Dim>(per_side, k), 0, {}};
       NodeIndex<Dim> from_first;
       for (int d = 0; d < Dim; ++d) {
         c.first[d] -= kReach;
@@ -80,8 +80,8 @@ Extension<Dim>::Extension(const Scene& scene, const Plan& plan)
       tile[d] /= kTileSide;
       local[d] %= kTileSide;
     }
-    places_.push_back({static_cast<std::uint8_t>(cube_index<Dim>(3, tile)),
-                       static_cast<std::uint8_t>(cube_index<Dim>(kTileSide, local))});
+    cube_nodes_.push_back({static_cast<std::uint8_t>(cube_index<Dim>(3, tile)),
+                           static_cast<std::uint8_t>(cube_index<Dim>(kTileSide, local))});
   }
 }
 
@@ -91,13 +91,13 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
   neighbours_.resize(tiling.node_tiles.size());
   enough_.assign(tiling.node_tiles.size(), 0);
   first_nodes_.resize(tiling.node_tiles.size());
-  for (const auto& stack : tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t) {
-      first_nodes_[static_cast<std::size_t>(t)] = stack.first_node;
+  for (const auto& block : tiling.node_blocks)
+    for (int t = block.begin; t < block.end; ++t) {
+      first_nodes_[static_cast<std::size_t>(t)] = block.first_node;
       for (int m = 0; m < power(3, Dim); ++m) {
         int& found = neighbours_[static_cast<std::size_t>(t)][static_cast<std::size_t>(m)] = -1;
-        if (stack.neighbour[m] < 0) continue;
-        const auto& other = tiling.stacks[static_cast<std::size_t>(stack.neighbour[m])];
+        if (block.neighbour[m] < 0) continue;
+        const auto& other = tiling.node_blocks[static_cast<std::size_t>(block.neighbour[m])];
         for (int u = other.begin; u < other.end && found < 0; ++u)
           if (tiling.node_tiles[static_cast<std::size_t>(u)].field ==
               tiling.node_tiles[static_cast<std::size_t>(t)].field)
@@ -109,8 +109,8 @@ void Extension<Dim>::find_neighbours(const State<Dim>& state) {
 }
 
 template <int Dim>
-void Extension<Dim>::find_room(double time) {
-  for (int d = 0; d < Dim; ++d) room_[static_cast<std::size_t>(d)] = room_between_walls(*scene_, d, time);
+void Extension<Dim>::find_space(double time) {
+  for (int d = 0; d < Dim; ++d) space_[static_cast<std::size_t>(d)] = space_between_walls(*scene_, d, time);
 }
 
 /// Whether a node lies further out than the first row at or beyond a wall.
@@ -118,9 +118,9 @@ template <int Dim>
 bool Extension<Dim>::is_beyond(int tile, int local) const {
   const NodeIndex<Dim>& first = first_nodes_[static_cast<std::size_t>(tile)];
   for (int d = 0; d < Dim; ++d, local /= kTileSide) {
-    const auto& room = room_[static_cast<std::size_t>(d)];
+    const auto& space = space_[static_cast<std::size_t>(d)];
     const int row = first[d] + local % kTileSide;
-    if (row < std::floor(room.lower + kRowTolerance) || row > std::ceil(room.upper - kRowTolerance))
+    if (row < std::floor(space.lower + kRowTolerance) || row > std::ceil(space.upper - kRowTolerance))
       return true;
   }
   return false;
@@ -134,9 +134,9 @@ std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) con
   std::array<std::array<double, kTileSide>, Dim> inside;  // of each cell's length, by axis
   for (int d = 0; d < Dim; ++d)
     for (int k = 0; k < kTileSide; ++k) {
-      const auto& room = room_[static_cast<std::size_t>(d)];
+      const auto& space = space_[static_cast<std::size_t>(d)];
       const double begin = first[d] + k + 0.5 * (degree_ - 1);
-      const double length = std::min(begin + 1, room.upper) - std::max(begin, room.lower);
+      const double length = std::min(begin + 1, space.upper) - std::max(begin, space.lower);
       inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] = std::clamp(length, 0.0, 1.0);
     }
   constexpr double kLeastInside = 0.25;  // of a cell: a sliver that a wall leaves tells nothing
@@ -162,13 +162,13 @@ std::uint64_t Extension<Dim>::find_stable(int tile) const {
   BitCube<Dim, 2 * kTileSide> enough;
   for (int corner = 0; corner < kCorners<Dim>; ++corner) {
     int neighbour = 0, stride = 1;
-    NodeIndex<Dim> place;
+    NodeIndex<Dim> offset;
     for (int d = 0; d < Dim; ++d, stride *= 3) {
-      place[d] = corner >> d & 1;
-      neighbour += place[d] * stride;
+      offset[d] = corner >> d & 1;
+      neighbour += offset[d] * stride;
     }
     const int from = neighbours_[static_cast<std::size_t>(tile)][static_cast<std::size_t>(neighbour)];
-    if (from >= 0) enough.put(enough_[static_cast<std::size_t>(from)], place);
+    if (from >= 0) enough.put(enough_[static_cast<std::size_t>(from)], offset);
   }
   enough.spread_up(degree_);
   NodeIndex<Dim> own;
@@ -178,7 +178,7 @@ std::uint64_t Extension<Dim>::find_stable(int tile) const {
 
 /// The first nodes of blocks of stable ones, in a tile and those around it.
 template <int Dim>
-void Extension<Dim>::look_around(int tile, int order, Around& blocks) const {
+void Extension<Dim>::find_blocks_around(int tile, int order, Around& blocks) const {
   BitCube<Dim, kAround> stable;
   for (int m = 0; m < power(3, Dim); ++m) {
     const int from = neighbours_[static_cast<std::size_t>(tile)][static_cast<std::size_t>(m)];
@@ -218,8 +218,9 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
   for (auto c = nearest; c != end; ++c) {
     if (!is_block(*c)) continue;
     for (const Part& part : c->parts) {
-      const Place& place = places_[static_cast<std::size_t>(here + part.offset)];
-      found.shares.push_back({around[place.neighbour] * kTileNodes<Dim> + place.local, part.weight / ties});
+      const CubeNode& in_cube = cube_nodes_[static_cast<std::size_t>(here + part.offset)];
+      found.shares.push_back(
+          {around[in_cube.neighbour] * kTileNodes<Dim> + in_cube.local, part.weight / ties});
     }
   }
   node.end = static_cast<int>(found.shares.size());
@@ -242,7 +243,7 @@ void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) 
     if (is_beyond(tile, local)) order = std::min(order, 1);
     for (; order >= 0 && !follows; --order) {
       if (of_order != order) {
-        look_around(tile, order, blocks);
+        find_blocks_around(tile, order, blocks);
         of_order = order;
       }
       follows = follow_block(tile, local, order, blocks, found);
@@ -356,7 +357,7 @@ void Extension<Dim>::find(const State<Dim>& state) {
   if (stale_) find_neighbours(state);
   stale_ = false;
   lowered_.clear();
-  find_room(state.time);
+  find_space(state.time);
   const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
   for_each_of(tiles, state.threads, 16, [&](std::int64_t t) {
     enough_[static_cast<std::size_t>(t)] = find_enough(state, static_cast<int>(t));

@@ -38,7 +38,7 @@ class Extension {
 
   bool active() const { return occupation_ > 0; }
   /// After a sort: slots have new numbers.
-  void forget_nodes() { stale_ = true; }
+  void invalidate_nodes() { stale_ = true; }
 
   /// Lists the nodes that follow others in this step, from `occupied` and `mass` as projected.
   void find(const State<Dim>& state);
@@ -90,8 +90,8 @@ class Extension {
     double distance;          ///< squared, from the node to the block's middle, in cells
     std::vector<Part> parts;  ///< whose shares are not 0
   };
-  /// Where a place of the cube around a tile is: which neighbour's, and which of its nodes.
-  struct Place {
+  /// A node of the cube around a tile: the neighbour whose it is, and its number there.
+  struct CubeNode {
     std::uint8_t neighbour, local;
   };
   struct Lowered {
@@ -108,11 +108,11 @@ class Extension {
   /// A share that is met to round-off is not passed, m³.
   double least() const { return occupation_ * (1 + 1e-9); }
   void find_neighbours(const State<Dim>& state);
-  void find_room(double time);
+  void find_space(double time);
   bool is_beyond(int tile, int local) const;
   std::uint64_t find_enough(const State<Dim>& state, int tile) const;
   std::uint64_t find_stable(int tile) const;
-  void look_around(int tile, int order, Around& blocks) const;
+  void find_blocks_around(int tile, int order, Around& blocks) const;
   void list_tile(const State<Dim>& state, int tile, Found& found) const;
   bool follow_block(int tile, int local, int order, const Around& blocks, Found& found) const;
   void list_all(const State<Dim>& state);
@@ -123,9 +123,9 @@ class Extension {
   const Scene* scene_;
   double occupation_;  ///< m³: of a cell that has enough material; 0: splines are not extended
   int degree_;
-  std::array<Interval, Dim> room_;  ///< between the walls now, in cells from the grid's origin
+  std::array<Interval, Dim> space_;  ///< between the walls now, in cells from the grid's origin
   std::vector<std::vector<Candidate>> candidates_;          ///< by order, the nearest first
-  std::vector<Place> places_;                               ///< of the cube around a tile
+  std::vector<CubeNode> cube_nodes_;                        ///< of the cube around a tile
   std::vector<std::array<int, power(3, Dim)>> neighbours_;  ///< by node tile, of its field; −1: none
   std::vector<NodeIndex<Dim>> first_nodes_;                 ///< by node tile
   std::vector<std::uint64_t> enough_, stable_;              ///< by node tile: cells, nodes, a bit each

@@ -38,7 +38,7 @@ std::string not_finite(const Particles<Dim>& particles, std::size_t p) {
 
 /// Nothing where the scene has said so.
 const char* other_ways_to_leave(const GridSpec& grid) {
-  return grid.leaving == LeavingKind::stop ? " (grid.leaving says what else may become of it)" : "";
+  return grid.outflow == OutflowKind::stop ? " (grid.leaving says what else may become of it)" : "";
 }
 
 /// The particle of the least value, of equal ones that with the smallest id; `none` where no value is below
@@ -59,14 +59,14 @@ std::size_t least(const Particles<Dim>& particles, double bound, const Value& va
 }  // namespace
 
 template <int Dim>
-Vec<Dim> Step<Dim>::place_of(std::size_t p) const {
+Vec<Dim> Step<Dim>::position_of(std::size_t p) const {
   const Vec<Dim> x = state_.particles.vector(Quantity::position, p);
   if (x.allFinite()) return x;
-  Vec<Dim> place;
+  Vec<Dim> position;
   const NodeIndex<Dim> node = state_.tiling.sorted_node(p);
   // Supports of 2 to 5 nodes: the particle is about a cell and a half above the first.
-  for (int d = 0; d < Dim; ++d) place[d] = state_.grid.origin[d] + (node[d] + 1.5) * state_.grid.cell;
-  return place;
+  for (int d = 0; d < Dim; ++d) position[d] = state_.grid.origin[d] + (node[d] + 1.5) * state_.grid.cell;
+  return position;
 }
 
 /// A number that is none spreads over a support in a step: the particle in the middle of those that are hit
@@ -82,13 +82,14 @@ void Step<Dim>::fail(const char* otherwise) const {
   for (std::size_t p = 0; p < particles.size(); ++p) {
     if (is_finite(particles, p)) continue;
     broken[p] = true;
-    middle += place_of(p);
+    middle += position_of(p);
     ++count;
   }
   if (count > 0) {
     middle /= static_cast<double>(count);
-    std::size_t p = least(particles, kNever,
-                          [&](std::size_t q) { return broken[q] ? (place_of(q) - middle).norm() : kNever; });
+    std::size_t p = least(particles, kNever, [&](std::size_t q) {
+      return broken[q] ? (position_of(q) - middle).norm() : kNever;
+    });
     if (p == none)  // they are too far apart for a distance
       p = static_cast<std::size_t>(std::find(broken.begin(), broken.end(), true) - broken.begin());
     std::string cause = fmt::format("not a number any more ({})", not_finite(particles, p));
@@ -164,12 +165,12 @@ void Step<Dim>::fail_warmed() const {
 template <int Dim>
 void Step<Dim>::fail_at(std::size_t particle, const std::string& cause) const {
   const auto& particles = state_.particles;
-  const Vec<Dim> x = place_of(particle);
+  const Vec<Dim> x = position_of(particle);
   const bool known = particles.vector(Quantity::position, particle).allFinite();
-  RunFailure::Place place{};
+  RunFailure::Position position{};
   std::string text;
   for (int d = 0; d < Dim; ++d) {
-    place[static_cast<std::size_t>(d)] = x[d];
+    position[static_cast<std::size_t>(d)] = x[d];
     text += fmt::format("{}{:.6g}", d > 0 ? ", " : "", x[d]);
   }
   const auto body = static_cast<std::size_t>(particles.body()[particle]);
@@ -178,12 +179,12 @@ void Step<Dim>::fail_at(std::size_t particle, const std::string& cause) const {
       fmt::format("step {}, time {:.9g} s: particle {} of body '{}' (velocity field '{}') {} ({}) m: {}",
                   state_.step, state_.time, particles.id()[particle], scene_->bodies[body].name,
                   plan_.fields[field], known ? "at" : "near", text, cause),
-      place);
+      position);
 }
 
 // Here: the members that this file defines.
-template Vec<2> Step<2>::place_of(std::size_t) const;
-template Vec<3> Step<3>::place_of(std::size_t) const;
+template Vec<2> Step<2>::position_of(std::size_t) const;
+template Vec<3> Step<3>::position_of(std::size_t) const;
 template void Step<2>::fail(const char*) const;
 template void Step<3>::fail(const char*) const;
 template void Step<2>::fail_warmed() const;

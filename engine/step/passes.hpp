@@ -20,8 +20,8 @@ namespace mpmfast {
 template <int Dim>
 class Passes : public ContactBasis<Dim>, public HeatCarrier<Dim> {
  public:
-  /// Of the rooms that threads work in, as far as they do.
-  virtual std::size_t room_bytes(int threads) const = 0;
+  /// Of the workspaces of the threads that work.
+  virtual std::size_t workspace_bytes(int threads) const = 0;
   /// Convected half-edge vectors from F, where the basis has them: called once, after seeding.
   virtual void shape_domains(State<Dim>& state) = 0;
   /// The same, of particles that were split.

@@ -15,10 +15,10 @@ namespace mpmfast {
 /// to, they may go as far again.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
-  const bool looked_for =
+  const bool found_by_fit =
       plan_.contact || cracks_.active() || penalty_.active() || facts(plan_.basis).convected;
-  const double cell = state_.grid.cell, near = (looked_for ? 0.25 : 0.5) * cell,
-               further = (looked_for ? 0.5 : 0.45) * cell;
+  const double cell = state_.grid.cell, near = (found_by_fit ? 0.25 : 0.5) * cell,
+               further = (found_by_fit ? 0.5 : 0.45) * cell;
   bool due = sort_due_;
   if (!due && travelled_ >= further) {
     const auto timed = clock_.enter(Task::sort);
@@ -26,7 +26,7 @@ void Step<Dim>::sort_if_due() {
     if (!due) travelled_ = 0;
   }
   if (due) sort();
-  if (cracks_.active() && (due || cracks_.classification_due(state_.grid.cell))) look_at_cracks(due);
+  if (cracks_.active() && (due || cracks_.classification_due(state_.grid.cell))) find_crack_sides(due);
 }
 
 template <int Dim>
@@ -40,8 +40,8 @@ void Step<Dim>::sort() {
 
 /// Groups the particles anew where they see other sides than before.
 template <int Dim>
-void Step<Dim>::look_at_cracks(bool sorted) {
-  const auto timed = clock_.enter(Task::look_at_cracks);
+void Step<Dim>::find_crack_sides(bool sorted) {
+  const auto timed = clock_.enter(Task::find_crack_sides);
   const Supports<Dim> supports = passes_->supports(state_);
   SideChange change = cracks_.classify(state_, supports);
   if (change == SideChange::sort_first && !sorted) {
@@ -60,10 +60,10 @@ void Step<Dim>::look_at_cracks(bool sorted) {
 template <int Dim>
 void Step<Dim>::number_slots() {
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
-  conditions_.forget_nodes();
-  extension_.forget_nodes();
+  conditions_.invalidate_nodes();
+  extension_.invalidate_nodes();
   penalty_.invalidate_tiles();
-  heat_.forget_nodes();
+  heat_.invalidate_nodes();
   contact_.renumber_fits(state_.tiling);
   nodes_peak_ = std::max<std::uint64_t>(nodes_peak_, static_cast<std::uint64_t>(state_.tiling.slots()));
 }
@@ -123,7 +123,8 @@ bool Step<Dim>::project_masses(bool cracked) {
 template <int Dim>
 void Step<Dim>::project() {
   for (int attempt = 0; attempt < 2; ++attempt) {
-    const bool cracked = plan_.cracks_alone || (cracks_.active() && !plan_.bridges);  // those displaced
+    const bool cracked =
+        plan_.cracks_alone || (cracks_.active() && !plan_.interface_springs);  // those displaced
     const bool inside = project_masses(cracked);
     if (inside && plan_.geometry) {
       const auto timed = clock_.enter(Task::project_geometry);
@@ -145,8 +146,8 @@ template void Step<2>::sort_if_due();
 template void Step<3>::sort_if_due();
 template void Step<2>::sort();
 template void Step<3>::sort();
-template void Step<2>::look_at_cracks(bool);
-template void Step<3>::look_at_cracks(bool);
+template void Step<2>::find_crack_sides(bool);
+template void Step<3>::find_crack_sides(bool);
 template void Step<2>::number_slots();
 template void Step<3>::number_slots();
 template bool Step<2>::project_masses(bool);

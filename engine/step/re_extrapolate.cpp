@@ -16,7 +16,8 @@ void Step<Dim>::re_extrapolate() {
   const double* mass = nodes.column(Nodal::mass);
   const auto timed = clock_.enter(Task::re_extrapolate);
   for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
-    if (nodes.has(Nodal::pressed)) std::fill_n(nodes.column(Nodal::pressed) + begin, end - begin, 0.0);
+    if (nodes.has(Nodal::compression_weight))
+      std::fill_n(nodes.column(Nodal::compression_weight) + begin, end - begin, 0.0);
     for (int d = 0; d < Dim; ++d) {
       double* momentum = nodes.column(Nodal::momentum, d);
       for (std::int64_t tile = begin; tile < end; tile += kTileNodes<Dim>)
@@ -29,7 +30,7 @@ void Step<Dim>::re_extrapolate() {
   });
   passes_->re_extrapolate(state_, update_rule());
   restrict_columns({Nodal::momentum});
-  if (nodes.has(Nodal::pressed)) restrict_columns({Nodal::pressed});
+  if (nodes.has(Nodal::compression_weight)) restrict_columns({Nodal::compression_weight});
   correct_contact_re_extrapolated();
   for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
     for (int d = 0; d < Dim; ++d)
@@ -64,7 +65,7 @@ void Step<Dim>::find_moving_velocities() {
     contact_.average_compression(state_);
   }
   const auto meeting = static_cast<std::int64_t>(kept_slots_.size());
-  conditions_.share_pressed(state_);
+  conditions_.share_compression_weight(state_);
   conditions_.list_held_slots(kept_slots_);
   const auto kept = static_cast<std::int64_t>(kept_slots_.size());
   kept_velocities_.resize(kept_slots_.size());
@@ -72,14 +73,15 @@ void Step<Dim>::find_moving_velocities() {
     const auto at = static_cast<std::size_t>(k);
     if (kept_slots_[at] >= 0) kept_velocities_[at] = nodes.vector(Nodal::velocity, kept_slots_[at]);
   });
-  const double *mass = nodes.column(Nodal::mass), *pressed = nodes.column(Nodal::pressed);
+  const double *mass = nodes.column(Nodal::mass),
+               *compression_weight = nodes.column(Nodal::compression_weight);
   for_each_slot(state_, [&](std::int64_t begin, std::int64_t end) {
     for (int d = 0; d < Dim; ++d) {
       const double* strained = nodes.column(Nodal::re_extrapolated, d);
       double* moves = nodes.column(Nodal::velocity, d);
       for (std::int64_t i = begin; i < end; i += kLanes) {
         const Lanes m = load_lanes(mass + i), v = load_lanes(strained + i);
-        const Lanes share = m > 0.0 ? load_lanes(pressed + i) / m : 0.0;
+        const Lanes share = m > 0.0 ? load_lanes(compression_weight + i) / m : 0.0;
         store_lanes(moves + i, v + share * (load_lanes(moves + i) - v));
       }
     }

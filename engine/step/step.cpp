@@ -12,7 +12,7 @@
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
 #include "engine/state/slots.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "engine/step/crowding.hpp"
 
 namespace mpmfast {
@@ -43,7 +43,8 @@ Step<Dim>::Step(const Scene& scene)
     lower_[d] = scene.grid.origin[k] - scene.grid.cell;
     upper_[d] = scene.grid.origin[k] + scene.grid.size[k] + scene.grid.cell;
   }
-  if (plan_.depth == Depth::hoop) lower_[0] = std::max(lower_[0], 0.0);  // nothing crosses the axis
+  if (plan_.plane_kind == PlaneKind::axisymmetric)
+    lower_[0] = std::max(lower_[0], 0.0);  // nothing crosses the axis
   for (std::size_t p = 0; p < state_.particles.size(); ++p)
     fastest_ = std::max(fastest_, state_.particles.column(Quantity::wave_speed)[p] +
                                       state_.particles.vector(Quantity::velocity, p).norm());
@@ -106,11 +107,11 @@ void Step<Dim>::add_velocity(int axis, std::span<const double> change) {
 template <int Dim>
 void Step<Dim>::advance(double dt, bool stresses) {
   if (plan_.split_edge > 0) choose_threads();
-  Team::gather(state_.threads, [&] { advance_gathered(dt, stresses); });
+  ThreadTeam::parallel_region(state_.threads, [&] { advance_in_parallel(dt, stresses); });
 }
 
 template <int Dim>
-void Step<Dim>::advance_gathered(double dt, bool stresses) {
+void Step<Dim>::advance_in_parallel(double dt, bool stresses) {
   clock_.begin_step();
   start_rigid(dt);
   if (plan_.displacements && state_.step == 0) lead_displacements(dt);
@@ -143,8 +144,8 @@ void Step<Dim>::advance_gathered(double dt, bool stresses) {
   drift(dt);
   move_rigid_end(dt);
   move_cracks(dt);
-  let_leave();
-  book(dt);
+  remove_outflow();
+  record_energies(dt);
   state_.time += dt;
   ++state_.step;
   dt_ = dt;
@@ -159,9 +160,9 @@ template <int Dim>
 void Step<Dim>::lead_displacements(double dt) {
   auto& particles = state_.particles;
   for (int d = 0; d < Dim; ++d) {
-    double* place = particles.column(Quantity::reference_position, d);
+    double* reference = particles.column(Quantity::reference_position, d);
     const double* velocity = particles.column(Quantity::velocity, d);
-    for (std::size_t p = 0; p < particles.size(); ++p) place[p] -= 0.5 * dt * velocity[p];
+    for (std::size_t p = 0; p < particles.size(); ++p) reference[p] -= 0.5 * dt * velocity[p];
   }
 }
 

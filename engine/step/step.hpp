@@ -71,7 +71,7 @@ class Step {
   [[noreturn]] void fail_collapsed(double dt, double share) const;
 
   /// Where particle p is: its position, or the cell that it was last sorted to where that is no number.
-  Vec<Dim> place_of(std::size_t p) const;
+  Vec<Dim> position_of(std::size_t p) const;
 
   State<Dim>& state() { return state_; }
   const State<Dim>& state() const { return state_; }
@@ -85,9 +85,9 @@ class Step {
   const Heat<Dim>& heat() const { return heat_; }
   /// Contact nodes, normals and separations of the last step.
   const ContactList<Dim>& contact_list() const { return contact_.list(); }
-  /// Of contact lists and clouds now, and of the rooms that threads work in.
+  /// Of contact lists and clouds now, and of the workspaces of threads.
   std::size_t contact_bytes() const { return contact_.bytes(); }
-  std::size_t room_bytes() const { return passes_->room_bytes(state_.threads); }
+  std::size_t workspace_bytes() const { return passes_->workspace_bytes(state_.threads); }
   const Cracks<Dim>& cracks() const { return cracks_; }
   /// What drives a crack at one of its ends, after a step. The stresses must be those of the moment.
   TipLoad tip_load(int crack, bool end);
@@ -96,7 +96,7 @@ class Step {
   /// Of the particles, and of the springs of penalty contact, J.
   double stored_energy();
   /// Of it, what springs and bonds between surfaces hold, J.
-  double joint_energy() const { return contact_.ledger().stored; }
+  double interface_energy() const { return contact_.ledger().stored; }
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
   /// All that lasts from one step to the next: filled from an archive, a step of the same scene goes on to
@@ -108,13 +108,13 @@ class Step {
   double fastest() const;
   /// Below a thousand particles a thread, waiting for each other costs more than the work.
   void choose_threads();
-  void count_path(double way) { travelled_ += way, unlooked_ += way; }
+  void count_path(double way) { travelled_ += way, unchecked_path_ += way; }
   const State<Dim>& seeded(const Scene& scene);
-  void advance_gathered(double dt, bool stresses);
+  void advance_in_parallel(double dt, bool stresses);
   void split_if_due();
   void sort_if_due();
   void sort();
-  void look_at_cracks(bool sorted);
+  void find_crack_sides(bool sorted);
   void number_slots();
   void lead_displacements(double dt);
   void project();
@@ -157,9 +157,9 @@ class Step {
   void update_particles(double dt);
   void move_rigid_end(double dt);
   void grow_cracks();
-  void let_leave();
-  void book(double dt);
-  void book(const ContactLedger<Dim>& books);
+  void remove_outflow();
+  void record_energies(double dt);
+  void record_contact(const ContactLedger<Dim>& ledger);
   /// Throws the RunFailure of the particle that is to blame. @param otherwise  the cause if none is found
   [[noreturn]] void fail(const char* otherwise) const;
   [[noreturn]] void fail_warmed() const;
@@ -182,10 +182,10 @@ class Step {
   StepClock clock_;
   Vec<Dim> lower_, upper_;  ///< box that particles must stay in, m
   TipSamples tip_samples_;
-  double dt_{};           ///< of the last step, s
-  double fastest_{};      ///< max_p (c_p + |v_p|), m/s
-  double travelled_ = 0;  ///< bound on paths since the last sort, or since all were near their places, m
-  double unlooked_ = 0;   ///< likewise since domains were looked at, m (split_if_due)
+  double dt_{};                ///< of the last step, s
+  double fastest_{};           ///< max_p (c_p + |v_p|), m/s
+  double travelled_ = 0;       ///< bound on paths since the last sort, or since all were near their places, m
+  double unchecked_path_ = 0;  ///< likewise since domains were looked at, m (split_if_due)
   std::vector<int> kept_slots_;            ///< whose v⁺ moves particles, in this step; −1: none
   std::vector<Vec<Dim>> kept_velocities_;  ///< theirs, m/s
   bool sort_due_ = true;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "kernels/transfer/window.hpp"
 
 namespace mpmfast {
@@ -41,7 +41,7 @@ void TileLoops<Dim>::for_each_by_colour(State<Dim>& state,
       return std::lower_bound(strips.begin(), strips.end(), first_tile(state, thread), before) -
              strips.begin();
     });
-  on_threads(state.threads, [&](const Member& me) {
+  on_threads(state.threads, [&](const TeamThread& me) {
     bool first = true;
     for (std::size_t colour = 0; colour < colours.size(); ++colour) {
       if (colours[colour].empty()) continue;
@@ -69,7 +69,7 @@ void TileLoops<Dim>::for_each_deformable(State<Dim>& state,
   const ParticleView<Dim> view = state.view();
   const auto& tiles = state.tiling.tiles;
   shares_[0].cut_at(state.threads, kAtOnce, [&](int thread) { return first_tile(state, thread); });
-  on_threads(state.threads, [&](const Member& me) {
+  on_threads(state.threads, [&](const TeamThread& me) {
     shares_[0].for_each(me.thread, [&](std::int64_t t) {
       TileContext<Dim> c = context_of(state, view, t);
       if (is_rigid(state, *c.tile)) return;

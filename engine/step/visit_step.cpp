@@ -54,7 +54,7 @@ void Step<Dim>::visit(Archive& archive) {
   archive.number("step/travelled", travelled_);
   archive.flag("step/sort_due", sort_due_);
   if (plan_.split_edge > 0) {
-    archive.number("step/unlooked", unlooked_);
+    archive.number("step/unlooked", unchecked_path_);
     archive.number("step/splits", splits_.splits);
     archive.number("step/split_held", splits_.held);
   }
@@ -76,9 +76,9 @@ void Step<Dim>::visit(Archive& archive) {
   if (!archive.reading()) return;
   if (state_.tiling.tiles.empty() && state_.particles.size() > 0 && !sort_due_)
     refuse_checkpoint("no particle is in a tile");
-  check_places(state_, lower_, upper_);
+  check_positions(state_, lower_, upper_);
   state_.nodes.resize(static_cast<std::size_t>(state_.tiling.slots()));
-  conditions_.forget_nodes();
+  conditions_.invalidate_nodes();
   penalty_.invalidate_tiles();
   // Where particles lie in other windows than their tiles', nothing may count on these: the next step sorts.
   const bool placed = passes_->near_home(state_, 0);

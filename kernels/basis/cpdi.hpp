@@ -17,7 +17,8 @@ namespace mpmfast {
 
 /// Linear grid functions.
 struct HatCorner {
-  static constexpr const char* kSays = "linear functions over the domain convected with the deformation";
+  static constexpr const char* kDescription =
+      "linear functions over the domain convected with the deformation";
   static constexpr int kSupport = 2;   ///< nodes on which a point has weight
   static constexpr double kReach = 1;  ///< cells: the function is non-zero at smaller distances
   static constexpr double kLead = 0;   ///< the first of these nodes is floor(x − kLead)
@@ -41,7 +42,7 @@ struct HatCorner {
 
 /// Quadratic B-splines: ½(3/2 − |t|)², less 3/2 (½ − |t|)² in the middle piece, where that makes ¾ − t².
 struct QuadraticCorner {
-  static constexpr const char* kSays =
+  static constexpr const char* kDescription =
       "quadratic B-splines over the domain convected with the deformation: smooth";
   static constexpr int kSupport = 3;
   static constexpr double kReach = 1.5;
@@ -65,7 +66,7 @@ struct CpdiBasis {
   static constexpr bool kConvected = true, kOverDomain = true;
   static constexpr double kGridReach = Corner::kReach;
   static constexpr double kSpread = 0;  ///< differs from domain to domain
-  static constexpr const char* kSays = Corner::kSays;
+  static constexpr const char* kDescription = Corner::kDescription;
 
   template <int K>
   using Weights = ChunkWeights<Dim, K>;
@@ -91,7 +92,7 @@ struct CpdiBasis {
         const Lanes lowest = r[d] - extent - Corner::kLead;
         first[d] = floor_of(lowest);
         if constexpr (kSortedOffset<CpdiBasis> == 0) {
-          // There is no room for what round-off lets stick out: a weight below 1e-17 is left out instead.
+          // There is no space for what round-off lets stick out: a weight below 1e-17 is left out instead.
           const double window = g.window[d];
           first[d] = first[d] < window ? floor_of(lowest + 2 * kEdge) : first[d];
         }
@@ -99,7 +100,7 @@ struct CpdiBasis {
         if constexpr (K < kMaxSupport)
           fits = where_less(fits, r[d] + extent, broadcast<Lanes>(Corner::kLead + 2));
       }
-      fits = place_in_window<Dim, K>(fits, first, g, out.first + k);
+      fits = locate_in_window<Dim, K>(fits, first, g, out.first + k);
       suits &= same_lanes(fits, all);
       Lanes weight[kCorners<Dim>][Dim][K];
       for (int c = 0; c < kCorners<Dim>; ++c)

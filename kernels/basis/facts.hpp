@@ -25,8 +25,8 @@ MPMFAST_BASES(MPMFAST_TYPE)
 
 /// What decisions outside the kernels ask of a basis.
 struct BasisFacts {
-  const char* word;
-  const char* says;
+  const char* keyword;
+  const char* description;
   bool convected;     ///< domains follow F: particles carry their edges
   bool over_domain;   ///< the grid's function is averaged over the particle's domain
   double grid_reach;  ///< cells from its node up to which the grid's function is not zero
@@ -34,13 +34,13 @@ struct BasisFacts {
   int usual_support;  ///< nodes a side that most particles have weight on
 };
 
-#define MPMFAST_FACTS(word, Basis)  \
-  BasisFacts{#word,                 \
-             Basis<2>::kSays,       \
-             Basis<2>::kConvected,  \
-             Basis<2>::kOverDomain, \
-             Basis<2>::kGridReach,  \
-             Basis<2>::kSpread,     \
+#define MPMFAST_FACTS(word, Basis)   \
+  BasisFacts{#word,                  \
+             Basis<2>::kDescription, \
+             Basis<2>::kConvected,   \
+             Basis<2>::kOverDomain,  \
+             Basis<2>::kGridReach,   \
+             Basis<2>::kSpread,      \
              Basis<2>::kMinSupport},
 inline constexpr std::array kBasisFacts{MPMFAST_BASES(MPMFAST_FACTS)};
 #undef MPMFAST_FACTS

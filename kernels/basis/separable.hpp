@@ -1,8 +1,8 @@
 #pragma once
 
 /// @file Bases that are products of one-dimensional functions: linear, uGIMP, quadratic and cubic B-splines.
-/// To add one: a struct with kSays, kSupport, kSpread, first_node, weights and reach, an alias at the end of
-/// the file, and its line in bases.hpp.
+/// To add one: a struct with kDescription, kSupport, kSpread, first_node, weights and reach, an alias at the
+/// end of the file, and its line in bases.hpp.
 
 #include <cmath>
 
@@ -12,7 +12,7 @@ namespace mpmfast {
 
 /// Classic MPM: hat functions at the particle's point.
 struct LinearFunction {
-  static constexpr const char* kSays = "classic: linear functions at the particle's point; a baseline";
+  static constexpr const char* kDescription = "classic: linear functions at the particle's point; a baseline";
   static constexpr int kSupport = 2;
   /// Σ_i w_i (r_i − r)² in cells², where it is the same for every r; else 0.
   static constexpr double kSpread = 0;
@@ -37,7 +37,7 @@ struct LinearFunction {
 /// With s in [½, 3/2) the outer two nodes lie at distances a ≥ ½ ≥ l, where the average is 1 − a up to a = 1
 /// − l and (1 + l − a)²/(4l) beyond; the middle one follows from the partition of unity.
 struct UGimpFunction {
-  static constexpr const char* kSays =
+  static constexpr const char* kDescription =
       "generalised interpolation over the undeformed particle domain (default)";
   static constexpr int kSupport = 3;
   static constexpr double kSpread = 0;
@@ -67,7 +67,7 @@ struct UGimpFunction {
 
 /// Quadratic B-spline at the particle's point.
 struct BSpline2Function {
-  static constexpr const char* kSays = "quadratic B-splines at the particle's point";
+  static constexpr const char* kDescription = "quadratic B-splines at the particle's point";
   static constexpr int kSupport = 3;
   static constexpr double kSpread = 0.25;
   template <class V>
@@ -89,7 +89,7 @@ struct BSpline2Function {
 
 /// Cubic B-spline at the particle's point.
 struct BSpline3Function {
-  static constexpr const char* kSays = "cubic B-splines at the particle's point";
+  static constexpr const char* kDescription = "cubic B-splines at the particle's point";
   static constexpr int kSupport = 4;
   static constexpr double kSpread = 1.0 / 3.0;
   template <class V>
@@ -119,7 +119,7 @@ struct SeparableBasis {
   static constexpr bool kConvected = false;  ///< needs no half-edge vectors
   static constexpr bool kOverDomain = Function::reach(0.5) > Function::reach(0);
   static constexpr double kSpread = Function::kSpread, kGridReach = Function::reach(0);
-  static constexpr const char* kSays = Function::kSays;
+  static constexpr const char* kDescription = Function::kDescription;
 
   template <int K>
   using Weights = ProductWeights<Dim, K>;
@@ -141,7 +141,7 @@ struct SeparableBasis {
                       W == Wanted::values ? Lanes{} : slope[i] * g.inverse_cell);
       }
       const LaneSet all = leading_lanes(g.count - k);
-      inside &= same_lanes(place_in_window<Dim, K>(all, node, g, out.first + k), all);
+      inside &= same_lanes(locate_in_window<Dim, K>(all, node, g, out.first + k), all);
     }
     return inside;
   }

@@ -96,8 +96,8 @@ constexpr int window_offset(int n) {
 /// Turns the first nodes (whole numbers) of some particles' supports on K nodes a side into window indices.
 /// @return those of `among` whose supports lie in the window: the others must be sorted anew
 template <int Dim, int K>
-inline LaneSet place_in_window(LaneSet among, const Lanes (&first)[Dim], const ChunkGeometry<Dim>& g,
-                               int* index) {
+inline LaneSet locate_in_window(LaneSet among, const Lanes (&first)[Dim], const ChunkGeometry<Dim>& g,
+                                int* index) {
   constexpr double kMost = kWindowSide - K + 0.5;
   Lanes at = broadcast<Lanes>(0.0);
   double stride = 1;

@@ -19,7 +19,7 @@ struct CloudView {
 /// Entries that the arrays of a cloud of this many particles must have.
 constexpr int padded_count(int count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
-/// Particles of a cloud with their domains, valid until the room that they are in grows. What follows them is
+/// Particles of a cloud with their domains, valid until their workspace grows. What follows them is
 /// readable for a vector more.
 template <int Dim>
 struct CloudColumns {

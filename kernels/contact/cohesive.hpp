@@ -24,7 +24,7 @@ namespace mpmfast {
 struct Coulomb;
 
 enum class Softening { triangular, exponential, trapezoidal };
-inline constexpr std::array<Word<Softening>, 3> kSoftenings{{
+inline constexpr std::array<Keyword<Softening>, 3> kSoftenings{{
     {Softening::triangular, "triangular", "straight from the strength to nothing (default)"},
     {Softening::exponential, "exponential", "fast at first, with a long tail"},
     {Softening::trapezoidal, "trapezoidal", "holds the strength for a while (`plateau`), then straight"},
@@ -74,8 +74,8 @@ struct SofteningLaw {
 };
 
 struct Cohesive {
-  static constexpr const char *kWord = "cohesive",
-                              *kSays = "bonded by springs that soften and break, then coulomb";
+  static constexpr const char *kKeyword = "cohesive",
+                              *kDescription = "bonded by springs that soften and break, then coulomb";
   static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   double friction{}, static_friction{};              ///< once it is broken
@@ -91,8 +91,8 @@ struct Cohesive {
     constexpr Number kStrength{Measure::pressure, kPositive}, kToughness{Measure::surface_energy, kPositive},
         kStiffness{Measure::interface_stiffness, kNotNegative};
     constexpr Limit kShare{"in [0, 1)", 0, 1, false, true}, kOne{"1 or more", 1};
-    map.key("friction", kFrictionSays, friction, kCoefficient);
-    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
+    map.key("static_friction", kStaticDescription, static_friction, kCoefficient);
     map.need("normal_strength", "Tension at which a bond breaks.", normal_strength, kStrength);
     map.need("shear_strength", "Shear at which a bond breaks.", shear_strength, kStrength);
     map.need("normal_toughness", "Energy that opening takes to break a bond, G_Ic.", normal_toughness,
@@ -106,10 +106,10 @@ struct Cohesive {
             Number{Measure::number, kOne});
     map.key("initial_stiffness", "Traction by jump before the strength; 0: ten times what a cell has.",
             initial_stiffness, kStiffness);
-    map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
-    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
+    map.key("compression_stiffness", kCompressionDescription, compression_stiffness, kStiffness);
+    map.key("compression", kCompressionModelDescription, compression, kCompressionModels);
   }
-  double pressed_stiffness() const {
+  double overlap_stiffness() const {
     if (compression == CompressionModel::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : initial_stiffness;
   }

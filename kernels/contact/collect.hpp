@@ -14,10 +14,10 @@
 
 namespace mpmfast {
 
-/// Room for clouds, one after the other; one per thread, grown only by clouds larger than any before.
+/// Workspace for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
-struct CloudRoom {
-  static constexpr std::size_t kFewest = 256;  ///< particles beyond those that room is made for
+struct CloudWorkspace {
+  static constexpr std::size_t kFewest = 256;  ///< particles of capacity beyond those needed
 
   std::vector<double> xi[Dim];           ///< relative to the node, cells
   std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
@@ -27,14 +27,14 @@ struct CloudRoom {
   std::size_t begin = 0;  ///< where the cloud in hand begins
   int count = 0;          ///< its particles
 
-  /// Room for n particles of the cloud in hand and a vector beyond.
+  /// Space for n particles of the cloud in hand and a vector beyond.
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
     if (xi[0].size() >= needed) return;
-    const std::size_t room = needed + needed / 4 + kFewest;
-    for (auto& c : xi) c.resize(room);
-    for (int e = 0; e < shapes; ++e) shape[e].resize(room);
-    if (numbered) number.resize(room);
+    const std::size_t capacity = needed + needed / 4 + kFewest;
+    for (auto& c : xi) c.resize(capacity);
+    for (int e = 0; e < shapes; ++e) shape[e].resize(capacity);
+    if (numbered) number.resize(capacity);
   }
 
   /// Fills what is read beyond the last particle with entries that do not count.
@@ -47,7 +47,7 @@ struct CloudRoom {
   }
 
   /// Appends the particles [first, end) of another cloud, without their domains.
-  void append_places(const CloudColumns<Dim>& cloud, int first, int end) {
+  void append_positions(const CloudColumns<Dim>& cloud, int first, int end) {
     reserve(count + end - first + kLanes);
     const std::size_t at = begin + static_cast<std::size_t>(count);
     const auto copy = [&](const double* from, std::vector<double>& to) {
@@ -101,7 +101,7 @@ struct Candidates {
     pieces.clear();
     count = 0;
   }
-  /// Room for n more and two vectors beyond.
+  /// Space for n more and two vectors beyond.
   void reserve(int n) {
     const auto needed = static_cast<std::size_t>(count + n + 2 * kLanes);
     if (reach[0].size() >= needed) return;
@@ -209,8 +209,8 @@ inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, C
 /// Appends the particles of one piece whose basis functions cover the node.
 template <int Dim, class Basis>
 inline void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece,
-                            double inverse_cell, const NodeIndex<Dim>& node, CloudRoom<Dim>& room) {
-  room.reserve(room.count + piece.count + kLanes);
+                            double inverse_cell, const NodeIndex<Dim>& node, CloudWorkspace<Dim>& workspace) {
+  workspace.reserve(workspace.count + piece.count + kLanes);
   ChunkGeometry<Dim> g{};
   const auto begin = static_cast<std::size_t>(piece.begin);
   for (int d = 0; d < Dim; ++d) {
@@ -229,13 +229,15 @@ inline void append_covering(const Candidates<Dim>& from, const CandidatePiece<Di
     }
     if (!lane_bits(near)) continue;
     const unsigned bits = lane_bits(near & (Basis::coverage(g, k, node) > 0.0));
-    const std::size_t at = room.begin + static_cast<std::size_t>(room.count);
-    for (int d = 0; d < Dim; ++d) store_chosen(&room.xi[d][at], xi[d], bits);
-    for (int e = 0; e < room.shapes; ++e)
-      store_chosen(&room.shape[e][at], load_lanes(&from.shape[e][begin + static_cast<std::size_t>(k)]), bits);
-    if (room.numbered)
-      store_chosen(&room.number[at], load_lanes(&from.number[begin + static_cast<std::size_t>(k)]), bits);
-    room.count += std::popcount(bits);
+    const std::size_t at = workspace.begin + static_cast<std::size_t>(workspace.count);
+    for (int d = 0; d < Dim; ++d) store_chosen(&workspace.xi[d][at], xi[d], bits);
+    for (int e = 0; e < workspace.shapes; ++e)
+      store_chosen(&workspace.shape[e][at], load_lanes(&from.shape[e][begin + static_cast<std::size_t>(k)]),
+                   bits);
+    if (workspace.numbered)
+      store_chosen(&workspace.number[at], load_lanes(&from.number[begin + static_cast<std::size_t>(k)]),
+                   bits);
+    workspace.count += std::popcount(bits);
   }
 }
 

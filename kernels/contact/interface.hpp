@@ -164,13 +164,13 @@ struct FrictionResult {
 /// @param law      of Sliding (sliding.hpp)
 /// @param pressed  the impulse of the normal springs, N s, positive in compression
 template <int Dim, class Law, class Spring>
-FrictionResult<Dim> apply_friction(const Law& law, double pressed, const Spring& spring,
+FrictionResult<Dim> apply_friction(const Law& law, double normal_impulse, const Spring& spring,
                                    const PairStart<Dim>& joint, double dt, bool alone) {
   const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
                  drawn = joint.across(joint.opening);
   const Vec<Dim> held = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
   const Vec<Dim> stick = spring.inertia(joint.mass, dt, alone) * rate + dt * (drawn - held);
-  const double needed = stick.norm(), limit = law({pressed, needed, joint.mass});
+  const double needed = stick.norm(), limit = law({normal_impulse, needed, joint.mass});
   if (needed <= limit) return {Vec<Dim>::Zero(), stick};
   const Vec<Dim> impulse = limit / needed * stick;
   PairStart<Dim> sliding = joint;

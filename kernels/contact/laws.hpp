@@ -22,16 +22,17 @@ namespace mpmfast {
 
 /// S = μN; before sliding up to μ_s N, where a scene gives that. Contact area and Δt cancel.
 struct Coulomb {
-  static constexpr const char *kWord = "coulomb",
-                              *kSays = "slides when friction × normal force is reached (default, friction 0)";
+  static constexpr const char *kKeyword = "coulomb",
+                              *kDescription =
+                                  "slides when friction × normal force is reached (default, friction 0)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
   double friction{}, static_friction{};
 
   template <class Keys>
   void describe(Keys& map) {
-    map.key("friction", kFrictionSays, friction, kCoefficient);
-    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
+    map.key("static_friction", kStaticDescription, static_friction, kCoefficient);
   }
   double operator()(const Sliding& s) const {
     return s.stick <= static_friction * s.normal ? kSticks : friction * s.normal;
@@ -39,7 +40,7 @@ struct Coulomb {
 };
 
 struct Frictionless {
-  static constexpr const char *kWord = "frictionless", *kSays = "slides freely";
+  static constexpr const char *kKeyword = "frictionless", *kDescription = "slides freely";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
 
@@ -50,7 +51,7 @@ struct Frictionless {
 };
 
 struct Stick {
-  static constexpr const char *kWord = "stick", *kSays = "never slides while in contact";
+  static constexpr const char *kKeyword = "stick", *kDescription = "never slides while in contact";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
 
@@ -61,7 +62,7 @@ struct Stick {
 };
 
 struct Perfect {
-  static constexpr const char *kWord = "perfect", *kSays = "always tied, also in tension";
+  static constexpr const char *kKeyword = "perfect", *kDescription = "always tied, also in tension";
   static constexpr LawScope scope = LawScope::everywhere;
   static constexpr bool uses_area = false;
 
@@ -72,7 +73,7 @@ struct Perfect {
 };
 
 struct Ignore {
-  static constexpr const char *kWord = "ignore", *kSays = "bodies pass through each other";
+  static constexpr const char *kKeyword = "ignore", *kDescription = "bodies pass through each other";
   static constexpr LawScope scope = LawScope::nowhere;
   static constexpr bool uses_area = false;
 
@@ -87,8 +88,8 @@ struct Ignore {
 /// broken while the gap is beyond `reach` or the shear that would stop the sliding is beyond the strength;
 /// surfaces that come to rest in touch bond again.
 struct Adhesion {
-  static constexpr const char *kWord = "adhesion",
-                              *kSays = "bonded up to a tensile and a shear strength, then coulomb";
+  static constexpr const char *kKeyword = "adhesion",
+                              *kDescription = "bonded up to a tensile and a shear strength, then coulomb";
   static constexpr LawScope scope = LawScope::bonded;
   static constexpr bool uses_area = true;
   double friction{}, normal_strength{}, shear_strength{};  ///< –, Pa, Pa
@@ -96,7 +97,7 @@ struct Adhesion {
 
   template <class Keys>
   void describe(Keys& map) {
-    map.key("friction", kFrictionSays, friction, kCoefficient);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
     map.need("normal_strength", "Tension at which a bond breaks.", normal_strength,
              Number{Measure::pressure, kPositive});
     map.need("shear_strength", "Shear at which a bond breaks.", shear_strength,
@@ -119,16 +120,16 @@ struct Adhesion {
 /// g(v) = m_red v + μ(v) N − |Δp_t(0)| = 0 is convex, g(0) < 0 once μ_s N is exceeded, and g ≥ 0 at the slip
 /// v_0 that μ_d would leave: Newton from v_0 runs down to the only root.
 struct VelocityFriction {
-  static constexpr const char *kWord = "velocity_friction",
-                              *kSays = "friction + (static_friction - friction) exp(-v/decay_speed)";
+  static constexpr const char *kKeyword = "velocity_friction",
+                              *kDescription = "friction + (static_friction - friction) exp(-v/decay_speed)";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = false;
   double friction{}, static_friction{}, decay_speed = 1;  ///< –, –, m/s
 
   template <class Keys>
   void describe(Keys& map) {
-    map.key("friction", kFrictionSays, friction, kCoefficient);
-    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
+    map.key("static_friction", kStaticDescription, static_friction, kCoefficient);
     map.need("decay_speed", "Speed over which friction falls from static to sliding.", decay_speed,
              Number{Measure::velocity, kPositive});
   }
@@ -150,8 +151,9 @@ struct VelocityFriction {
 /// S = η v/h, v the slip speed that remains, of a film between touching surfaces.
 /// m_red v = |Δp_t(0)| − S A_c Δt gives S A_c Δt = |Δp_t(0)| c/(m_red + c) with c = (η/h) A_c Δt.
 struct Viscous {
-  static constexpr const char *kWord = "viscous",
-                              *kSays = "a liquid film: shear traction viscosity × v/film, no dry friction";
+  static constexpr const char *kKeyword = "viscous",
+                              *kDescription =
+                                  "a liquid film: shear traction viscosity × v/film, no dry friction";
   static constexpr LawScope scope = LawScope::contact;
   static constexpr bool uses_area = true;
   double viscosity{}, film = 1;  ///< η, Pa s; h, m
@@ -172,8 +174,8 @@ struct Viscous {
 /// normal, of another stiffness where they overlap, or in contact there (NN §5.6), D_t δ_t along the surface.
 /// See interface.hpp.
 struct Interface {
-  static constexpr const char *kWord = "interface",
-                              *kSays = "joined by springs: traction = stiffness × displacement jump";
+  static constexpr const char *kKeyword = "interface",
+                              *kDescription = "joined by springs: traction = stiffness × displacement jump";
   static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   double normal_stiffness{}, shear_stiffness{}, compression_stiffness{};  ///< Pa/m
@@ -186,12 +188,12 @@ struct Interface {
     map.need("normal_stiffness", "Traction by opening; 0: nothing holds surfaces that part.",
              normal_stiffness, kStiffness);
     map.need("shear_stiffness", "Traction by slip; 0: they slide freely.", shear_stiffness, kStiffness);
-    map.key("compression_stiffness", kCompressionSays, compression_stiffness, kStiffness);
-    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
-    map.key("friction", kFrictionSays, friction, kCoefficient);
-    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.key("compression_stiffness", kCompressionDescription, compression_stiffness, kStiffness);
+    map.key("compression", kCompressionModelDescription, compression, kCompressionModels);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
+    map.key("static_friction", kStaticDescription, static_friction, kCoefficient);
   }
-  double pressed_stiffness() const {
+  double overlap_stiffness() const {
     if (compression == CompressionModel::contact) return 0;
     return compression_stiffness > 0 ? compression_stiffness : normal_stiffness;
   }
@@ -202,8 +204,8 @@ struct Interface {
 /// As Interface, where tractions are curves of the jump (NN §5.4): what is above 0 in the normal one is
 /// opening. It has overlap too where its first point lies below 0. See curved_springs.hpp.
 struct NonlinearInterface {
-  static constexpr const char *kWord = "nonlinear_interface",
-                              *kSays = "joined by springs whose tractions are curves of the jump";
+  static constexpr const char *kKeyword = "nonlinear_interface",
+                              *kDescription = "joined by springs whose tractions are curves of the jump";
   static constexpr LawScope scope = LawScope::interface;
   static constexpr bool uses_area = true;
   TractionCurve normal_curve{{0}, {0}}, shear_curve{{0}, {0}};  ///< of the opening and of the slip
@@ -218,15 +220,15 @@ struct NonlinearInterface {
              normal_curve, kCurve);
     map.need("shear_curve", "Traction by slip: points from [0, 0] on; [[0, 0]]: they slide freely.",
              shear_curve, kCurve);
-    map.key("compression_stiffness", kCompressionSays, compression_stiffness,
+    map.key("compression_stiffness", kCompressionDescription, compression_stiffness,
             Number{Measure::interface_stiffness, kNotNegative});
-    map.key("compression", kCompressionModelSays, compression, kCompressionModels);
-    map.key("friction", kFrictionSays, friction, kCoefficient);
-    map.key("static_friction", kStaticSays, static_friction, kCoefficient);
+    map.key("compression", kCompressionModelDescription, compression, kCompressionModels);
+    map.key("friction", kFrictionDescription, friction, kCoefficient);
+    map.key("static_friction", kStaticDescription, static_friction, kCoefficient);
   }
   bool has_overlap() const { return normal_curve.jump.front() < 0; }
   /// The normal curve with what holds apart surfaces that press: a point where they overlap by so much.
-  TractionCurve pressed_curve(double overlap) const {
+  TractionCurve curve_with_overlap(double overlap) const {
     TractionCurve whole = normal_curve;
     if (has_overlap()) return whole;
     const double stiffness = compression == CompressionModel::contact ? 0
@@ -253,7 +255,7 @@ inline constexpr bool kDryFriction =
 
 /// Does it join surfaces by springs or a bond?
 template <std::same_as<AnyLaw> Law>
-bool joins(const Law& law) {
+bool has_springs(const Law& law) {
   return std::visit([](const auto& one) { return one.scope == LawScope::interface; }, law);
 }
 

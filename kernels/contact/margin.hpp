@@ -152,10 +152,10 @@ inline Margin<Dim> widest_margin(const CloudView<Dim>& cloud, const Vec<Dim>& gu
   detail::Simplex<Dim> simplex;
   Vec<Dim> v = -guess;  // from the hull of b to that of a
   while (result.iterations < kPasses) {
-    const detail::Support<Dim> foremost(cloud, v);
+    const detail::Support<Dim> support(cloud, v);
     ++result.iterations;
-    if (foremost.a < 0 || foremost.b < 0) return result;
-    const Vec<Dim> w = entry(foremost.a) - entry(foremost.b);
+    if (support.a < 0 || support.b < 0) return result;
+    const Vec<Dim> w = entry(support.a) - entry(support.b);
     // |v|² − v·w bounds the square of the distance to the solution: 1e-10 is an angle below 1e-5.
     if (simplex.size() > 0 && v.squaredNorm() - v.dot(w) <= 1e-10 * v.squaredNorm()) break;
     if (simplex.size() > Dim || !simplex.add(w)) break;

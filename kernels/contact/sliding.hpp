@@ -24,19 +24,19 @@ struct Sliding {
 inline constexpr double kSticks = std::numeric_limits<double>::infinity();
 
 inline constexpr Number kCoefficient{Measure::number, kNotNegative};
-inline constexpr const char *kFrictionSays =
+inline constexpr const char *kFrictionDescription =
                                 "Coefficient of friction while sliding; may stand beside any law.",
-                            *kStaticSays =
+                            *kStaticDescription =
                                 "Coefficient up to which surfaces at rest stick; 0: as `friction`.";
 
 /// What holds apart surfaces that press and are joined by springs or a bond.
 enum class CompressionModel { spring, contact };
-inline constexpr std::array<Word<CompressionModel>, 2> kCompressionModels{{
+inline constexpr std::array<Keyword<CompressionModel>, 2> kCompressionModels{{
     {CompressionModel::spring, "spring", "springs of `compression_stiffness` (default)"},
     {CompressionModel::contact, "contact", "contact with friction: the jump never becomes an overlap"},
 }};
-inline constexpr const char* kCompressionModelSays = "What holds apart surfaces that press.";
-inline constexpr const char* kCompressionSays =
+inline constexpr const char* kCompressionModelDescription = "What holds apart surfaces that press.";
+inline constexpr const char* kCompressionDescription =
     "Traction by overlap of surfaces that press; 0: by as much as by opening.";
 
 }  // namespace mpmfast

@@ -19,22 +19,22 @@ double shear_at_rest(const Law& law) {
 
 /// E′ of a plane, Pa: E of plane stress, E/(1 − ν²) of plane strain; 0 likewise.
 template <class Law>
-double plane_modulus(const Law& law, bool relaxed) {
+double plane_modulus(const Law& law, bool plane_stress) {
   const double shear = shear_at_rest(law);
   if (shear == 0) return 0;
   const double lambda = law.modulus() - 2 * shear;
-  return relaxed ? shear * (3 * lambda + 2 * shear) / (lambda + shear)
-                 : 4 * shear * (lambda + shear) / (lambda + 2 * shear);
+  return plane_stress ? shear * (3 * lambda + 2 * shear) / (lambda + shear)
+                      : 4 * shear * (lambda + shear) / (lambda + 2 * shear);
 }
 
 /// How fast waves run along its surface, m/s: by Viktorov's fit c_s (0.87 + 1.12 ν)/(1 + ν), ν of the plane;
 /// 0 likewise.
 template <class Law>
-double rayleigh_speed(const Law& law, bool relaxed) {
+double rayleigh_speed(const Law& law, bool plane_stress) {
   const double shear = shear_at_rest(law);
   if (shear == 0) return 0;
   const double lambda = law.modulus() - 2 * shear, of_space = 0.5 * lambda / (lambda + shear),
-               poisson = relaxed ? of_space / (1 + of_space) : of_space;
+               poisson = plane_stress ? of_space / (1 + of_space) : of_space;
   return std::sqrt(shear / law.density) * (0.87 + 1.12 * poisson) / (1 + poisson);
 }
 

@@ -23,7 +23,8 @@ namespace mpmfast {
 struct DruckerPrager {
   enum class Cone { compression, extension, plane_strain };
   static constexpr const char *kModel = "drucker_prager",
-                              *kSays = "soil and sand: cohesion, friction, dilation, no or little tension";
+                              *kDescription =
+                                  "soil and sand: cohesion, friction, dilation, no or little tension";
   static constexpr StateColumns kColumns{true, false, true, false, true};
   static constexpr bool kParts = true;          ///< grains leave each other: F tells nothing of neighbours
   static constexpr bool kElasticVolume = true;  ///< elastic_strain has the volume in it
@@ -44,8 +45,8 @@ struct DruckerPrager {
     describe_bulk_and_shear(map, bulk, shear);
     bool known = map.need("friction_angle", "Of Mohr and Coulomb; `cone` says where it is met.",
                           friction_angle, kAngle);
-    const auto upto = [&](const char* says, double most) {  // of what was read well
-      return Limit{says, 0, map.tells() || !known ? kInfinity : most, false, false, true};
+    const auto upto = [&](const char* description, double most) {  // of what was read well
+      return Limit{description, 0, map.describes() || !known ? kInfinity : most, false, false, true};
     };
     map.key("dilation_angle", "How much volume shear makes, as an angle.", dilation_angle,
             Number{Measure::angle, upto("from 0 to the angle of friction", friction_angle)});
@@ -111,7 +112,7 @@ struct DruckerPrager {
   }
 
  private:
-  static constexpr std::array<Word<Cone>, 3> kCones{{
+  static constexpr std::array<Keyword<Cone>, 3> kCones{{
       {Cone::compression, "compression", "in triaxial compression (default)"},
       {Cone::extension, "extension", "in triaxial extension"},
       {Cone::plane_strain, "plane_strain", "in plane strain without dilation: slopes, flows"},

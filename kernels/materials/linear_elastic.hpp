@@ -13,7 +13,8 @@ namespace mpmfast {
 /// strained). The first Piola–Kirchhoff stress of W(ε) is σ itself and the force integral is Σ V0 P·∇0 S; at
 /// this order τ = σ.
 struct LinearElastic {
-  static constexpr const char *kModel = "linear_elastic", *kSays = "infinitesimal strains and turns only";
+  static constexpr const char *kModel = "linear_elastic",
+                              *kDescription = "infinitesimal strains and turns only";
   double density{};  ///< kg/m³
   double young{};    ///< E, Pa
   double poisson{};  ///< ν
@@ -21,8 +22,8 @@ struct LinearElastic {
   template <class Keys>
   void describe(Keys& map) {
     describe_density(map, density);
-    map.need("young", kYoungSays, young, kModulus);
-    map.need("poisson", kPoissonSays, poisson, kPoisson);
+    map.need("young", kYoungDescription, young, kModulus);
+    map.need("poisson", kPoissonDescription, poisson, kPoisson);
   }
   double lambda() const { return young * poisson / ((1 + poisson) * (1 - 2 * poisson)); }  ///< Pa
   double shear() const { return young / (2 * (1 + poisson)); }                             ///< G, Pa
@@ -53,7 +54,7 @@ struct LinearElastic {
 
   /// ε_zz = −λ/(λ + 2G) (ε_xx + ε_yy).
   template <class V>
-  V relaxed_stretch(const V (&f)[4], V) const {
+  V out_of_plane_stretch(const V (&f)[4], V) const {
     return 1.0 - lambda() / modulus() * (f[0] + f[3] - 2.0);
   }
 

@@ -12,7 +12,7 @@ namespace mpmfast {
 /// W = ½μ(I1 − 3) − μ ln J + ½λ (ln J)², so that τ = Jσ = μ(B − I) + λ ln J I  (K24 Eq. 46).
 struct LogarithmicNeoHookean {
   static constexpr const char *kModel = "logarithmic_neo_hookean",
-                              *kSays = "large elastic strains, pressure by ln J";
+                              *kDescription = "large elastic strains, pressure by ln J";
   double density{};  ///< kg/m³, undeformed
   double lambda{};   ///< Lamé's first constant, Pa
   double shear{};    ///< μ, Pa
@@ -51,7 +51,7 @@ struct LogarithmicNeoHookean {
   /// τ_zz = μ(e^{2y} − 1) + λ(ln A + y) = 0 for y = ln s, A the determinant in the plane: rising and convex,
   /// Newton's method from the last step's.
   template <class V>
-  V relaxed_stretch(const V (&f)[4], V last) const {
+  V out_of_plane_stretch(const V (&f)[4], V last) const {
     constexpr int kRounds = 5;
     const V offset = lambda * logarithm(determinant<2>(f)) - shear;
     V y = logarithm(last);

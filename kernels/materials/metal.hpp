@@ -16,7 +16,7 @@ namespace mpmfast {
 /// returned radially to the von Mises surface √(3/2)|dev τ| = σ_y.
 template <class Volume, class Yield>
 struct Metal {
-  static constexpr const char *kModel = Yield::kModel, *kSays = Yield::kSays;
+  static constexpr const char *kModel = Yield::kModel, *kDescription = Yield::kDescription;
   /// The key that asks for this law, where others have the same word.
   static constexpr const char* kWith = Volume::kHeats && Yield::kPlastic ? "equation_of_state" : "";
   static constexpr StateColumns kColumns{Volume::kHeats || Yield::kPlastic, Volume::kHeats, Yield::kPlastic,
@@ -43,8 +43,8 @@ struct Metal {
                          [&](Keys& keys) { volume.describe(keys); });
       map.key("taylor_quinney", "Share of the plastic work that heats.", heat_share, kShare);
     } else {
-      map.need("bulk", kBulkSays, volume.bulk, kModulus);
-      map.key("shear", kShearSays, shear, kStrength);
+      map.need("bulk", kBulkDescription, volume.bulk, kModulus);
+      map.key("shear", kShearDescription, shear, kStrength);
       volume.describe(map);
     }
     if constexpr (kColumns.temperature) {

@@ -13,7 +13,7 @@ namespace mpmfast {
 /// τ = Jσ = G J^{−2/3} dev(B) + ½K(J² − 1) I  (N20 Eq. 18). I1 and dev are of the 3-D tensor; plane strain
 /// has B_zz = 1.
 struct NeoHookean {
-  static constexpr const char *kModel = "neo_hookean", *kSays = "large elastic strains";
+  static constexpr const char *kModel = "neo_hookean", *kDescription = "large elastic strains";
   double density{};  ///< kg/m³, undeformed
   double bulk{};     ///< K, Pa
   double shear{};    ///< G, Pa
@@ -62,7 +62,7 @@ struct NeoHookean {
   ///   ½K A^{8/3} w⁴ + ⅔G w³ − ½K A^{2/3} w − ⅓G I = 0,
   /// which has one positive root and is convex there: Newton's method from the last step's.
   template <class V>
-  V relaxed_stretch(const V (&f)[4], V last) const {
+  V out_of_plane_stretch(const V (&f)[4], V last) const {
     constexpr int kRounds = 5;
     const V area = determinant<2>(f), q = 0.5 * bulk / isochoric_factor(area);
     const V fourth = q * area * area, cubic = broadcast<V>(2.0 / 3.0 * shear);

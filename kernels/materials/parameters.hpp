@@ -1,10 +1,10 @@
 #pragma once
 
 /// @file What laws share when they describe their parameters. A law has a `kModel`, the word of a scene, a
-/// line of what it is for (`kSays`), and `describe(map)`, which names each parameter: its key, a sentence,
-/// the member, its measure and limits. `map` reads, writes or tells (engine/scene/keys/keys.hpp). Elastic
-/// moduli may be given in two ways: describe_bulk_and_shear and describe_lambda_and_shear
-/// (engine/scene/keys/moduli.hpp).
+/// line of what it is for (`kDescription`), and `describe(map)`, which names each parameter: its key, a
+/// sentence, the member, its measure and limits. `map` reads, writes or describes
+/// (engine/scene/keys/keys.hpp). Elastic moduli may be given in two ways: describe_bulk_and_shear and
+/// describe_lambda_and_shear (engine/scene/keys/moduli.hpp).
 
 #include "kernels/measure.hpp"
 
@@ -17,10 +17,10 @@ inline constexpr Number kFactor{Measure::number, kNotNegative}, kExponent{Measur
 inline constexpr Number kStrength{Measure::pressure, kNotNegative};
 inline constexpr Number kTemperature{Measure::temperature, kPositive};
 
-inline constexpr const char* kYoungSays =
+inline constexpr const char* kYoungDescription =
     "Young's modulus; where both are known here, with `poisson` in place of them.";
-inline constexpr const char *kBulkSays = "Bulk modulus.", *kShearSays = "Shear modulus.";
-inline constexpr const char* kPoissonSays = "Poisson's ratio.";
+inline constexpr const char *kBulkDescription = "Bulk modulus.", *kShearDescription = "Shear modulus.";
+inline constexpr const char* kPoissonDescription = "Poisson's ratio.";
 
 template <class Keys>
 void describe_density(Keys& map, double& density) {

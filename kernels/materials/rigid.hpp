@@ -8,7 +8,8 @@ namespace mpmfast {
 
 /// Particles that move as their body says.
 struct Rigid {
-  static constexpr const char *kModel = "rigid", *kSays = "moves as its body's velocity says, never deforms";
+  static constexpr const char *kModel = "rigid",
+                              *kDescription = "moves as its body's velocity says, never deforms";
   double density = 1000;  ///< kg/m³
 
   template <class Keys>

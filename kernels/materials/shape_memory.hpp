@@ -72,7 +72,7 @@ void bound_shape(double limit, double volume, double (&f)[Dim * Dim]) {
 /// @param limit  of the law
 /// @param volume det F as J says, of a plane that stretches along its normal without that stretch
 template <int Dim>
-inline void forget_shape(double limit, Lanes volume, int count, Lanes (&f)[Dim * Dim]) {
+inline void limit_shape(double limit, Lanes volume, int count, Lanes (&f)[Dim * Dim]) {
   constexpr double most = Dim == 2 ? kMostOpening * kMostOpening : kMostOpening * kMostOpening * kMostOpening;
   volume = smaller(volume, broadcast<Lanes>(most));
   const Lanes root = detail::root_of_volume<Dim>(volume);

@@ -10,21 +10,22 @@
 
 namespace mpmfast {
 
-inline constexpr const char* kYieldSays = "Stress at which it first yields (A of Johnson and Cook).";
-inline constexpr const char* kHardeningSays =
+inline constexpr const char* kYieldDescription = "Stress at which it first yields (A of Johnson and Cook).";
+inline constexpr const char* kHardeningDescription =
     "How the yield stress grows with plastic strain (B of Johnson and Cook).";
 
 /// No yield: the shear response is elastic.
 struct NoYield {
   static constexpr const char *kModel = "mie_gruneisen",
-                              *kSays = "shocks: equation of state, elastic shear, artificial viscosity";
+                              *kDescription =
+                                  "shocks: equation of state, elastic shear, artificial viscosity";
   static constexpr bool kPlastic = false, kThermal = false;
 };
 
 /// σ_y = Y + H α.
 struct LinearHardening {
   static constexpr const char *kModel = "j2_plasticity",
-                              *kSays =
+                              *kDescription =
                                   "metal with linear hardening at large strains; with heat_capacity under an "
                                   "equation of state";
   static constexpr bool kPlastic = true, kThermal = false;
@@ -33,8 +34,8 @@ struct LinearHardening {
 
   template <class Keys>
   void describe(Keys& map, double) {
-    map.need("yield", kYieldSays, yield, kModulus);
-    map.key("hardening", kHardeningSays, hardening, kStrength);
+    map.need("yield", kYieldDescription, yield, kModulus);
+    map.key("hardening", kHardeningDescription, hardening, kStrength);
   }
 
   template <class V>
@@ -51,7 +52,7 @@ struct LinearHardening {
 /// [0, 1].
 struct JohnsonCook {
   static constexpr const char *kModel = "johnson_cook",
-                              *kSays = "metal whose strength depends on strain, rate and heat";
+                              *kDescription = "metal whose strength depends on strain, rate and heat";
   static constexpr bool kPlastic = true, kThermal = true;
   double yield{}, hardening{}, exponent = 1;           ///< A, B (Pa), n
   double rate_factor{}, reference_rate = 1;            ///< C, ε̇0 (1/s)
@@ -61,8 +62,8 @@ struct JohnsonCook {
   template <class Keys>
   void describe(Keys& map, double temperature) {
     if (!map.writes()) reference = temperature;
-    map.need("yield", kYieldSays, yield, kModulus);
-    map.need("hardening", kHardeningSays, hardening, kStrength);
+    map.need("yield", kYieldDescription, yield, kModulus);
+    map.need("hardening", kHardeningDescription, hardening, kStrength);
     map.need("exponent", "Exponent of the plastic strain, n.", exponent, kExponent);
     map.key("rate_factor", "Factor of the logarithm of the strain rate, C.", rate_factor, kFactor);
     map.key("reference_rate", "Strain rate at which that logarithm is zero.", reference_rate,

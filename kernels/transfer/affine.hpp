@@ -16,7 +16,7 @@ namespace mpmfast {
 
 /// x_p − x_first in cells, for particle k of a chunk.
 template <int Dim, int K>
-inline void place_in_support(const ProductWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
+inline void index_in_support(const ProductWeights<Dim, K>& w, const ChunkGeometry<Dim>& g, int k,
                              Real (&r)[Dim]) {
   int index = w.first[k];
   for (int d = 0; d < Dim; ++d) {
@@ -71,19 +71,20 @@ inline void gather_moments(const ProductWeights<Dim, K>& w, int k, const R* wind
   });
 }
 
-/// As project_tile, of particles that carry slopes. @param room a ProjectRoom
-template <int Dim, class Basis, class Room>
-bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumns<1 + Dim>& out) {
+/// As project_tile, of particles that carry slopes. @param workspace a ProjectWorkspace
+template <int Dim, class Basis, class Workspace>
+bool project_affine_tile(const TileContext<Dim>& c, Workspace& workspace, const NodeColumns<1 + Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  begin_sums(c, room.mass_momentum, out);
+  begin_sums(c, workspace.mass_momentum, out);
   const bool inside = for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::values, [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::values,
+      [&](const auto& w, const auto& run, std::uint32_t begin, int count) {
         const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
           const double m = p.mass[q];
           Real r[Dim];
-          place_in_support(w, g, k, r);
+          index_in_support(w, g, k, r);
           Record at_first{static_cast<Real>(m)}, slope[Dim];
           for (int i = 0; i < Dim; ++i) at_first[1 + i] = static_cast<Real>(m * p.velocity[i][q]);
           for (int d = 0; d < Dim; ++d) {
@@ -92,10 +93,10 @@ bool project_affine_tile(const TileContext<Dim>& c, Room& room, const NodeColumn
               slope[d][1 + i] = static_cast<Real>(m * c.grid->cell * p.slopes[Dim * i + d][q]);
             at_first -= r[d] * slope[d];
           }
-          scatter_linear(w, k, at_first, slope, room.mass_momentum.at[0]);
+          scatter_linear(w, k, at_first, slope, workspace.mass_momentum.at[0]);
         }
       });
-  if (inside) end_sums(c, room.mass_momentum, out);
+  if (inside) end_sums(c, workspace.mass_momentum, out);
   return inside;
 }
 
@@ -107,7 +108,7 @@ inline void scatter_affine(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
                            Record v, const Record* from, Record* to) {
   const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
   Real r[Dim];
-  place_in_support(w, g, k, r);
+  index_in_support(w, g, k, r);
   Record moment[Dim];
   gather_moments(w, k, from, moment);
   Record at_first = m * v;
@@ -119,23 +120,23 @@ inline void scatter_affine(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
 }
 
 /// New slopes of a chunk from the window's nodal velocities, of which from.value[0] holds Σ_i S_pi v_i.
-/// @param from a GatherRoom; its slopes and `staging` are written over
-template <int Dim, class Basis, int K, class Room>
+/// @param from a GatherWorkspace; its slopes and `staging` are written over
+template <int Dim, class Basis, int K, class Workspace>
 inline void gather_slopes(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
-                          const ProductWeights<Dim, K>& w, std::uint32_t begin, int count, Room& from,
+                          const ProductWeights<Dim, K>& w, std::uint32_t begin, int count, Workspace& from,
                           double (&staging)[4 * Dim][kChunk<Dim>]) {
   const ChunkGeometry<Dim> g = chunk_geometry(c, run, begin, count);
   const auto scale = static_cast<Real>(g.inverse_cell / Basis::kSpread);
   for (int k = 0; k < count; ++k) {
     Real r[Dim];
-    place_in_support(w, g, k, r);
-    typename Room::Node moment[Dim];
+    index_in_support(w, g, k, r);
+    typename Workspace::Node moment[Dim];
     gather_moments(w, k, from.window.at[0], moment);
     for (int d = 0; d < Dim; ++d) from.slope[d][k] = scale * (moment[d] - r[d] * from.value[0][k]);
   }
   const auto bytes = static_cast<std::size_t>(count) * sizeof(double);
   for (int d = 0; d < Dim; ++d) {
-    unstack<Dim, Dim>(from.slope[d], count, &staging[4 * d]);
+    unpack<Dim, Dim>(from.slope[d], count, &staging[4 * d]);
     for (int i = 0; i < Dim; ++i)
       std::memcpy(c.particles->slopes[Dim * i + d] + begin, staging[4 * d + i], bytes);
   }

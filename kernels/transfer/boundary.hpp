@@ -17,20 +17,20 @@ bool has_boundary_points(const TileContext<Dim>& c) {
 
 /// Calls f(weights, run, begin, count) for the chunks of a tile's boundary points.
 template <int Dim, class Basis, class F>
-void for_each_boundary_chunk(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, F f) {
+void for_each_boundary_chunk(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace, F f) {
   for (int r = c.tile->run_begin; r < c.tile->run_end; ++r)
     if (c.runs[r].on_surface)
-      for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], room.weights, Wanted::values, f);
+      for_each_chunk_of_run<Dim, Basis>(c, c.runs[r], workspace.weights, Wanted::values, f);
 }
 
 /// f_i += Σ_p S_pi F_p over boundary points. @param force_of  of a particle, N
 template <int Dim, class Basis, class Force>
-void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const Force& force_of,
+void push_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace, const Force& force_of,
                const NodeColumns<Dim>& out) {
-  auto& window = room.mass_position;
+  auto& window = workspace.mass_position;
   clear(window);
   for_each_boundary_chunk<Dim, Basis>(
-      c, room, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+      c, workspace, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const Vec<Dim> force = force_of(run, begin + static_cast<std::uint32_t>(k));
           Record f{};
@@ -45,17 +45,18 @@ void push_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const F
 /// f_i += Σ_p S_pi (P_p/Δt + F_p).
 /// @param out  momentum, force
 template <int Dim, class Basis, class Force>
-void settle_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<Dim>& velocity,
-                 double dt, const Force& force_of, const NodeColumns<2 * Dim>& out) {
+void settle_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
+                 const NodeColumns<Dim>& velocity, double dt, const Force& force_of,
+                 const NodeColumns<2 * Dim>& out) {
   using Given = Window<Dim, 2 * Dim>;
   if (!has_boundary_points(c)) return;
   const ParticleView<Dim>& particles = *c.particles;
-  auto& grid = room.mass_position;
-  Given& given = room.given;
+  auto& grid = workspace.mass_position;
+  Given& given = workspace.given;
   load_window(velocity, *c.tile, grid);
   clear(given);
   for_each_boundary_chunk<Dim, Basis>(
-      c, room, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
+      c, workspace, [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const std::uint32_t p = begin + static_cast<std::uint32_t>(k);
           const Record settled = gather_values(w, k, grid.at[0]);

@@ -21,8 +21,8 @@
 namespace mpmfast {
 
 template <int Dim, class Basis>
-struct HeatRoom {
-  WeightRoom<Dim, Basis> weights;
+struct HeatWorkspace {
+  WeightWorkspace<Dim, Basis> weights;
   Window<Dim, Dim + 2> content;
   Window<Dim, Dim + 1> filtered;
   Window<Dim, 1 + Dim> flow;
@@ -40,13 +40,13 @@ namespace detail {
 /// window_i += S_pi entries.
 template <int Dim, int NC, class Weights>
 inline void scatter_entries(const Weights& w, int k, const double (&entries)[NC], Window<Dim, NC>& window) {
-  using Room = Window<Dim, NC>;
-  using Node = typename Room::Node;
-  alignas(Node) Real padded[Room::kRecords * Room::kPerNode] = {};
+  using Layout = Window<Dim, NC>;
+  using Node = typename Layout::Node;
+  alignas(Node) Real padded[Layout::kRecords * Layout::kPerNode] = {};
   for (int c = 0; c < NC; ++c) padded[c] = static_cast<Real>(entries[c]);
-  for (int r = 0; r < Room::kRecords; ++r) {
+  for (int r = 0; r < Layout::kRecords; ++r) {
     Node record;
-    std::memcpy(&record, padded + r * Room::kPerNode, sizeof record);
+    std::memcpy(&record, padded + r * Layout::kPerNode, sizeof record);
     scatter_values(w, k, record, window.at[r]);
   }
 }
@@ -83,12 +83,12 @@ inline void lead(const TileContext<Dim>& c, std::uint32_t q, double capacity, do
 /// @param content  Nodal::heat_capacity, heat_content, heat_slope, J/K, J, J/m; accumulated
 /// @param flow     Nodal::heat_flow by conduction, W, and conducting_surface, W/K; accumulated
 template <int Dim, class Basis>
-void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, HeatScale scale,
+void project_heat_tile(const TileContext<Dim>& c, HeatWorkspace<Dim, Basis>& workspace, HeatScale scale,
                        const NodeColumns<Dim + 2>& content, const NodeColumns<1 + Dim>& flow) {
   const ParticleView<Dim>& p = *c.particles;
-  clear(room.content);
-  clear(room.flow);
-  for_each_chunk<Dim, Basis>(c, room.weights, Wanted::both,
+  clear(workspace.content);
+  clear(workspace.flow);
+  for_each_chunk<Dim, Basis>(c, workspace.weights, Wanted::both,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
                                const BodyHeat& heat = c.bodies[run.body].heat;
                                for (int k = 0; k < count; ++k) {
@@ -97,7 +97,7 @@ void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, He
                                  double entries[Dim + 2] = {p.mass[q] * heat.capacity};
                                  detail::lead(c, q, entries[0], p.state.temperature[q] - scale.reference,
                                               slope, entries + 1);
-                                 detail::scatter_entries<Dim>(w, k, entries, room.content);
+                                 detail::scatter_entries<Dim>(w, k, entries, workspace.content);
                                  if (heat.conductivity == 0) continue;
                                  const double conducts = -detail::current_volume(p, q) * heat.conductivity;
                                  Record along[Dim];
@@ -106,39 +106,39 @@ void project_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, He
                                    along[d][1 + d] = static_cast<Real>(-conducts);
                                  }
                                  Record hoop{};  // sections of rings grow with r: that is no surface
-                                 if (Dim == 2 && p.depth == Depth::hoop)
+                                 if (Dim == 2 && p.plane_kind == PlaneKind::axisymmetric)
                                    hoop[1] = static_cast<Real>(-conducts / p.position[0][q]);
-                                 scatter(w, k, hoop, along, room.flow.at[0]);
+                                 scatter(w, k, hoop, along, workspace.flow.at[0]);
                                }
                              });
-  flush_window(room.content, *c.tile, content);
-  flush_window(room.flow, *c.tile, flow);
+  flush_window(workspace.content, *c.tile, content);
+  flush_window(workspace.flow, *c.tile, flow);
 }
 
 /// One tile of what B makes of nodal temperatures T: Σ_p S_pi C_p (S T + (G T)·(x_i − X_p)), to be divided by
 /// C_i as project_heat_tile's.
 /// @param out  Nodal::heat_content, heat_slope; accumulated
 template <int Dim, class Basis>
-void filter_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, const NodeColumns<1>& in,
-                      const NodeColumns<Dim + 1>& out) {
+void filter_heat_tile(const TileContext<Dim>& c, HeatWorkspace<Dim, Basis>& workspace,
+                      const NodeColumns<1>& in, const NodeColumns<Dim + 1>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  load_window(in, *c.tile, room.temperature);
-  clear(room.filtered);
-  for_each_chunk<Dim, Basis>(c, room.weights, Wanted::both,
+  load_window(in, *c.tile, workspace.temperature);
+  clear(workspace.filtered);
+  for_each_chunk<Dim, Basis>(c, workspace.weights, Wanted::both,
                              [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
                                const double capacity = c.bodies[run.body].heat.capacity;
                                for (int k = 0; k < count; ++k) {
                                  const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
                                  Record gradient[Dim];
-                                 const double value = gather(w, k, room.temperature.at[0], gradient)[0];
+                                 const double value = gather(w, k, workspace.temperature.at[0], gradient)[0];
                                  double entries[Dim + 1];
                                  detail::lead(
                                      c, q, p.mass[q] * capacity, value, [&](int d) { return gradient[d][0]; },
                                      entries);
-                                 detail::scatter_entries<Dim>(w, k, entries, room.filtered);
+                                 detail::scatter_entries<Dim>(w, k, entries, workspace.filtered);
                                }
                              });
-  flush_window(room.filtered, *c.tile, out);
+  flush_window(workspace.filtered, *c.tile, out);
 }
 
 /// What heat did to the particles of a tile, J.
@@ -153,19 +153,19 @@ struct HeatReport {
 /// @param in  T from the scene's, ΔT, the filtered T; K. Slopes are those of T and not of T + ΔT: what warms
 /// a node of hardly any capacity is much, of which S takes little and G does not.
 template <int Dim, class Basis>
-HeatReport update_heat_tile(const TileContext<Dim>& c, HeatRoom<Dim, Basis>& room, HeatScale scale,
+HeatReport update_heat_tile(const TileContext<Dim>& c, HeatWorkspace<Dim, Basis>& workspace, HeatScale scale,
                             bool filtered, const NodeColumns<3>& in) {
   const ParticleView<Dim>& p = *c.particles;
   HeatReport report;
-  load_window(in, *c.tile, room.update);
+  load_window(in, *c.tile, workspace.update);
   for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::both,
+      c, workspace.weights, Wanted::both,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         const BodyHeat& heat = c.bodies[run.body].heat;
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
           Record gradient[Dim];
-          const Record value = gather(w, k, room.update.at[0], gradient);
+          const Record value = gather(w, k, workspace.update.at[0], gradient);
           double& temperature = p.state.temperature[q];
           const double rise = filtered ? value[2] + scale.reference - temperature : value[1];
           temperature += rise;

@@ -19,9 +19,9 @@ template <int Dim>
 inline constexpr int kLoadEntries = Dim == 2 ? 8 : 7;
 
 template <int Dim, class Basis>
-struct ProjectRoom {
+struct ProjectWorkspace {
   using LoadWindow = Window<Dim, kLoadEntries<Dim>>;
-  WeightRoom<Dim, Basis> weights;
+  WeightWorkspace<Dim, Basis> weights;
   Window<Dim, 1 + Dim> mass_momentum;
   LoadWindow load;
   Window<Dim, Dim> gradient_volume, mass_position, mass_displacement;
@@ -37,8 +37,8 @@ namespace detail {
 
 /// Mass and momentum of a chunk of particles as records.
 template <int Dim, class R>
-inline void stack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int count, R* out) {
-  stack<1 + Dim>(count, out, 0, [&](int c, int k) {
+inline void pack_inertia(const ParticleView<Dim>& p, std::uint32_t begin, int count, R* out) {
+  pack<1 + Dim>(count, out, 0, [&](int c, int k) {
     const Row mass = load_row(p.mass + begin + k);
     return c == 0 ? mass : mass * load_row(p.velocity[c > 0 ? c - 1 : 0] + begin + k);
   });
@@ -59,16 +59,17 @@ inline auto fetch_inertia(const ParticleView<Dim>& p) {
 /// @param out  mass, momentum; accumulated
 /// @return     false if the tile must be sorted anew (out is then untouched)
 template <int Dim, class Basis>
-bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1 + Dim>& out) {
+bool project_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
+                  const NodeColumns<1 + Dim>& out) {
   auto ahead = fetch_inertia<Basis, 0>(*c.particles);
-  begin_sums(c, room.mass_momentum, out);
+  begin_sums(c, workspace.mass_momentum, out);
   const bool inside = for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         ahead.start_at(begin + static_cast<std::uint32_t>(count));
-        detail::stack_inertia(*c.particles, begin, count, room.record);
-        scatter_chunk_values(w, count, room.record, room.mass_momentum.at[0], ahead);
+        detail::pack_inertia(*c.particles, begin, count, workspace.record);
+        scatter_chunk_values(w, count, workspace.record, workspace.mass_momentum.at[0], ahead);
       });
-  if (inside) end_sums(c, room.mass_momentum, out);
+  if (inside) end_sums(c, workspace.mass_momentum, out);
   return inside;
 }
 
@@ -76,35 +77,36 @@ bool project_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, cons
 /// not change before its forces. (Flattened, as update_tile.)
 /// @param out  see kLoadEntries; accumulated
 template <int Dim, class Basis>
-[[gnu::flatten]] bool project_force_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+[[gnu::flatten]] bool project_force_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
                                          const NodeColumns<kLoadEntries<Dim>>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  auto& at = room.load.at;
-  constexpr bool wide = ProjectRoom<Dim, Basis>::LoadWindow::kRecords == 1;
+  auto& at = workspace.load.at;
+  constexpr bool wide = ProjectWorkspace<Dim, Basis>::LoadWindow::kRecords == 1;
   constexpr bool single = wide && Dim == 2;  // one record has all of a particle
   auto ahead = fetch_inertia<Basis, kSymmetric<Dim> + 1>(p);
   ahead.add(p.stress);
   ahead.add(p.volume);
-  begin_sums(c, room.load, out);
+  begin_sums(c, workspace.load, out);
   const bool inside = for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         ahead.start_at(begin + static_cast<std::uint32_t>(count));
-        detail::stack_inertia(p, begin, count, room.inertia);
-        stack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
-                     single ? &room.inertia : room.stress);
+        detail::pack_inertia(p, begin, count, workspace.inertia);
+        pack_stress(p, stress_columns(p, begin), begin, count, wide ? 1 : 0,
+                    single ? &workspace.inertia : workspace.stress);
         if constexpr (single) {
-          scatter_chunk_pairs(w, count, room.inertia, at[0], ahead);
+          scatter_chunk_pairs(w, count, workspace.inertia, at[0], ahead);
         } else if constexpr (wide) {
           for_each_apart(count, [&](int k) {
             ahead(k);
-            scatter(w, k, room.inertia[k], {room.stress[0][k], room.stress[1][k], room.stress[2][k]}, at[0]);
+            scatter(w, k, workspace.inertia[k],
+                    {workspace.stress[0][k], workspace.stress[1][k], workspace.stress[2][k]}, at[0]);
           });
         } else {
-          scatter_chunk_values(w, count, room.inertia, at[0], ahead);
-          scatter_stress<Dim>(w, count, room.stress, at[1]);
+          scatter_chunk_values(w, count, workspace.inertia, at[0], ahead);
+          scatter_stress<Dim>(w, count, workspace.stress, at[1]);
         }
       });
-  if (inside) end_sums(c, room.load, out);
+  if (inside) end_sums(c, workspace.load, out);
   return inside;
 }
 
@@ -124,23 +126,23 @@ inline double section_volume(const ParticleView<Dim>& p, std::uint32_t q) {
   double f[Dim * Dim];
   for (int e = 0; e < Dim * Dim; ++e) f[e] = p.deformation[e][q];
   const double volume = p.volume[q] * determinant<Dim>(f);
-  const bool ring = Dim == 2 && p.depth == Depth::hoop;
+  const bool ring = Dim == 2 && p.plane_kind == PlaneKind::axisymmetric;
   return ring ? volume * p.stretch[q] / (kFullTurn * p.position[0][q]) : volume;
 }
 
 /// The sums that gradient normals, volume screening, contact areas and grid-based separations are made of
 /// (theory §2).
 template <int Dim, class Basis>
-void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+void project_geometry_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
                            const GeometryColumns<Dim>& out) {
   const ParticleView<Dim>& p = *c.particles;
   const bool displaced = out.mass_displacement.column[0];
-  clear(room.gradient_volume);
-  clear(room.mass_position);
-  clear(room.mass_displacement);
-  clear(room.volume);
+  clear(workspace.gradient_volume);
+  clear(workspace.mass_position);
+  clear(workspace.mass_displacement);
+  clear(workspace.volume);
   for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::both, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
           const auto volume = static_cast<Real>(section_volume<Dim>(p, q));
@@ -152,19 +154,19 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
             if (displaced) u[d] = static_cast<Real>(m * (p.position[d][q] - p.reference_position[d][q]));
             unit[d][d] = volume;
           }
-          if (out.mass_position.column[0]) scatter_values(w, k, x, room.mass_position.at[0]);
-          if (out.volume.column[0]) scatter_values(w, k, Record{volume}, room.volume.at[0]);
-          if (displaced) scatter_values(w, k, u, room.mass_displacement.at[0]);
-          if (out.volume_gradient.column[0]) scatter_gradients(w, k, unit, room.gradient_volume.at[0]);
+          if (out.mass_position.column[0]) scatter_values(w, k, x, workspace.mass_position.at[0]);
+          if (out.volume.column[0]) scatter_values(w, k, Record{volume}, workspace.volume.at[0]);
+          if (displaced) scatter_values(w, k, u, workspace.mass_displacement.at[0]);
+          if (out.volume_gradient.column[0]) scatter_gradients(w, k, unit, workspace.gradient_volume.at[0]);
         }
       });
   const auto flush = [&](auto& window, const auto& columns) {
     if (columns.column[0]) flush_window(window, *c.tile, columns);
   };
-  flush(room.gradient_volume, out.volume_gradient);
-  flush(room.mass_position, out.mass_position);
-  flush(room.mass_displacement, out.mass_displacement);
-  flush(room.volume, out.volume);
+  flush(workspace.gradient_volume, out.volume_gradient);
+  flush(workspace.mass_position, out.mass_position);
+  flush(workspace.mass_displacement, out.mass_displacement);
+  flush(workspace.volume, out.volume);
 }
 
 /// Displacements for interfaces, exact at a node where they are linear, on whichever side of it the particles
@@ -173,16 +175,16 @@ void project_geometry_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& r
 /// between two bodies that are strained by ε then errs by ε times what these places differ by.)
 /// @param out  Nodal::mass_offset, mass_slope; accumulated
 template <int Dim, class Basis>
-void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room,
+void project_displaced_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
                             const NodeColumns<Dim + Dim * Dim>& out) {
   using Displaced = Window<Dim, Dim + Dim * Dim>;
   using Node = typename Displaced::Node;
-  Displaced& window = room.displaced;
+  Displaced& window = workspace.displaced;
   const ParticleView<Dim>& p = *c.particles;
   const bool turned = p.initial_deformation[0];
   clear(window);
   for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k) {
           const std::uint32_t q = begin + static_cast<std::uint32_t>(k);
           double f[Dim * Dim], inverse[Dim * Dim], back[Dim * Dim];  // ∂X/∂x = F₀ F⁻¹
@@ -220,15 +222,16 @@ void project_displaced_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& 
 /// The volume of the particles of each cell of the basis, at the first node of their supports: what share of
 /// it is filled (K24 §3.3).
 template <int Dim, class Basis>
-void occupy_tile(const TileContext<Dim>& c, ProjectRoom<Dim, Basis>& room, const NodeColumns<1>& out) {
-  clear(room.volume);
+void occupy_tile(const TileContext<Dim>& c, ProjectWorkspace<Dim, Basis>& workspace,
+                 const NodeColumns<1>& out) {
+  clear(workspace.volume);
   for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
+      c, workspace.weights, Wanted::values, [&](const auto& w, const auto&, std::uint32_t begin, int count) {
         for (int k = 0; k < count; ++k)
-          room.volume.at[0][w.first[k]][0] +=
+          workspace.volume.at[0][w.first[k]][0] +=
               static_cast<Real>(section_volume<Dim>(*c.particles, begin + static_cast<std::uint32_t>(k)));
       });
-  flush_window(room.volume, *c.tile, out);
+  flush_window(workspace.volume, *c.tile, out);
 }
 
 }  // namespace mpmfast

@@ -18,18 +18,19 @@
 namespace mpmfast {
 
 template <int Dim, class Basis>
-struct ReExtrapolateRoom {
-  WeightRoom<Dim, Basis> weights;
+struct ReExtrapolateWorkspace {
+  WeightWorkspace<Dim, Basis> weights;
   Window<Dim, Dim> in;
   Window<Dim, Dim + 1> out;
   Record record[kChunk<Dim>];
-  alignas(64) double pressed[kChunk<Dim>];
+  alignas(64) double compression_weight[kChunk<Dim>];
 };
 
 /// How far the particles of a chunk are pressed, in `pressed`: from 0 at J = 0.95 to 1 at J = 0.85 and below.
 /// (From J = 1 waves switch it: a disk that vibrates then comes apart in 15 turns, which lasts a thousand.)
 template <int Dim>
-inline void find_pressed(const ParticleView<Dim>& p, std::uint32_t begin, int count, double* pressed) {
+inline void find_compression_weight(const ParticleView<Dim>& p, std::uint32_t begin, int count,
+                                    double* compression_weight) {
   constexpr double kStart = 0.95, kRamp = 10;
   for (int k = 0; k < count; k += kLanes) {
     Lanes jacobian;
@@ -39,10 +40,10 @@ inline void find_pressed(const ParticleView<Dim>& p, std::uint32_t begin, int co
       Lanes f[Dim * Dim];
       for (int e = 0; e < Dim * Dim; ++e) f[e] = load_lanes(p.deformation[e] + begin + k);
       jacobian = determinant<Dim>(f);
-      if (p.depth != Depth::held) jacobian *= load_lanes(p.stretch + begin + k);
+      if (p.plane_kind != PlaneKind::plane_strain) jacobian *= load_lanes(p.stretch + begin + k);
     }
     const Lanes share = kRamp * (kStart - jacobian);
-    store_lanes(pressed + k, share > 1.0 ? 1.0 : share < 0.0 ? 0.0 : share);
+    store_lanes(compression_weight + k, share > 1.0 ? 1.0 : share < 0.0 ? 0.0 : share);
   }
 }
 
@@ -51,42 +52,44 @@ inline void find_pressed(const ParticleView<Dim>& p, std::uint32_t begin, int co
 /// m(v − v*) + aΔt; PIC and APIC Σ S in, with in = v⁺ (N20 Eq. 32, 38, 41)
 /// @param out  p′, accumulated, kg m/s; then, if there is such a column, the mass that is pressed, kg
 template <int Dim, class Basis>
-void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateRoom<Dim, Basis>& room,
+void re_extrapolate_tile(const TileContext<Dim>& c, ReExtrapolateWorkspace<Dim, Basis>& workspace,
                          ParticleUpdate velocity, const NodeColumns<Dim>& in,
                          const NodeColumns<Dim + 1>& out) {
   const ParticleView<Dim>& p = *c.particles;
-  const bool weighs_pressed = out.column[Dim] != nullptr;
+  const bool weighs_compression = out.column[Dim] != nullptr;
   auto ahead = fetch_ahead<Basis, Dim + Dim * Dim + 1>(p);
   if (velocity == ParticleUpdate::flip) ahead.add(p.velocity);
-  if (weighs_pressed) ahead.add(p.deformation);
+  if (weighs_compression) ahead.add(p.deformation);
   ahead.add(p.mass);
-  load_window(in, *c.tile, room.in);
-  begin_sums(c, room.out, out);
+  load_window(in, *c.tile, workspace.in);
+  begin_sums(c, workspace.out, out);
   for_each_chunk<Dim, Basis>(
-      c, room.weights, Wanted::values,
+      c, workspace.weights, Wanted::values,
       [&](const auto& w, const ParticleRun<Dim>& run, std::uint32_t begin, int count) {
         ahead.start_at(begin + static_cast<std::uint32_t>(count));
-        if (weighs_pressed) find_pressed(p, begin, count, room.pressed);
+        if (weighs_compression) find_compression_weight(p, begin, count, workspace.compression_weight);
         const bool keeps = velocity == ParticleUpdate::flip;  // V, to which the grid adds
-        stack<Dim + 1>(count, room.record, 0, [&](int d, int k) {
-          if (d == Dim) return weighs_pressed ? detail::load_row(room.pressed + k) : Row{};
+        pack<Dim + 1>(count, workspace.record, 0, [&](int d, int k) {
+          if (d == Dim)
+            return weighs_compression ? detail::load_row(workspace.compression_weight + k) : Row{};
           return keeps ? detail::load_row(p.velocity[d < Dim ? d : 0] + begin + k) : Row{};
         });
-        gather_chunk_values(w, count, room.in.at[0], [&](int k, Record v) {
+        gather_chunk_values(w, count, workspace.in.at[0], [&](int k, Record v) {
           ahead(k);
           const auto m = static_cast<Real>(p.mass[begin + static_cast<std::uint32_t>(k)]);
           if constexpr (Basis::kSpread > 0) {
             if (velocity == ParticleUpdate::apic) {
-              scatter_affine<Dim, Basis>(c, run, w, begin, count, k, m, v, room.in.at[0], room.out.at[0]);
+              scatter_affine<Dim, Basis>(c, run, w, begin, count, k, m, v, workspace.in.at[0],
+                                         workspace.out.at[0]);
               return;
             }
           }
-          room.record[k] = m * (v + room.record[k]);
+          workspace.record[k] = m * (v + workspace.record[k]);
         });
         if (Basis::kSpread > 0 && velocity == ParticleUpdate::apic) return;
-        scatter_chunk_values(w, count, room.record, room.out.at[0]);
+        scatter_chunk_values(w, count, workspace.record, workspace.out.at[0]);
       });
-  end_sums(c, room.out, out);
+  end_sums(c, workspace.out, out);
 }
 
 }  // namespace mpmfast

@@ -6,14 +6,14 @@
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/shape_memory.hpp"
-#include "kernels/transfer/strain_depth.hpp"
+#include "kernels/transfer/strain_out_of_plane.hpp"
 #include "kernels/views.hpp"
 
 namespace mpmfast {
 
 /// What the caller stages of a chunk, by component.
 template <int Dim>
-struct StrainRoom {
+struct StrainWorkspace {
   alignas(64) double gradient[4 * Dim][kChunk<Dim>];  ///< ∂v/∂x_d of a particle, [4 d + component of v]
   alignas(64) double hoop_rate[kChunk<Dim>];          ///< v_r/r in axisymmetry
   alignas(64) double stress[kSymmetric<Dim>][kChunk<Dim>];  ///< τ that needs no column (stress_can_wait)
@@ -31,17 +31,17 @@ inline ChunkStress<Dim> stress_columns(const ParticleView<Dim>& p, std::uint32_t
   return out;
 }
 template <int Dim>
-inline ChunkStress<Dim> staged_stress(StrainRoom<Dim>& room) {
+inline ChunkStress<Dim> staged_stress(StrainWorkspace<Dim>& workspace) {
   ChunkStress<Dim> out;
-  for (int s = 0; s < kSymmetric<Dim>; ++s) out.component[s] = room.stress[s];
+  for (int s = 0; s < kSymmetric<Dim>; ++s) out.component[s] = workspace.stress[s];
   return out;
 }
 
 /// What of F a law answers to: all of it where heat stretches nothing. (Planes that heat stretches are asked
-/// in three dimensions: strain_chunk_with_depth.) @return whether heat does
+/// in three dimensions: strain_chunk_out_of_plane.) @return whether heat does
 template <int Dim>
-inline bool see_cooled(const StateView<Dim>& view, std::uint32_t at, const Lanes (&f)[Dim * Dim],
-                       Lanes (&seen)[Dim * Dim]) {
+inline bool remove_thermal_strain(const StateView<Dim>& view, std::uint32_t at, const Lanes (&f)[Dim * Dim],
+                                  Lanes (&seen)[Dim * Dim]) {
   for (int e = 0; e < Dim * Dim; ++e) seen[e] = f[e];
   if (Dim == 2 || !view.thermal_stretch) return false;
   detail::cool(detail::cooling(view, at), seen);
@@ -61,19 +61,19 @@ inline Lanes advance_law(const StateView<Dim>& view, const Law& law, const Lanes
     const Lanes before = load_lanes(view.volume_ratio + at), now = before * volume_change<Dim>(a);
     Lanes expansion = l[0], of_volume = broadcast<Lanes>(1.0);
     for (int d = 1; d < Dim; ++d) expansion += l[(Dim + 1) * d];
-    if (see_cooled<Dim>(view, at, f, seen)) of_volume = detail::volume_cooling(view, at);
+    if (remove_thermal_strain<Dim>(view, at, f, seen)) of_volume = detail::volume_cooling(view, at);
     MaterialState<Dim, Lanes> state;
     detail::load_state<Law>(view, at, state);
     law.template advance<Dim>(
         StrainStep<Dim, Lanes>{a, seen, of_volume * before, of_volume * now, expansion, dt}, state, tau,
         wave_speed_squared);
     detail::store_state(view, law, at, count, state);
-    if (law.shape_limit() < kWholeShape) forget_shape<Dim>(law.shape_limit(), now, count, f);
+    if (law.shape_limit() < kWholeShape) limit_shape<Dim>(law.shape_limit(), now, count, f);
     return now;
   } else {
     Lanes seen[Dim * Dim];
     advance_deformation<Dim>(l, dt, terms, f);
-    see_cooled<Dim>(view, at, f, seen);
+    remove_thermal_strain<Dim>(view, at, f, seen);
     law.template stress<Dim>(seen, tau, wave_speed_squared);
     return determinant<Dim>(f);
   }
@@ -99,27 +99,28 @@ template <int Dim>
 
 /// The velocity gradient and F of kLanes particles.
 template <int Dim>
-inline void load_strain(const ParticleView<Dim>& p, const StrainRoom<Dim>& room, std::uint32_t begin, int k,
-                        Lanes (&l)[Dim * Dim], Lanes (&f)[Dim * Dim]) {
+inline void load_strain(const ParticleView<Dim>& p, const StrainWorkspace<Dim>& workspace,
+                        std::uint32_t begin, int k, Lanes (&l)[Dim * Dim], Lanes (&f)[Dim * Dim]) {
   fetch_further(p.deformation, begin + static_cast<std::uint32_t>(k));
   for (int i = 0; i < Dim; ++i)
     for (int j = 0; j < Dim; ++j) {
-      l[Dim * i + j] = load_lanes(&room.gradient[4 * j + i][k]);
+      l[Dim * i + j] = load_lanes(&workspace.gradient[4 * j + i][k]);
       f[Dim * i + j] = load_lanes(p.deformation[Dim * i + j] + begin + k);
     }
 }
 
 /// As strain_chunk, in a plane that stretches along its normal.
 template <class Law>
-bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
-                             double dt, int terms, const StrainRoom<2>& room, const ChunkStress<2>& stress) {
-  const bool hoop = p.depth == Depth::hoop;
+bool strain_chunk_out_of_plane(const ParticleView<2>& p, const Law& law, std::uint32_t begin, int count,
+                               double dt, int terms, const StrainWorkspace<2>& workspace,
+                               const ChunkStress<2>& stress) {
+  const bool hoop = p.plane_kind == PlaneKind::axisymmetric;
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[4], f[4], tau[4], c2, s = p.stretch ? load_lanes(p.stretch + at) : broadcast<Lanes>(1.0);
-    const Lanes rate = hoop ? load_lanes(&room.hoop_rate[k]) : broadcast<Lanes>(0.0);
-    load_strain(p, room, begin, k, l, f);
+    const Lanes rate = hoop ? load_lanes(&workspace.hoop_rate[k]) : broadcast<Lanes>(0.0);
+    load_strain(p, workspace, begin, k, l, f);
     const Lanes j = advance_law_with_depth(p, law, l, rate, dt, terms, at, count - k, f, s, tau, c2);
     if (p.stretch) store_first(p.stretch + at, s, count - k);
     sound &= store_strain(p, begin, k, count - k, f, tau, c2, j, stress);
@@ -131,20 +132,20 @@ bool strain_chunk_with_depth(const ParticleView<2>& p, const Law& law, std::uint
 /// planes that stretch along their normal, nor where heat stretches.
 template <class Law, int Dim>
 inline bool stress_can_wait(const ParticleView<Dim>& p) {
-  return !Evolving<Law> && p.depth == Depth::held && !p.state.thermal_stretch;
+  return !Evolving<Law> && p.plane_kind == PlaneKind::plane_strain && !p.state.thermal_stretch;
 }
 
-/// F of a chunk whose velocity gradients are staged in room.gradient, and nothing else: what strain_chunk
-/// costs is the columns that it goes through. τ and c stay those of an earlier F.
+/// F of a chunk whose velocity gradients are staged in workspace.gradient, and nothing else: what
+/// strain_chunk costs is the columns that it goes through. τ and c stay those of an earlier F.
 /// @return whether each J of the chunk is a positive number
 template <int Dim>
 bool deform_chunk(const ParticleView<Dim>& p, std::uint32_t begin, int count, double dt, int terms,
-                  const StrainRoom<Dim>& room) {
+                  const StrainWorkspace<Dim>& workspace) {
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[Dim * Dim], f[Dim * Dim];
-    load_strain(p, room, begin, k, l, f);
+    load_strain(p, workspace, begin, k, l, f);
     advance_deformation<Dim>(l, dt, terms, f);
     for (int e = 0; e < Dim * Dim; ++e) store_first(p.deformation[e] + at, f[e], count - k);
     const Lanes j = determinant<Dim>(f);
@@ -167,21 +168,21 @@ inline void stress_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32
   }
 }
 
-/// Strain and stress of a chunk whose velocity gradients are staged in room.gradient: F by the truncated
+/// Strain and stress of a chunk whose velocity gradients are staged in workspace.gradient: F by the truncated
 /// exponential, τ, c and the evolving state by the material's law; all columns written back, τ to `stress`.
 /// @return whether each J of the chunk is a positive number
 template <int Dim, class Law>
 bool strain_chunk(const ParticleView<Dim>& p, const Law& law, std::uint32_t begin, int count, double dt,
-                  int terms, const StrainRoom<Dim>& room, const ChunkStress<Dim>& stress) {
+                  int terms, const StrainWorkspace<Dim>& workspace, const ChunkStress<Dim>& stress) {
   if constexpr (Dim == 2) {
-    if (p.depth != Depth::held || p.state.thermal_stretch)
-      return strain_chunk_with_depth(p, law, begin, count, dt, terms, room, stress);
+    if (p.plane_kind != PlaneKind::plane_strain || p.state.thermal_stretch)
+      return strain_chunk_out_of_plane(p, law, begin, count, dt, terms, workspace, stress);
   }
   bool sound = true;
   for (int k = 0; k < count; k += kLanes) {
     const std::uint32_t at = begin + static_cast<std::uint32_t>(k);
     Lanes l[Dim * Dim], f[Dim * Dim], tau[kSymmetric<Dim>], c2;
-    load_strain(p, room, begin, k, l, f);
+    load_strain(p, workspace, begin, k, l, f);
     const Lanes j = advance_law<Dim>(p.state, law, l, dt, terms, at, count - k, f, tau, c2);
     sound &= store_strain(p, begin, k, count - k, f, tau, c2, j, stress);
   }

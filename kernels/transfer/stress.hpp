@@ -11,13 +11,13 @@
 namespace mpmfast {
 
 /// −V_p0 τ_p of a chunk as records: row by row, in 2-D both rows as one record of pairs.
-/// @param quad see stack()
+/// @param quad see pack()
 template <int Dim, class R>
-inline void stack_stress(const ParticleView<Dim>& p, const ChunkStress<Dim>& of, std::uint32_t begin,
-                         int count, int quad, R (*out)[kChunk<Dim>]) {
+inline void pack_stress(const ParticleView<Dim>& p, const ChunkStress<Dim>& of, std::uint32_t begin,
+                        int count, int quad, R (*out)[kChunk<Dim>]) {
   constexpr int entries = Dim == 2 ? 4 : Dim;
   for (int r = 0; r < kGradientRecords<Dim>; ++r)
-    stack<entries>(count, out[r], quad, [&](int c, int k) {
+    pack<entries>(count, out[r], quad, [&](int c, int k) {
       const double* stress = of.component[symmetric_index<Dim>(c % Dim, r + c / Dim % Dim)];
       return -detail::load_row(p.volume + begin + k) * detail::load_row(stress + k);
     });

@@ -210,7 +210,7 @@ inline void end_sums(const Context& c, Window<Dim, NC>& window, const NodeColumn
 /// record would be read back before its parts have left the store buffer.)
 /// @param value called for k = 0, 4, 8, …; @param quad which four entries of the records to set
 template <int N, class R, class F>
-inline void stack(int count, R* out, int quad, const F& value) {
+inline void pack(int count, R* out, int quad, const F& value) {
   static_assert(N <= 4);
   for (int k = 0; k < count; k += 4) {
     Record row[4];
@@ -222,7 +222,7 @@ inline void stack(int count, R* out, int quad, const F& value) {
 
 /// The reverse: the first N entries of the records, one array each, out[c][k]; N is rounded up to fours.
 template <int Dim, int N, class R>
-inline void unstack(const R* in, int count, double (*out)[kChunk<Dim>]) {
+inline void unpack(const R* in, int count, double (*out)[kChunk<Dim>]) {
   for (int c = 0; c < N; c += 4)
     for (int k = 0; k < count; k += 4) {
       Record row[4];

@@ -13,16 +13,16 @@ namespace {
 /// Of a chunk that lies in its window.
 template <class Basis>
 bool narrow_suffices(const ChunkGeometry<2>& g) {
-  const auto room = std::make_unique<WeightRoom<2, Basis>>();
-  REQUIRE(Basis::stage(g, room->wide));
-  return Basis::stage(g, room->narrow);
+  const auto workspace = std::make_unique<WeightWorkspace<2, Basis>>();
+  REQUIRE(Basis::stage(g, workspace->wide));
+  return Basis::stage(g, workspace->narrow);
 }
 
 TEST_CASE(
     "particles beyond the end of a chunk do not choose its support: another thread may be moving them") {
-  constexpr int kRoom = 4 * kLanes;
-  alignas(64) double x[2][kRoom], edge[4][kRoom];
-  for (int k = 0; k < kRoom; ++k) {
+  constexpr int kCapacity = 4 * kLanes;
+  alignas(64) double x[2][kCapacity], edge[4][kCapacity];
+  for (int k = 0; k < kCapacity; ++k) {
     x[0][k] = x[1][k] = 2.3;
     edge[0][k] = edge[3][k] = k < 3 ? 0.25 : 0.99;  // narrow in the chunk, wide after it
     edge[1][k] = edge[2][k] = 0;

@@ -102,8 +102,8 @@ Mat<Dim> random_deformation(Draw& draw, double size) {
   return f;
 }
 
-/// Supports begin in the window: 1.55 cells of room below let any domain of at most 0.999 cells in, with half
-/// a cell beyond for quadratic functions.
+/// Supports begin in the window: 1.55 cells of space below let any domain of at most 0.999 cells in, with
+/// half a cell beyond for quadratic functions.
 template <int Dim>
 Chunk<Dim> random_chunk(Draw& draw, double deformation, double stretch = 1.0) {
   Chunk<Dim> chunk;
@@ -119,15 +119,15 @@ Chunk<Dim> random_chunk(Draw& draw, double deformation, double stretch = 1.0) {
 /// Calls f(weights) on the support that the basis chooses.
 template <class Basis, int Dim, class F>
 void with_weights(const ChunkGeometry<Dim>& g, F f) {
-  const auto room = std::make_unique<WeightRoom<Dim, Basis>>();
-  if (Basis::stage(g, room->narrow)) return f(room->narrow);
-  REQUIRE(Basis::stage(g, room->wide));
-  f(room->wide);
+  const auto workspace = std::make_unique<WeightWorkspace<Dim, Basis>>();
+  if (Basis::stage(g, workspace->narrow)) return f(workspace->narrow);
+  REQUIRE(Basis::stage(g, workspace->wide));
+  f(workspace->wide);
 }
 
 /// Node coordinates within the window of a window index.
 template <int Dim>
-Vec<Dim> node_place(int index) {
+Vec<Dim> index_of_node(int index) {
   Vec<Dim> x;
   for (int d = 0; d < Dim; ++d, index /= kWindowSide) x[d] = index % kWindowSide;
   return x;
@@ -222,7 +222,7 @@ double incompleteness(const Chunk<Dim>& chunk) {
       Mat<Dim> identity = -Mat<Dim>::Identity();
       for (int n = 0; n < kWindowNodes<Dim>; ++n) {
         const auto i = static_cast<std::size_t>(n);
-        const Vec<Dim> x = node_place<Dim>(n) - chunk.place(k);
+        const Vec<Dim> x = index_of_node<Dim>(n) - chunk.place(k);
         sum += field.value[i];
         mean += field.value[i] * x;
         slope += field.gradient[i];
@@ -244,11 +244,11 @@ template <class Basis, int Dim>
 void check_support(const Chunk<Dim>& chunk, double edge, SupportErrors& errors) {
   const auto g = chunk.geometry();
   with_weights<Basis, Dim>(g, [&](const auto& w) {
-    const auto one = std::make_unique<WeightRoom<Dim, Basis>>();
+    const auto one = std::make_unique<WeightWorkspace<Dim, Basis>>();
     for (int k = 0; k < chunk.count; ++k) {
       const auto field = on_window(w, k, chunk.cell);
       for (int n = 0; n < kWindowNodes<Dim>; ++n) {
-        NodeIndex<Dim> node = node_place<Dim>(n).template cast<int>();
+        NodeIndex<Dim> node = index_of_node<Dim>(n).template cast<int>();
         for (int d = 0; d < Dim; ++d) node[d] += chunk.window[d];
         const double s = field.value[static_cast<std::size_t>(n)];
         const bool covered = Basis::covers(g, k, node);
@@ -276,7 +276,7 @@ void check_separable() {
       for (int k = 0; k < chunk.count; ++k) {
         const auto field = on_window(w, k, chunk.cell);
         for (int n = 0; n < kWindowNodes<Dim>; ++n) {
-          const Vec<Dim> x = chunk.place(k) - node_place<Dim>(n);
+          const Vec<Dim> x = chunk.place(k) - index_of_node<Dim>(n);
           double value = 1;
           Vec<Dim> gradient = Vec<Dim>::Ones();
           for (int d = 0; d < Dim; ++d) {
@@ -419,7 +419,7 @@ TEST_CASE_TEMPLATE("CPDI: values are the corners' mean, gradients the mean gradi
         const auto field = on_window(w, k, chunk.cell);
         const Mat<Dim> edges = chunk.edges(k), to_space = edges.inverse().transpose();
         for (int n = 0; n < kWindowNodes<Dim>; ++n) {
-          const Vec<Dim> node = node_place<Dim>(n);
+          const Vec<Dim> node = index_of_node<Dim>(n);
           double at[kCorners<Dim>], value = 0;
           for (int c = 0; c < kCorners<Dim>; ++c) {
             at[c] = grid_function(Basis{}, corner<Dim>(chunk.place(k), edges, c), node);
@@ -459,7 +459,7 @@ TEST_CASE("lCPDI: gradients are those of Sadeghirad et al. in 2-D") {
       const Vec<2> r1 = 2 * chunk.edges(k).col(0), r2 = 2 * chunk.edges(k).col(1);
       const double volume = r1[0] * r2[1] - r1[1] * r2[0];
       for (int n = 0; n < kWindowNodes<2>; ++n) {
-        const Vec<2> x = chunk.place(k), node = node_place<2>(n);
+        const Vec<2> x = chunk.place(k), node = index_of_node<2>(n);
         const double n1 = hats_at<2>(x - 0.5 * r1 - 0.5 * r2, node).value,
                      n2 = hats_at<2>(x + 0.5 * r1 - 0.5 * r2, node).value;
         const double n3 = hats_at<2>(x + 0.5 * r1 + 0.5 * r2, node).value,
@@ -481,12 +481,12 @@ TEST_CASE_TEMPLATE("CPDI: the narrow and the wide support give the same weights"
   for (int repeat = 0; repeat < 60; ++repeat) {
     const auto chunk = random_chunk<Dim>(draw, 0.05, uniform(draw, 0.5, 2.5));
     const auto g = chunk.geometry();
-    const auto room = std::make_unique<WeightRoom<Dim, Basis>>();
-    (Basis::stage(g, room->narrow) ? narrow : wide) += 1;
-    REQUIRE(Basis::stage(g, room->wide));
+    const auto workspace = std::make_unique<WeightWorkspace<Dim, Basis>>();
+    (Basis::stage(g, workspace->narrow) ? narrow : wide) += 1;
+    REQUIRE(Basis::stage(g, workspace->wide));
     with_weights<Basis, Dim>(g, [&](const auto& w) {
       for (int k = 0; k < chunk.count; ++k) {
-        const auto a = on_window(w, k, chunk.cell), b = on_window(room->wide, k, chunk.cell);
+        const auto a = on_window(w, k, chunk.cell), b = on_window(workspace->wide, k, chunk.cell);
         for (std::size_t n = 0; n < a.value.size(); ++n) {
           worst =
               std::max({worst, std::abs(a.value[n] - b.value[n]), (a.gradient[n] - b.gradient[n]).norm()});
@@ -612,11 +612,11 @@ TEST_CASE_TEMPLATE("a support that leaves the window is reported, and a position
     for (const double away : {-3.0, 8.5, std::nan("")}) {
       Chunk<Dim> chunk;
       chunk.add(Vec<Dim>::Constant(3.4), Mat<Dim>::Identity());
-      const auto room = std::make_unique<WeightRoom<Dim, Basis>>();
-      CHECK(Basis::stage(chunk.geometry(), room->narrow));
+      const auto workspace = std::make_unique<WeightWorkspace<Dim, Basis>>();
+      CHECK(Basis::stage(chunk.geometry(), workspace->narrow));
       Vec<Dim> r = Vec<Dim>::Constant(3.4);
       r[d] = away;
       chunk.add(r, Mat<Dim>::Identity());
-      CHECK(!Basis::stage(chunk.geometry(), room->narrow));
+      CHECK(!Basis::stage(chunk.geometry(), workspace->narrow));
     }
 }

@@ -588,23 +588,23 @@ TEST_CASE_TEMPLATE("a bond has the mean integrity that its own jump asks for, an
 TEST_CASE("what presses has the stiffness that is said, or else that of opening, or contact has it") {
   for (const double said : {0.0, 7.0}) {
     Interface interface { 3, 4, said };
-    CHECK(interface.pressed_stiffness() == (said > 0 ? 7 : 3));
+    CHECK(interface.overlap_stiffness() == (said > 0 ? 7 : 3));
     Cohesive bond;
     bond.initial_stiffness = 5, bond.compression_stiffness = said;
-    CHECK(bond.pressed_stiffness() == (said > 0 ? 7 : 5));
+    CHECK(bond.overlap_stiffness() == (said > 0 ? 7 : 5));
     NonlinearInterface curves{{{0, 2}, {0, 3}}, {{0}, {0}}, said};
     CHECK(!curves.has_overlap());
-    const TractionCurve pressed = curves.pressed_curve(0.25);
+    const TractionCurve pressed = curves.curve_with_overlap(0.25);
     CHECK(pressed.jump == std::vector<double>{-0.25, 0, 2});
     CHECK(pressed.traction == std::vector<double>{said > 0 ? -7 * 0.25 : -1.5 * 0.25, 0, 3});
     interface.compression = bond.compression = curves.compression = CompressionModel::contact;
-    CHECK(interface.pressed_stiffness() == 0);
-    CHECK(bond.pressed_stiffness() == 0);
-    CHECK(curves.pressed_curve(0.25).traction[0] == 0);
+    CHECK(interface.overlap_stiffness() == 0);
+    CHECK(bond.overlap_stiffness() == 0);
+    CHECK(curves.curve_with_overlap(0.25).traction[0] == 0);
     NonlinearInterface whole{{{-1, 0, 2}, {-4, 0, 3}}, {{0}, {0}}, said};
     CHECK(whole.has_overlap());
-    CHECK(whole.pressed_curve(0.25).jump == whole.normal_curve.jump);
-    CHECK(whole.pressed_curve(0.25).traction == whole.normal_curve.traction);
+    CHECK(whole.curve_with_overlap(0.25).jump == whole.normal_curve.jump);
+    CHECK(whole.curve_with_overlap(0.25).traction == whole.normal_curve.traction);
   }
 }
 

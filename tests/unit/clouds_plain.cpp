@@ -313,9 +313,9 @@ void check_extent() {
   for (int count = 0; count <= 20; ++count) {
     std::vector<double> xi[Dim], shape[shape_size<Dim>(E)];
     CloudColumns<Dim> columns{};
-    const auto room = static_cast<std::size_t>(padded_count(count) + kLanes);
-    for (auto& column : xi) column.assign(room, 1e3);  // what follows the particles is far away
-    for (auto& column : shape) column.assign(room, 1);
+    const auto capacity = static_cast<std::size_t>(padded_count(count) + kLanes);
+    for (auto& column : xi) column.assign(capacity, 1e3);  // what follows the particles is far away
+    for (auto& column : shape) column.assign(capacity, 1);
     const Vec<Dim> n = random_direction<Dim>(draw);
     double most = -HUGE_VAL;
     int at = -1;

@@ -44,7 +44,7 @@ void distort(State<Dim>& state) {
   }
 }
 
-/// Compares the clouds of every node of every stack, with the particles near the whole stack and near that
+/// Compares the clouds of every node of every block, with the particles near the whole block and near that
 /// node alone. @return particles in all clouds
 template <int Dim, class Basis>
 int compare(const State<Dim>& state) {
@@ -54,11 +54,11 @@ int compare(const State<Dim>& state) {
     return TileContext<Dim>{&view, &tile, tiling.runs.data(), state.bodies.data(), &state.grid};
   };
   int found = 0;
-  for (const auto& stack : tiling.stacks)
+  for (const auto& block : tiling.node_blocks)
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
-      const NodeIndex<Dim> node = tiling.node(stack, local);
+      const NodeIndex<Dim> node = tiling.node(block, local);
       std::vector<Vec<Dim>> expected;
-      for (int t : tiling.node_tiles[static_cast<std::size_t>(stack.begin)].particle_tile) {
+      for (int t : tiling.node_tiles[static_cast<std::size_t>(block.begin)].particle_tile) {
         if (t < 0) continue;
         const auto& tile = tiling.tiles[static_cast<std::size_t>(t)];
         for (int r = tile.run_begin; r < tile.run_end; ++r) {
@@ -69,18 +69,18 @@ int compare(const State<Dim>& state) {
         }
       }
       for (const bool alone : {true, false}) {
-        const NodeBox<Dim> box{alone ? node : tiling.node(stack, 0),
-                               alone ? node : tiling.node(stack, kTileNodes<Dim> - 1)};
+        const NodeBox<Dim> box{alone ? node : tiling.node(block, 0),
+                               alone ? node : tiling.node(block, kTileNodes<Dim> - 1)};
         Candidates<Dim> candidates;
-        for (int t : tiling.node_tiles[static_cast<std::size_t>(stack.begin)].particle_tile)
+        for (int t : tiling.node_tiles[static_cast<std::size_t>(block.begin)].particle_tile)
           if (t >= 0)
             add_candidates<Dim, Basis>(context(tiling.tiles[static_cast<std::size_t>(t)]), box, candidates);
-        CloudRoom<Dim> room;
+        CloudWorkspace<Dim> workspace;
         for (const auto& piece : candidates.pieces)
-          append_covering<Dim, Basis>(candidates, piece, state.grid.inverse_cell, node, room);
-        REQUIRE(room.count == static_cast<int>(expected.size()));
-        room.pad();
-        const auto cloud = room.columns(0, room.count);
+          append_covering<Dim, Basis>(candidates, piece, state.grid.inverse_cell, node, workspace);
+        REQUIRE(workspace.count == static_cast<int>(expected.size()));
+        workspace.pad();
+        const auto cloud = workspace.columns(0, workspace.count);
         for (int k = 0; k < cloud.count; ++k)
           for (int d = 0; d < Dim; ++d) {
             const double x = expected[static_cast<std::size_t>(k)][d];

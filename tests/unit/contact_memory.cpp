@@ -37,10 +37,10 @@ bodies:
     const auto now = static_cast<double>(step.contact_list().nodes.size());
     REQUIRE(now > 100);
     REQUIRE(now < 200);
-    const double places = 4.0 * static_cast<double>(step.state().tiling.places());
-    const double taken = static_cast<double>(step.contact_bytes()) - places;
+    const double of_nodes = 4.0 * static_cast<double>(step.state().tiling.block_nodes());
+    const double taken = static_cast<double>(step.contact_bytes()) - of_nodes;
     const ContactNeed need = contact_need(step, scene);
-    const double ratio = (need.bytes - places) / need.nodes / (taken / now);
+    const double ratio = (need.bytes - of_nodes) / need.nodes / (taken / now);
     CHECK(ratio > 0.8);  // measured 0.92, 0.94, 1.01
     CHECK(ratio < 1.25);
   }
@@ -94,9 +94,9 @@ TEST_CASE("beside four bytes for each place of the tiles, each node that is fore
     Step<2> step(scene);
     advance(step, 1);
     const ContactNeed need = contact_need(step, scene);
-    const double places = 4.0 * static_cast<double>(step.state().tiling.places());
-    REQUIRE(need.bytes > places);
-    return std::pair{(need.bytes - places) / need.nodes, places / need.nodes};
+    const double of_nodes = 4.0 * static_cast<double>(step.state().tiling.block_nodes());
+    REQUIRE(need.bytes > of_nodes);
+    return std::pair{(need.bytes - of_nodes) / need.nodes, of_nodes / need.nodes};
   };
   const auto [small, around_small] = of_a_node("16 mm, 8 mm");
   const auto [large, around_large] = of_a_node("28 mm, 20 mm");  // more of it is inside

@@ -30,7 +30,7 @@ std::size_t index(int k) { return static_cast<std::size_t>(k); }
 
 using Numbers = std::vector<double>;
 
-/// Solves the equations of hindrances, each from the effect of an impulse on the velocities of all fields, by
+/// Solves the equations of delassus, each from the effect of an impulse on the velocities of all fields, by
 /// elimination of the largest entries first.
 template <int Dim>
 Numbers eliminated(const std::vector<typename DelassusOperator<Dim>::Row>& all, const Numbers& inverse_mass) {
@@ -61,14 +61,14 @@ Numbers eliminated(const std::vector<typename DelassusOperator<Dim>::Row>& all, 
 }
 
 template <int Dim>
-Numbers found_by(DelassusOperator<Dim>& hindrances,
+Numbers found_by(DelassusOperator<Dim>& delassus,
                  const std::vector<typename DelassusOperator<Dim>::Row>& all) {
-  hindrances.clear();
-  for (const auto& one : all) hindrances.push(one);
-  CHECK(hindrances.count() == static_cast<int>(all.size()));
-  CHECK(hindrances.solve());
+  delassus.clear();
+  for (const auto& one : all) delassus.push(one);
+  CHECK(delassus.count() == static_cast<int>(all.size()));
+  CHECK(delassus.solve());
   Numbers found;
-  hindrances.for_each_change([&](int contact, const Vec<Dim>& change) {
+  delassus.for_each_change([&](int contact, const Vec<Dim>& change) {
     const auto& one = all[found.size()];
     CHECK(contact == one.contact);
     found.push_back(change.dot(one.impulse) / one.impulse.squaredNorm());
@@ -78,11 +78,11 @@ Numbers found_by(DelassusOperator<Dim>& hindrances,
   return found;
 }
 
-TEST_CASE_TEMPLATE("hindrances of any number of sliding contacts are solved as elimination solves them", D,
+TEST_CASE_TEMPLATE("delassus of any number of sliding contacts are solved as elimination solves them", D,
                    TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(1);
-  DelassusOperator<Dim> hindrances;  // used again: what stood in it is nothing to the next
+  DelassusOperator<Dim> delassus;  // used again: what stood in it is nothing to the next
   for (int count = 64; count > 0; count -= count > 33 ? 5 : 1) {
     CAPTURE(count);
     const int fields = count + 1;
@@ -101,7 +101,7 @@ TEST_CASE_TEMPLATE("hindrances of any number of sliding contacts are solved as e
       all.push_back({7 * i + 3, a, b, reduced * inverse_mass[index(a)], reduced * inverse_mass[index(b)],
                      impulse, normal, uniform(draw, -2, 2)});
     }
-    const Numbers expected = eliminated<Dim>(all, inverse_mass), found = found_by(hindrances, all);
+    const Numbers expected = eliminated<Dim>(all, inverse_mass), found = found_by(delassus, all);
     double largest = 0, apart = 0;
     for (std::size_t k = 0; k < found.size(); ++k) {
       largest = std::max(largest, std::abs(expected[k]));
@@ -115,7 +115,7 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
                    D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
   Draw draw(2);
-  DelassusOperator<Dim> hindrances;
+  DelassusOperator<Dim> delassus;
   for (int fields = 3; fields <= (Dim == 2 ? 8 : 6); ++fields)
     for (int trial = 0; trial < 3; ++trial) {
       CAPTURE(fields);
@@ -132,7 +132,7 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
                            Vec<Dim>::Unit(d), Vec<Dim>::Unit(d),
                            reduced * (velocity[index(b)] - velocity[index(a)])[d]});
         }
-      const Numbers found = found_by(hindrances, all);
+      const Numbers found = found_by(delassus, all);
       Vec<Dim> mean = Vec<Dim>::Zero();
       double mass = 0;
       for (int k = 0; k < fields; ++k) {
@@ -147,23 +147,25 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
     }
 }
 
-TEST_CASE_TEMPLATE("hindrances are full where one more contact that sticks has no room, and say what is none",
-                   D, TwoD, ThreeD) {
+TEST_CASE_TEMPLATE(
+    "delassus are full where one more contact that sticks has no independent direction, and say what is "
+    "none",
+    D, TwoD, ThreeD) {
   constexpr int Dim = D::value;
-  DelassusOperator<Dim> hindrances;
-  hindrances.clear();
+  DelassusOperator<Dim> delassus;
+  delassus.clear();
   for (int count = 0; count <= 64; ++count) {
-    CHECK(hindrances.is_full() == (count > 64 - Dim));
-    if (count < 64) hindrances.push({count, 0, 1, 0.5, 0.5, Vec<Dim>::Unit(0), Vec<Dim>::Unit(0), 1});
+    CHECK(delassus.is_full() == (count > 64 - Dim));
+    if (count < 64) delassus.push({count, 0, 1, 0.5, 0.5, Vec<Dim>::Unit(0), Vec<Dim>::Unit(0), 1});
   }
   for (const double none : {std::nan(""), std::numeric_limits<double>::infinity()})
     for (const int count : {1, 8, 9, 16, 17, 40})
       for (const int at : {0, count - 1}) {
-        hindrances.clear();
+        delassus.clear();
         for (int k = 0; k < count; ++k)  // each between two fields of its own
-          hindrances.push(
+          delassus.push(
               {k, 2 * k, 2 * k + 1, 0.5, 0.5, Vec<Dim>::Unit(0), Vec<Dim>::Unit(0), k == at ? none : 1.0});
-        CHECK(!hindrances.solve());
+        CHECK(!delassus.solve());
       }
 }
 
@@ -677,7 +679,7 @@ template <int Dim>
 Vec<Dim> plain_pair(const AnyLaw& law, const Vec<Dim>& stick, const Vec<Dim>& normal, double separation,
                     double reduced, double area_time) {
   if (std::holds_alternative<Perfect>(law)) return stick;
-  if (std::holds_alternative<Ignore>(law) || joins(law)) return Vec<Dim>::Zero();
+  if (std::holds_alternative<Ignore>(law) || has_springs(law)) return Vec<Dim>::Zero();
   const double along = stick.dot(normal), needed = (stick - along * normal).norm();
   if (const auto* bond = std::get_if<Adhesion>(&law); bond && separation < bond->reach * bond->cell) {
     const double holds_tension = bond->normal_strength * area_time,

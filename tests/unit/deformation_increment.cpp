@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "kernels/materials/depth.hpp"
 #include "kernels/materials/kinematics.hpp"
+#include "kernels/materials/out_of_plane.hpp"
 
 namespace mpmfast {
 namespace {

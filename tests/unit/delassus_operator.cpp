@@ -15,7 +15,7 @@ using namespace mpmfast;
 /// one by one.
 template <int Dim>
 struct Case {
-  DelassusOperator<Dim> hindrances;
+  DelassusOperator<Dim> delassus;
   std::vector<typename DelassusOperator<Dim>::Row> all;
   Eigen::MatrixXd matrix;
   Eigen::VectorXd left;
@@ -35,7 +35,7 @@ struct Case {
       const double one = inverse[static_cast<std::size_t>(a)], two = inverse[static_cast<std::size_t>(b)];
       const Vec<Dim> along = direction();
       all.push_back({i, a, b, one / (one + two), two / (one + two), along, along, gauss(draw)});
-      hindrances.push(all.back());
+      delassus.push(all.back());
       left[i] = all.back().residual;
     }
     for (int i = 0; i < count; ++i)
@@ -50,7 +50,7 @@ struct Case {
 
 }  // namespace
 
-TEST_CASE_TEMPLATE("the impulses of any number of hindrances end all that they hinder", D,
+TEST_CASE_TEMPLATE("the impulses of any number of delassus end all that they hinder", D,
                    std::integral_constant<int, 2>, std::integral_constant<int, 3>) {
   constexpr int kDim = D::value;
   std::mt19937_64 draw(11);
@@ -58,8 +58,8 @@ TEST_CASE_TEMPLATE("the impulses of any number of hindrances end all that they h
     CAPTURE(count);
     Case<kDim> some(count + 1, count, draw);  // more fields than contacts: hardly any follows from the others
     Eigen::VectorXd found = Eigen::VectorXd::Zero(count);
-    CHECK(some.hindrances.solve());
-    some.hindrances.for_each_change([&](int k, const Vec<kDim>& change) {
+    CHECK(some.delassus.solve());
+    some.delassus.for_each_change([&](int k, const Vec<kDim>& change) {
       found[k] += change.dot(some.all[static_cast<std::size_t>(k)].impulse);
     });
     CHECK((some.matrix * found - some.left).norm() < 1e-8 * (1 + found.norm()));

@@ -211,7 +211,7 @@ TEST_CASE("a file of a picture that is not there or is none is told") {
   REQUIRE(image);
   CHECK(image->pixel == pixels);
   CHECK(load_bytes(file, why_not) == good);
-  std::filesystem::resize_file(file, std::uintmax_t{1} << 29);  // without taking the room
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 29);  // without taking the space
   CHECK_FALSE(load_bytes(file, why_not));
   CHECK(why_not == "it is larger than 256 MiB");
 }

@@ -295,14 +295,14 @@ TEST_CASE("every place of a bitmap goes to one level even where it lies on the c
       image->pixel.push_back(static_cast<unsigned char>((row / 22 * 13 + column / 26 * 7) % 50));
   for (const int cells : {35, 70}) {
     const CellLattice grid{{0, 0, 0}, {1e-3, 2e-3, 0}, 1e-3 / cells};
-    std::vector<Vec3> places;
+    std::vector<Vec3> positions;
     for (int grey = 0; grey < 50; ++grey) {
       const Seeds seeds = fill(BitmapShape{"", {0, 0, 0}, {1e-3, 2e-3, 0}, grey, image}, kAlong, grid, 2);
-      places.insert(places.end(), seeds.position.begin(), seeds.position.end());
+      positions.insert(positions.end(), seeds.position.begin(), seeds.position.end());
     }
     const auto number = static_cast<std::size_t>(8 * cells * cells);
-    CHECK(places.size() == number);
-    std::sort(places.begin(), places.end());
-    CHECK(std::unique(places.begin(), places.end()) == places.end());
+    CHECK(positions.size() == number);
+    std::sort(positions.begin(), positions.end());
+    CHECK(std::unique(positions.begin(), positions.end()) == positions.end());
   }
 }

@@ -206,9 +206,9 @@ CellLattice a_grid(Draw& draw, int dimension) {
 
 /// Without the places on a surface, where round-off decides: a lattice that ends on the corners of a shape
 /// may have a diagonal on its edge.
-std::vector<Vec3> off_surface(const std::vector<Vec3>& places, const Inside& inside) {
+std::vector<Vec3> off_surface(const std::vector<Vec3>& positions, const Inside& inside) {
   std::vector<Vec3> out;
-  for (const Vec3& at : places) {
+  for (const Vec3& at : positions) {
     int in = 0;
     for (const double x : {-1e-9, 1e-9})
       for (const double y : {-1e-9, 1e-9})
@@ -442,17 +442,17 @@ void check_clip(const std::vector<std::array<double, 2>>& polygon, const Vec3& o
       break;
     }
   }
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   std::vector<double> shares;
   for (const Cut& cut : gets)
     if (cut.area > 1e-9 * whole_cell) {
-      places.push_back({cut.x / cut.area, cut.y / cut.area, 0});
+      positions.push_back({cut.x / cut.area, cut.y / cut.area, 0});
       shares.push_back(cut.area / whole_cell);
     }
-  REQUIRE(seeds.position.size() == places.size());
-  for (std::size_t k = 0; k < places.size(); ++k) {
+  REQUIRE(seeds.position.size() == positions.size());
+  for (std::size_t k = 0; k < positions.size(); ++k) {
     REQUIRE(seeds.share[k] == doctest::Approx(shares[k]).epsilon(1e-9));
-    for (std::size_t d = 0; d < 3; ++d) REQUIRE(std::abs(seeds.position[k][d] - places[k][d]) < 1e-9);
+    for (std::size_t d = 0; d < 3; ++d) REQUIRE(std::abs(seeds.position[k][d] - positions[k][d]) < 1e-9);
   }
 }
 

@@ -249,7 +249,7 @@ std::vector<Loop> level_lines(const BitmapShape& shape, double spacing) {
           break;
       }
     }
-  const auto place = [&](const EdgeAt& e) {
+  const auto position = [&](const EdgeAt& e) {
     const double a = share(e[0], e[1]), b = e[2] ? share(e[0], e[1] + 1) : share(e[0] + 1, e[1]),
                  t = (0.5 - a) / (b - a);
     const Point pixel{e[0] + 0.5 + (e[2] ? 0 : t), e[1] + 0.5 + (e[2] ? t : 0)};
@@ -264,7 +264,7 @@ std::vector<Loop> level_lines(const BitmapShape& shape, double spacing) {
   while (!next.empty()) {
     Loop line;
     for (EdgeAt at = next.begin()->first; next.count(at);) {
-      line.push_back(place(at));
+      line.push_back(position(at));
       const EdgeAt on = next.at(at);
       next.erase(at);
       at = on;
@@ -480,7 +480,7 @@ TEST_CASE("prisms and bodies of triangles are closed, keep their volume, and lon
   CHECK(outline(BitmapShape{}, 0.1, 3).points.empty());
 }
 
-TEST_CASE("an ellipsoid has the triangles of a ball of as many as its largest radius has room for") {
+TEST_CASE("an ellipsoid has the triangles of a ball of as many as its largest radius has space for") {
   Draw draw(45);
   for (int round = 0; round < 10; ++round) {
     CAPTURE(round);

@@ -45,11 +45,11 @@ TEST_CASE("a straight line of temperatures goes on through held faces, wherever 
       step.advance(step.stable_dt());
       const auto& state = step.state();
       int beyond = 0;
-      for (const auto& stack : state.tiling.stacks)
+      for (const auto& block : state.tiling.node_blocks)
         for (int local = 0; local < kTileNodes<2>; ++local) {
-          const int slot = stack.begin * kTileNodes<2> + local;
+          const int slot = block.begin * kTileNodes<2> + local;
           if (!(state.nodes.column(Nodal::mass)[slot] > 1e-9)) continue;
-          const double x = 1e-3 * state.tiling.node(stack, local)[0];
+          const double x = 1e-3 * state.tiling.node(block, local)[0];
           CHECK(step.heat().temperature(state, slot) == doctest::Approx(line(x)).epsilon(1e-10).scale(0));
           beyond += line(x) > 400.001 || line(x) < 299.999;
         }

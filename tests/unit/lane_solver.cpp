@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "tests/pressed_node.hpp"
+#include "tests/compressed_node.hpp"
 
 namespace {
 
 using namespace mpmfast;
 
 template <int Dim>
-struct Posed : PressedNode<Dim> {
-  using PressedNode<Dim>::PressedNode;
+struct Posed : CompressedNode<Dim> {
+  using CompressedNode<Dim>::CompressedNode;
   std::vector<SetRule<Dim>> rules;  ///< of the contacts, as are the laws
   std::vector<Coulomb> laws;
 };

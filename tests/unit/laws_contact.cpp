@@ -238,8 +238,8 @@ TEST_CASE_TEMPLATE("a pair in a mirror does what the pair does, mirrored, by eac
 TEST_CASE("every law has a word of its own and says what it is") {
   std::set<std::string> words;
   const auto check = [&]<class Law>(const Law&) {
-    CHECK(words.insert(Law::kWord).second);
-    CHECK(!std::string(Law::kSays).empty());
+    CHECK(words.insert(Law::kKeyword).second);
+    CHECK(!std::string(Law::kDescription).empty());
   };
   [&]<std::size_t... K>(std::index_sequence<K...>) { (check(std::variant_alternative_t<K, AnyLaw>{}), ...); }
   (std::make_index_sequence<std::variant_size_v<AnyLaw>>());

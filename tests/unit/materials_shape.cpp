@@ -23,7 +23,7 @@ struct FluidChunk {
   double deformation[Dim * Dim][kLanes]{}, stress[kSymmetric<Dim>][kLanes]{}, wave_speed[kLanes]{};
   double volume_ratio[kLanes]{}, dissipated[kLanes]{}, internal_energy[kLanes]{}, temperature[kLanes]{};
   ParticleView<Dim> view{};
-  StrainRoom<Dim> room{};
+  StrainWorkspace<Dim> workspace{};
 
   FluidChunk() {
     law.density = 1000;
@@ -43,8 +43,8 @@ struct FluidChunk {
   bool strain(const Mat<Dim>& gradient, double dt) {
     for (int i = 0; i < Dim; ++i)
       for (int j = 0; j < Dim; ++j)
-        for (int k = 0; k < kLanes; ++k) room.gradient[4 * j + i][k] = gradient(i, j);
-    return strain_chunk<Dim>(view, law, 0, kLanes, dt, 2, room, stress_columns(view, 0));
+        for (int k = 0; k < kLanes; ++k) workspace.gradient[4 * j + i][k] = gradient(i, j);
+    return strain_chunk<Dim>(view, law, 0, kLanes, dt, 2, workspace, stress_columns(view, 0));
   }
   Mat<Dim> f(int k) const {
     Mat<Dim> out;
@@ -109,9 +109,9 @@ TEST_CASE("a step that turns a fluid inside out is told") {
   gradient(0, 0) = -1.5;  // to one term, I + a has −0.5
   gradient(0, 1) = 1;
   for (int d = 0; d < 2; ++d)
-    for (int k = 0; k < kLanes; ++k) fluid.room.gradient[4 * d][k] = gradient(0, d);
-  CHECK(
-      !strain_chunk<2>(fluid.view, fluid.law, 0, kLanes, 1.0, 1, fluid.room, stress_columns(fluid.view, 0)));
+    for (int k = 0; k < kLanes; ++k) fluid.workspace.gradient[4 * d][k] = gradient(0, d);
+  CHECK(!strain_chunk<2>(fluid.view, fluid.law, 0, kLanes, 1.0, 1, fluid.workspace,
+                         stress_columns(fluid.view, 0)));
 }
 
 /// F = V R.
@@ -141,7 +141,7 @@ Mat<Dim> bounded(const Mat<Dim>& f, double limit, double volume, int lane = 0) {
   }
   Lanes j = broadcast<Lanes>(1.0);
   j[lane] = volume;
-  forget_shape<Dim>(limit, j, kLanes, all);
+  limit_shape<Dim>(limit, j, kLanes, all);
   Mat<Dim> out;
   for (int e = 0; e < Dim * Dim; ++e) out(e / Dim, e % Dim) = all[e][lane];
   for (int e = 0; e < Dim * Dim; ++e)

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "kernels/contact/resolve_pair.hpp"
-#include "tests/pressed_node.hpp"
+#include "tests/compressed_node.hpp"
 
 namespace {
 
@@ -80,7 +80,7 @@ void check_random_nodes() {
   const double friction = 0.3;
   int unsettled = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    const PressedNode<Dim> posed(3 + trial % 3, 6, draw);
+    const CompressedNode<Dim> posed(3 + trial % 3, 6, draw);
     NodeSolver<Dim> node;
     node.fields = posed.fields;
     node.contacts = posed.contacts;

@@ -102,12 +102,12 @@ TEST_CASE(
         }
     if (left >= right) left = top = 0, right = bottom = 1;
     const int width = right - left, height = bottom - top;
-    std::string place = big_endian(sequence++, 4);
+    std::string control = big_endian(sequence++, 4);
     for (const int number : {width, height, left, top})
-      place += big_endian(static_cast<std::uint64_t>(number), 4);
+      control += big_endian(static_cast<std::uint64_t>(number), 4);
     CHECK(chunks[2 + 2 * k].name == "fcTL");
     CHECK(chunks[2 + 2 * k].content ==
-          place + big_endian(1, 2) + big_endian(kRate, 2) + std::string(2, '\0'));
+          control + big_endian(1, 2) + big_endian(kRate, 2) + std::string(2, '\0'));
     const Chunk& data = chunks[3 + 2 * k];
     CHECK(data.name == (k == 0 ? "IDAT" : "fdAT"));
     if (k > 0) CHECK(data.content.substr(0, 4) == big_endian(sequence++, 4));

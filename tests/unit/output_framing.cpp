@@ -278,18 +278,18 @@ TEST_CASE("a long title goes on in the next line, and no word of it is lost") {
 }
 
 TEST_CASE("lines break at blanks, within a word that is wider than a line, and end where there are enough") {
-  const double room = Canvas::text_width("abcd efgh ");
-  CHECK(text_lines("abcd", room, 3) == std::vector<std::string>{"abcd"});
-  CHECK(text_lines("abcd efgh ijkl", room, 3) == std::vector<std::string>{"abcd efgh", "ijkl"});
-  const auto broken = text_lines(std::string(60, 'x'), room, 99);
+  const double space = Canvas::text_width("abcd efgh ");
+  CHECK(text_lines("abcd", space, 3) == std::vector<std::string>{"abcd"});
+  CHECK(text_lines("abcd efgh ijkl", space, 3) == std::vector<std::string>{"abcd efgh", "ijkl"});
+  const auto broken = text_lines(std::string(60, 'x'), space, 99);
   std::string all;
   for (const std::string& line : broken) {
-    CHECK(Canvas::text_width(line) <= room);
+    CHECK(Canvas::text_width(line) <= space);
     all += line;
   }
   CHECK(all == std::string(60, 'x'));
-  const auto few = text_lines(std::string(60, 'x'), room, 2);
+  const auto few = text_lines(std::string(60, 'x'), space, 2);
   REQUIRE(few.size() == 2);
   CHECK(few[1].find("...") == few[1].size() - 3);
-  CHECK(text_lines("", room, 2) == std::vector<std::string>{""});
+  CHECK(text_lines("", space, 2) == std::vector<std::string>{""});
 }

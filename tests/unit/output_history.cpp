@@ -144,7 +144,7 @@ TEST_CASE("the overlap ends a row of the history where the scene asks for it") {
 TEST_CASE("what left the grid ends a row of the history where the scene lets it leave") {
   const TemporaryFolder folder;
   Scene scene = small_scene(Space::plane_strain);
-  scene.grid.leaving = LeavingKind::outflow;
+  scene.grid.outflow = OutflowKind::outflow;
   HistoryFile file(folder.path(), scene);
   HistoryRow row;
   row.dissipated = 3;

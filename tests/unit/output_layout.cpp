@@ -1,4 +1,4 @@
-// What is written around a box: ticks as long sides have room for, titles that are whole.
+// What is written around a box: ticks as long sides have space for, titles that are whole.
 
 #include <doctest/doctest.h>
 
@@ -53,7 +53,8 @@ Labels labels_in(const DisplayUnit& unit) {
 TEST_CASE("an axis has a number for each 110 pixels across and 90 up, a bar for each 90, and its name") {
   const Labels plain = labels_in({"mm", 1e-3});
   for (int k = 0; k < 30; ++k) {
-    // A side of 852 pixels, or 886 beside it, and another one close to where it has room for one number more.
+    // A side of 852 pixels, or 886 beside it, and another one close to where it has space for one number
+    // more.
     const bool high = k % 2 == 0;
     const double apart = high ? 110 : 90, long_side = high ? 852 : 768;
     const double short_side = apart * (3 + k % 5) + (k % 3 == 0 ? -0.6 : 0.4);
@@ -119,7 +120,7 @@ TEST_CASE("two numbers along an axis have the digits of what is between them") {
   CHECK(texts_of(narrow)[1].text == "0.5");
 }
 
-TEST_CASE("room beside a box is for the widest number, whether it is the first or the last") {
+TEST_CASE("space beside a box is for the widest number, whether it is the first or the last") {
   const double wide = Canvas::text_width("-2.5e+06");
   REQUIRE(12 + wide + 12 > 84);
   const auto left_of = [](const Range& y) {
@@ -136,7 +137,7 @@ TEST_CASE("room beside a box is for the widest number, whether it is the first o
     const double height = picture.at(0, y.lower).y - picture.at(0, y.upper).y;
     CHECK(left_of(y) == doctest::Approx(std::max(84.0, 12 + widest(y, height) + 12)).epsilon(1e-6));
   }
-  // A number that ends before the box does needs less room on the right.
+  // A number that ends before the box does needs less space on the right.
   for (const double beyond : {0.0, 1e4, 2e4}) {
     const Range x{0, 4e3 + 1e-3 * beyond}, y{0, 1e3};
     Picture picture(x, y, labels_in({"mm", 1e-3}), PictureFormat::svg);
@@ -159,19 +160,19 @@ TEST_CASE("titles lie one line below the other above the box, and each line with
           Labels labels = labels_in({"m", 1});
           labels.longest = {title, subtitle, note};
           Picture picture({0, 1}, {0, high}, labels, PictureFormat::svg);
-          const double top = picture.at(0, high).y, room = picture.canvas().width() - 24;
+          const double top = picture.at(0, high).y, space = picture.canvas().width() - 24;
           picture.write_titles(labels.longest);
           const std::vector<Text> lines = texts_of(picture);
           std::string all;
           for (std::size_t k = 0; k < lines.size(); ++k) {
             CHECK(lines[k].left == 12);
             CHECK(std::abs(lines[k].line - lines[0].line - 24 * static_cast<double>(k)) < 0.011);
-            CHECK(lines[k].width <= room + 0.01);
+            CHECK(lines[k].width <= space + 0.01);
             all += (k > 0 ? " " : "") + lines[k].text;
           }
           CHECK(top ==
-                doctest::Approx(20 + 24 * static_cast<double>(lines.size()) + 16));  // room for these lines
-          const bool behind = Canvas::text_width(subtitle + ", " + note) <= room;
+                doctest::Approx(20 + 24 * static_cast<double>(lines.size()) + 16));  // space for these lines
+          const bool behind = Canvas::text_width(subtitle + ", " + note) <= space;
           const std::string expected = title + " " + subtitle +
                                        (note.empty() ? ""
                                         : behind     ? ", " + note
@@ -183,7 +184,7 @@ TEST_CASE("titles lie one line below the other above the box, and each line with
 }
 
 TEST_CASE(
-    "a picture of a series with shorter titles than the longest has room for those, and longer ones are "
+    "a picture of a series with shorter titles than the longest has space for those, and longer ones are "
     "cut") {
   Labels labels = labels_in({"m", 1});
   std::string much;

@@ -77,10 +77,10 @@ double ratio_of(const Particles<Dim>& particles, std::size_t p) {
 /// Cauchy's stress as a matrix.
 template <int Dim>
 Eigen::Matrix3d stress_of(const Particles<Dim>& particles, std::size_t p) {
-  constexpr std::array<std::array<int, 2>, 6> kPlaces{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
+  constexpr std::array<std::array<int, 2>, 6> kEntries{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
   Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();
   for (int k = 0; k < kSymmetric<Dim>; ++k) {
-    const auto [i, j] = kPlaces[static_cast<std::size_t>(k)];
+    const auto [i, j] = kEntries[static_cast<std::size_t>(k)];
     stress(i, j) = stress(j, i) = particles.column(Quantity::kirchhoff_stress, k)[p] / ratio_of(particles, p);
   }
   return stress;
@@ -515,13 +515,13 @@ void check_series(unsigned seed, std::size_t n, const std::vector<Quantity>& qua
 
   // Of the particles around one of them, no others.
   if (n == 0) return;
-  std::vector<Vec<Dim>> places;
-  for (std::size_t p = 0; p < n; ++p) places.push_back(2 * particles.vector(Quantity::position, p));
-  const Vec<Dim> centre = places[n / 2];
+  std::vector<Vec<Dim>> positions;
+  for (std::size_t p = 0; p < n; ++p) positions.push_back(2 * particles.vector(Quantity::position, p));
+  const Vec<Dim> centre = positions[n / 2];
   std::vector<std::uint32_t> near;
   for (const std::uint32_t p : order)
-    if ((places[p] - centre).cwiseAbs().maxCoeff() <= 1.1) near.push_back(p);
-  write_neighbourhood(folder.path() / "near.vtu", particles, scene, places, centre, 1.1, 0.25);
+    if ((positions[p] - centre).cwiseAbs().maxCoeff() <= 1.1) near.push_back(p);
+  write_neighbourhood(folder.path() / "near.vtu", particles, scene, positions, centre, 1.1, 0.25);
   auto expected = expected_arrays(particles, scene, near);
   for (double& x : expected["Points"].values) x *= 2;
   check_arrays(parse_vtu(folder.path() / "near.vtu"), expected);

@@ -417,7 +417,7 @@ TEST_CASE("a colour bar is filled from end to end by strips in the colours of th
   }
 }
 
-TEST_CASE("the room beside a box is what the widest labels need, and twelve pixels") {
+TEST_CASE("the space beside a box is what the widest labels need, and twelve pixels") {
   const auto widest = [](const Range& range, double pixels, double apart, int fewest) {
     const std::vector<double> ticks = round_ticks(range, std::max(fewest, static_cast<int>(pixels / apart)));
     double out = 0;

@@ -59,11 +59,11 @@ TEST_CASE("between the nine colours of a scale each of their three parts is a st
   Random random(2);
   for (std::size_t s = 0; s < 2; ++s)
     for (int k = 0; k < 300; ++k) {
-      const double place = k < 9 ? k : random.in(-1, 9), within = std::clamp(place, 0.0, 8.0);
-      CAPTURE(place);
+      const double position = k < 9 ? k : random.in(-1, 9), within = std::clamp(position, 0.0, 8.0);
+      CAPTURE(position);
       const auto i = static_cast<std::size_t>(std::min(within, 7.0));
       const double t = within - static_cast<double>(i);
-      const Colour shown = scales[s](place - (s == 0 ? 0 : 4));
+      const Colour shown = scales[s](position - (s == 0 ? 0 : 4));
       const std::array<int, 3> parts{shown.red, shown.green, shown.blue};
       for (std::size_t c = 0; c < 3; ++c) {
         const auto part = [&](unsigned hex) { return static_cast<int>(hex >> (8 * (2 - c)) & 255U); };

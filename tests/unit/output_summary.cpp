@@ -134,7 +134,7 @@ TEST_CASE("the peak of memory is that of the run, not of what the process did be
     REQUIRE(*last == 'a');
   }
   CHECK(peak_memory_bytes() > kMuch);
-  forget_peak_memory();
+  reset_peak_memory();
   if (!std::ofstream("/proc/self/clear_refs")) return;  // a system that forgets nothing
   CHECK(peak_memory_bytes() < kMuch);
 }
@@ -142,7 +142,7 @@ TEST_CASE("the peak of memory is that of the run, not of what the process did be
 TEST_CASE("the peak of memory is that of this program and not of the one that started it") {
   constexpr const char* kAnswer = "MPMFAST_TEST_ANSWER";
   if (const char* file = std::getenv(kAnswer)) {  // started below
-    forget_peak_memory();
+    reset_peak_memory();
     std::ofstream(file) << peak_memory_bytes();
     return;
   }

@@ -212,7 +212,7 @@ Scene full_scene(bool solid) {
   scene.contact.law.acts = Cohesive{};
   scene.contact.family = ContactFamily::penalty;
   scene.output.overlap = !solid;
-  scene.grid.leaving = LeavingKind::outflow;
+  scene.grid.outflow = OutflowKind::outflow;
   scene.heat.active = true;
   scene.heat.conditions.resize(2);
   scene.heat.conditions[0].name = "hot";

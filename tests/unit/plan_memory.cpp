@@ -122,14 +122,15 @@ TEST_CASE("a column tells of the memory that it has touched, in pages") {
   CHECK(large.bytes() == (std::size_t{18} << 20));
 }
 
-TEST_CASE("a column that grows within its room finds zeros there, up to the end of its padding") {
-  constexpr std::size_t kPadding = Column<double>::kPadding, kRoom = 1000;
+TEST_CASE("a column that grows within its capacity finds zeros there, up to the end of its padding") {
+  constexpr std::size_t kPadding = Column<double>::kPadding, kCapacity = 1000;
   for (const std::size_t more : {std::size_t{1}, kPadding - 1, kPadding, kPadding + 1}) {
     CAPTURE(more);
     Column<double> column;
-    column.resize_discard(1, kRoom);
-    for (std::size_t i = 1 + kPadding; i < kRoom + kPadding; ++i) column.data()[i] = 7;  // of others, before
-    for (std::size_t n = 1 + more; n <= kRoom; n += more) {
+    column.resize_discard(1, kCapacity);
+    for (std::size_t i = 1 + kPadding; i < kCapacity + kPadding; ++i)
+      column.data()[i] = 7;  // of others, before
+    for (std::size_t n = 1 + more; n <= kCapacity; n += more) {
       column.resize_discard(n);
       REQUIRE(column.size() == n);
       REQUIRE(std::all_of(column.data(), column.data() + n + kPadding, [](double x) { return x == 0; }));
@@ -143,19 +144,19 @@ TEST_CASE("a column that grows within its room finds zeros there, up to the end 
   CHECK(pages.bytes() == 2 * 4096);
 }
 
-TEST_CASE("of the rooms that threads work in, those of threads at work are counted") {
+TEST_CASE("of the workspaces, those of threads at work are counted") {
   const Scene scene = scene_file("bench/block-2d.yaml", {{"grid.cell", "1/8 m"}});
   Step<2> step(scene);
-  const auto rooms = [&](int threads) {
+  const auto workspaces = [&](int threads) {
     step.state().threads = threads;
-    return step.room_bytes();
+    return step.workspace_bytes();
   };
   const int most = omp_get_max_threads();
-  const std::size_t one = rooms(1);
+  const std::size_t one = workspaces(1);
   CHECK(one > 0);
   for (int threads = 2; threads <= most; ++threads)
-    CHECK(rooms(threads) == static_cast<std::size_t>(threads) * one);
-  CHECK(rooms(most + 1000) == static_cast<std::size_t>(most) * one);  // there are no more
+    CHECK(workspaces(threads) == static_cast<std::size_t>(threads) * one);
+  CHECK(workspaces(most + 1000) == static_cast<std::size_t>(most) * one);  // there are no more
 }
 
 TEST_CASE("a scene that needs more memory than there is, is refused with the figures") {

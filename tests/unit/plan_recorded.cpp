@@ -42,8 +42,8 @@ struct ParametersOf {
       text += fmt::format(", {} {}", name, text_of(member));
   }
   template <class T, class Form>
-  void need(const char* name, const char* says, const T& member, const Form& form) {
-    key(name, says, member, form);
+  void need(const char* name, const char* description, const T& member, const Form& form) {
+    key(name, description, member, form);
   }
 };
 
@@ -52,7 +52,7 @@ std::string law_text(const SurfaceLaw& surface, const Scene& scene) {
   ParametersOf parameters;
   std::visit(
       [&](auto& one) {
-        parameters.text = one.kWord;
+        parameters.text = one.kKeyword;
         one.describe(parameters);
       },
       law);
@@ -71,7 +71,7 @@ std::vector<std::string> plan_lines(const Scene& scene) {
   const auto line = [&](const char* name, const auto& value) {
     lines.push_back(fmt::format("{}: {}", name, value));
   };
-  line("depth", word(plan.depth, std::array{"held", "relaxed", "hoop"}));
+  line("depth", word(plan.plane_kind, std::array{"held", "plane_stress", "hoop"}));
   line("update", word(plan.update, std::array{"flip", "pic", "xpic", "apic"}));
   line("position", word(plan.position, std::array{"grid_end", "grid", "trapezoid", "particle"}));
   line("dimension", plan.dimension);
@@ -93,7 +93,7 @@ std::vector<std::string> plan_lines(const Scene& scene) {
   line("one_set", plan.one_set);
   line("contact_geometry", plan.contact_geometry);
   line("keeps_fits", plan.keeps_fits);
-  line("bridges", plan.bridges);
+  line("bridges", plan.interface_springs);
   line("cracks_alone", plan.cracks_alone);
   line("displacements", plan.displacements);
   line("exact_fields", plan.exact_fields);

@@ -100,7 +100,7 @@ TEST_CASE("a page has the cracks of each frame, without points that change nothi
   }
 }
 
-TEST_CASE("a particle that was thrown out of the grid takes no room on a page, and has no place") {
+TEST_CASE("a particle that was thrown out of the grid takes no space on a page, and has no place") {
   const TemporaryFolder folder;
   const Scene scene = small_scene(Space::plane_strain);
   Particles<2> particles = particles_in_order<2>(ascending(kParticles));

@@ -174,23 +174,23 @@ void check_caught(const Scene& scene, Quantity column) {
     if (middle(particles.vector(Quantity::position, p)) <
         middle(particles.vector(Quantity::position, victim)))
       victim = p;
-  const Vec<Dim> place = particles.vector(Quantity::position, victim);
+  const Vec<Dim> position = particles.vector(Quantity::position, victim);
   particles.column(column, Particles<Dim>::components(column) - 1)[victim] = std::nan("");
   std::string message;
-  RunFailure::Place where{};
+  RunFailure::Position where{};
   try {
     advance(step, 2);
   } catch (const RunFailure& failure) {
     message = failure.what();
-    REQUIRE(failure.place());
-    where = *failure.place();
+    REQUIRE(failure.position());
+    where = *failure.position();
   }
   CAPTURE(message);
   CHECK(message.find("of body 'left'") != std::string::npos);
   CHECK(message.find("not a number any more") != std::string::npos);
-  for (int d = 0; d < Dim; ++d) CHECK(std::abs(where[static_cast<std::size_t>(d)] - place[d]) < 2.5e-3);
+  for (int d = 0; d < Dim; ++d) CHECK(std::abs(where[static_cast<std::size_t>(d)] - position[d]) < 2.5e-3);
   // What failed.vtu is made from is finite everywhere.
-  for (std::size_t p = 0; p < particles.size(); ++p) REQUIRE(step.place_of(p).allFinite());
+  for (std::size_t p = 0; p < particles.size(); ++p) REQUIRE(step.position_of(p).allFinite());
 }
 
 TEST_CASE(
@@ -199,11 +199,11 @@ TEST_CASE(
     for (const char* update : {"flip", "pic", "xpic(2)", "fmpm(3)", "apic"})
       for (const char* strain : {"first", "last", "average"}) {
         if (std::string(update) == "apic" && basis.spread == 0) continue;
-        CAPTURE(std::string(basis.word));
+        CAPTURE(std::string(basis.keyword));
         CAPTURE(std::string(update));
         CAPTURE(std::string(strain));
         const Scene scene =
-            scene_from(kBlocks, {{"method", "{basis: " + std::string(basis.word) + ", update: " + update +
+            scene_from(kBlocks, {{"method", "{basis: " + std::string(basis.keyword) + ", update: " + update +
                                                 ", strain: " + strain + "}"}});
         check_caught<2>(scene, Quantity::velocity);
         check_caught<2>(scene, Quantity::deformation_gradient);
@@ -234,13 +234,13 @@ TEST_CASE("the neighbourhood of particles without a place holds finite points") 
   Step<2> step(scene);
   advance(step, 2);
   auto& particles = step.state().particles;
-  const Vec<2> place = particles.vector(Quantity::position, 77);
+  const Vec<2> position = particles.vector(Quantity::position, 77);
   for (int d = 0; d < 2; ++d) particles.column(Quantity::position, d)[77] = std::nan("");
-  CHECK((step.place_of(77) - place).norm() < 2.5e-3);
-  std::vector<Vec<2>> places;
-  for (std::size_t p = 0; p < particles.size(); ++p) places.push_back(step.place_of(p));
+  CHECK((step.position_of(77) - position).norm() < 2.5e-3);
+  std::vector<Vec<2>> positions;
+  for (std::size_t p = 0; p < particles.size(); ++p) positions.push_back(step.position_of(p));
   const Folder folder;
-  write_neighbourhood(folder / "failed.vtu", particles, scene, places, step.place_of(77), 4e-3, 0.5);
+  write_neighbourhood(folder / "failed.vtu", particles, scene, positions, step.position_of(77), 4e-3, 0.5);
   const VtuReader file(folder / "failed.vtu");
   const auto points = file.points();
   const auto id = file.read<std::uint32_t>("id");

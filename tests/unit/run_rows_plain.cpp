@@ -129,11 +129,11 @@ void check_grid(const Scene& scene, bool springs, bool bonds, bool heat) {
              jump = column("jump", springs, 3), damage = column("damage", bonds, 1),
              temperature = column("temperature", heat, 1);
   std::size_t found = 0;
-  for (const auto& stack : state.tiling.stacks)
-    for (int tile = stack.begin; tile < stack.end; ++tile)
+  for (const auto& block : state.tiling.node_blocks)
+    for (int tile = block.begin; tile < block.end; ++tile)
       for (int local = 0; local < kTileNodes<Dim>; ++local) {
         const int slot = tile * kTileNodes<Dim> + local;
-        const NodeIndex<Dim> at = state.tiling.node(stack, local);
+        const NodeIndex<Dim> at = state.tiling.node(block, local);
         const auto row = rows.find({state.tiling.node_tiles[static_cast<std::size_t>(tile)].field, at[0],
                                     at[1], Dim == 3 ? at[Dim - 1] : 0});
         const double m = state.nodes.column(Nodal::mass)[slot];

@@ -115,10 +115,11 @@ TEST_CASE("a page draws split particles by F times their shares, on the sides th
       REQUIRE(values[i] == doctest::Approx(particles.deformation_gradient(order[i])(k / 2, k % 2) *
                                            particles.domain_share(order[i], k % 2)));
   }
-  Places places;
-  for (std::size_t i = 0; i < order.size(); ++i) places.in_file.push_back(i), places.in_page.push_back(i);
+  PointOrder point_order;
+  for (std::size_t i = 0; i < order.size(); ++i)
+    point_order.in_file.push_back(i), point_order.in_page.push_back(i);
   FrameConstants constants(order.size());
-  note_constants(file, places, run.scene, 2, constants);
+  note_constants(file, point_order, run.scene, 2, constants);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const bool strip = particles.body()[order[i]] == 0;
     REQUIRE(constants.side_x[i] == doctest::Approx(strip ? 1e-3 : 0.5e-3).epsilon(1e-5));

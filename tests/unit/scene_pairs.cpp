@@ -88,13 +88,13 @@ TEST_CASE("curves of tractions are read, written and handed down to pairs") {
   CHECK(pair.shear_curve.jump == std::vector<double>{0, 2e-6});
   CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
   // What holds surfaces apart that press: by the first slope, by a stiffness of its own, or contact.
-  CHECK(all.pressed_curve(0.5e-3).at(-1e-4) == doctest::Approx(-0.2e6));
+  CHECK(all.curve_with_overlap(0.5e-3).at(-1e-4) == doctest::Approx(-0.2e6));
   auto other = all;
   other.compression_stiffness = 7e9;
-  CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == doctest::Approx(-0.7e6));
+  CHECK(other.curve_with_overlap(0.5e-3).at(-1e-4) == doctest::Approx(-0.7e6));
   other.compression = CompressionModel::contact;
-  CHECK(other.pressed_curve(0.5e-3).at(-1e-4) == 0);
-  CHECK(pair.pressed_curve(0.5e-3).at(-2e-3) == doctest::Approx(-10e6));
+  CHECK(other.curve_with_overlap(0.5e-3).at(-1e-4) == 0);
+  CHECK(pair.curve_with_overlap(0.5e-3).at(-2e-3) == doctest::Approx(-10e6));
 }
 
 TEST_CASE("faults of laws and pairs are found where they stand") {

@@ -122,7 +122,7 @@ std::vector<std::string> known_lines() {
     if (!known.keys.empty()) line += fmt::format("; keys {}", fmt::join(known.keys, " "));
     if (known.closed) line += ", no others";
     for (const auto& group : known.one_of) line += fmt::format("; either {}", fmt::join(group, " and "));
-    for (const KnownWord& word : known.words) line += fmt::format("; '{}'", word.name);
+    for (const KnownKeyword& word : known.words) line += fmt::format("; '{}'", word.name);
     lines.push_back(line);
   }
   return lines;

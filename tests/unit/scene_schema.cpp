@@ -171,7 +171,7 @@ TEST_CASE("every key says what it means, and what its value may be") {
     const auto& known = value.second;
     if (!is_key(pattern)) continue;
     CAPTURE(pattern);
-    CHECK(known.says.ends_with('.'));
+    CHECK(known.description.ends_with('.'));
     const auto plain = known_values().find(unconditional(pattern));
     const bool formed =
         !known.forms.empty() || (plain != known_values().end() && !plain->second.forms.empty());

@@ -15,7 +15,7 @@ TEST_CASE("a scene that states its physics alone gets the defaults") {
   CHECK(scene.time.cfl == 0.5);
   CHECK(std::isinf(scene.time.max_step));
   CHECK(scene.time.collapse == 1e-3);
-  CHECK(scene.grid.leaving == LeavingKind::stop);
+  CHECK(scene.grid.outflow == OutflowKind::stop);
   CHECK(scene.method.basis == BasisKind::ugimp);
   CHECK(scene.method.update == UpdateKind::flip);
   CHECK(scene.method.position == PositionKind::grid_end);
@@ -69,7 +69,7 @@ TEST_CASE("a step collapses at a share of the first that lies below one, and par
   const auto leaving = [&](const std::string& word) {
     return with("cell: 1 mm}", "cell: 1 mm, leaving: " + word + "}");
   };
-  CHECK(parse(leaving("outflow")).grid.leaving == LeavingKind::outflow);
+  CHECK(parse(leaving("outflow")).grid.outflow == OutflowKind::outflow);
   CHECK(parse(leaving("outflow")).boundaries.empty());
   CHECK(parse(leaving("wall")).boundaries.size() == 4);
   CHECK(parse(replaced(solid_scene(), "cell: 1 mm}", "cell: 1 mm, leaving: wall}")).boundaries.size() == 6);
@@ -155,11 +155,11 @@ TEST_CASE("walls stand on the grid's faces, and a piston's speed is signed along
   CHECK(wall(0).axis == 0);
   CHECK_FALSE(wall(0).upper);
   CHECK(wall(0).position == -0.001);
-  CHECK_FALSE(wall(0).held);
+  CHECK_FALSE(wall(0).fixed);
   CHECK(wall(1).position == 0.008);
-  CHECK(wall(1).held);
+  CHECK(wall(1).fixed);
   CHECK(wall(2).axis == 1);
-  CHECK(wall(2).held);
+  CHECK(wall(2).fixed);
   CHECK(wall(3).upper);
   CHECK(wall(3).position == 0.02);
   CHECK(wall(3).speed.value == std::vector<double>{-100});

@@ -10,14 +10,14 @@ namespace {
 using namespace test;
 
 std::string turned() { return replaced(plain_scene(), "plane_strain", "axisymmetric"); }
-std::string relaxed() { return replaced(plain_scene(), "plane_strain", "plane_stress"); }
+std::string in_plane_stress() { return replaced(plain_scene(), "plane_strain", "plane_stress"); }
 
 TEST_CASE("plane stress takes the elastic laws and refuses the others where they stand") {
-  CHECK(parse(relaxed()).space == Space::plane_stress);
-  CHECK(parse(relaxed() + "thickness: 2 mm\n").thickness == 0.002);
+  CHECK(parse(in_plane_stress()).space == Space::plane_stress);
+  CHECK(parse(in_plane_stress() + "thickness: 2 mm\n").thickness == 0.002);
   for (const char* law : {"neo_hookean", "logarithmic_neo_hookean"})
-    CHECK(faults(replaced(relaxed(), "linear_elastic", law)).empty());
-  CHECK(fault(replaced(replaced(relaxed(), "linear_elastic", "j2_plasticity"), "poisson: 0.3",
+    CHECK(faults(replaced(in_plane_stress(), "linear_elastic", law)).empty());
+  CHECK(fault(replaced(replaced(in_plane_stress(), "linear_elastic", "j2_plasticity"), "poisson: 0.3",
                        "poisson: 0.3, yield: 1 GPa")) ==
         "scene.yaml:5:18: materials.steel.model: plane_stress takes elastic laws (neo_hookean, "
         "linear_elastic, logarithmic_neo_hookean), got 'j2_plasticity'");
@@ -73,7 +73,7 @@ TEST_CASE("the axis is a wall: by default, and nothing else") {
     CHECK(wall.axis == 0);
     CHECK_FALSE(wall.upper);
     CHECK(wall.position == 0);
-    CHECK_FALSE(wall.held);
+    CHECK_FALSE(wall.fixed);
   }
   CHECK(faults(turned() + "boundaries: {left: {piston: 1 m/s, position: 1 mm}}\n").empty());
   for (const char* wrong : {"free", "fixed", "{piston: 1 m/s}"})
@@ -85,7 +85,7 @@ TEST_CASE("the axis is a wall: by default, and nothing else") {
 }
 
 TEST_CASE("what is resolved of both modes reads as the same scene again") {
-  for (const std::string& text : {turned(), relaxed(), turned() + "boundaries: {top: wall}\n"}) {
+  for (const std::string& text : {turned(), in_plane_stress(), turned() + "boundaries: {top: wall}\n"}) {
     const Scene scene = parse(text), again = parse(scene.resolved_yaml);
     CHECK(again.resolved_yaml == scene.resolved_yaml);
     CHECK(again.space == scene.space);

@@ -98,7 +98,7 @@ TEST_CASE("lanes change places, are added to their neighbours, and the largest o
 TEST_CASE("the foremost of values that come in lanes is the largest of those that count, and where it was") {
   Draw draw(93);
   for (int round = 0; round < 200; ++round) {
-    SupportSearch foremost;
+    SupportSearch support;
     double most = -std::numeric_limits<double>::infinity();
     int at = -1;
     const int takes = round % 5;
@@ -112,10 +112,10 @@ TEST_CASE("the foremost of values that come in lanes is the largest of those tha
           at = kLanes * t + i;
         }
       }
-      foremost.take(value, mark > broadcast<Lanes>(1.0));
+      support.take(value, mark > broadcast<Lanes>(1.0));
     }
-    CHECK(foremost.found().value == most);
-    CHECK(foremost.found().at == at);
+    CHECK(support.found().value == most);
+    CHECK(support.found().at == at);
   }
 }
 

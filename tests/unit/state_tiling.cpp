@@ -72,7 +72,7 @@ void check_tables(const Step<Dim>& step) {
   for (int n : seen) REQUIRE(n == 1);
   for (std::size_t t = 1; t < tiling.node_tiles.size(); ++t) {
     const auto &a = tiling.node_tiles[t - 1], &b = tiling.node_tiles[t];
-    REQUIRE((a.place < b.place || (a.place == b.place && a.field < b.field)));
+    REQUIRE((a.tile_index < b.tile_index || (a.tile_index == b.tile_index && a.field < b.field)));
   }
   // Every tile is in one strip, and no two strips of a colour share a slot.
   std::vector<int> coloured(tiling.tiles.size(), 0);
@@ -240,23 +240,23 @@ void check_border(const std::array<int, 3>& nodes) {
     for (int d = 0; d < Dim; ++d) out[static_cast<std::size_t>(d)] = node[d];
     return out;
   };
-  for (std::size_t s = 0; s < tiling.stacks.size(); ++s) {
-    const auto& stack = tiling.stacks[s];
-    REQUIRE(stack.end - stack.begin == 2);
-    at[key(stack.first_node)] = static_cast<int>(s);
-    for (int t = stack.begin; t < stack.end; ++t)
+  for (std::size_t s = 0; s < tiling.node_blocks.size(); ++s) {
+    const auto& block = tiling.node_blocks[s];
+    REQUIRE(block.end - block.begin == 2);
+    at[key(block.first_node)] = static_cast<int>(s);
+    for (int t = block.begin; t < block.end; ++t)
       for (int local = 0; local < kTileNodes<Dim>; ++local)
         REQUIRE(
-            tiling.slot(tiling.node(stack, local), tiling.node_tiles[static_cast<std::size_t>(t)].field) ==
+            tiling.slot(tiling.node(block, local), tiling.node_tiles[static_cast<std::size_t>(t)].field) ==
             t * kTileNodes<Dim> + local);
   }
-  REQUIRE(at.size() == tiling.stacks.size());
-  for (const auto& stack : tiling.stacks)
+  REQUIRE(at.size() == tiling.node_blocks.size());
+  for (const auto& block : tiling.node_blocks)
     for (int k = 0; k < power(3, Dim); ++k) {
-      NodeIndex<Dim> beside = stack.first_node;
+      NodeIndex<Dim> beside = block.first_node;
       for (int d = 0, digits = k; d < Dim; ++d, digits /= 3) beside[d] += kTileSide * (digits % 3 - 1);
       const auto found = at.find(key(beside));
-      REQUIRE(stack.neighbour[k] == (found == at.end() ? -1 : found->second));
+      REQUIRE(block.neighbour[k] == (found == at.end() ? -1 : found->second));
     }
   // Beyond are no nodes.
   for (const int outside : {kLowest - 2, 1000})
@@ -297,11 +297,11 @@ void check_bytes() {
   const Tiling<Dim> one = tiling_of<Dim>(kParticles, false), many = tiling_of<Dim>(kParticles, true);
   REQUIRE(one.tiles.size() == 2);
   REQUIRE(many.tiles.size() == kParticles);
-  // A node tile is listed for each corner of a window; here each is one of its own. The room of the sort is
-  // that of the particles.
+  // A node tile is listed for each corner of a window; here each is one of its own. The workspace of the sort
+  // is that of the particles.
   REQUIRE(many.node_tiles.size() == kCorners<Dim> * many.tiles.size());
   const std::size_t of_tile = sizeof(ParticleTile<Dim>) + sizeof(ParticleRun<Dim>) +
-                              kCorners<Dim> * (sizeof(NodeTile<Dim>) + sizeof(Stack<Dim>));
+                              kCorners<Dim> * (sizeof(NodeTile<Dim>) + sizeof(NodeBlock<Dim>));
   CHECK(many.bytes() - one.bytes() == (kParticles - 2) * of_tile);
 }
 

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <random>
 
-#include "kernels/materials/depth.hpp"
+#include "kernels/materials/out_of_plane.hpp"
 #include "material_sample.hpp"
 #include "tests/support.hpp"
 
@@ -23,12 +23,12 @@ std::string cylinder(int inner, const std::string& more = "") {
 /// Sets the velocity of every node slot: v(position).
 template <class F>
 void set_velocities(State<2>& state, F velocity) {
-  for (const auto& stack : state.tiling.stacks)
+  for (const auto& block : state.tiling.node_blocks)
     for (int local = 0; local < kTileNodes<2>; ++local) {
-      const NodeIndex<2> node = state.tiling.node(stack, local);
+      const NodeIndex<2> node = state.tiling.node(block, local);
       Vec<2> x;
       for (int d = 0; d < 2; ++d) x[d] = state.grid.origin[d] + node[d] * state.grid.cell;
-      for (int t = stack.begin; t < stack.end; ++t)
+      for (int t = block.begin; t < block.end; ++t)
         state.nodes.set(Nodal::velocity, t * kTileNodes<2> + local, velocity(x));
     }
 }
@@ -178,11 +178,11 @@ TEST_CASE("a volume gradient is that of the section: nothing inside a body") {
   advance(step, 1);
   auto& state = step.state();
   int inside = 0;
-  for (const auto& stack : state.tiling.stacks)
+  for (const auto& block : state.tiling.node_blocks)
     for (int local = 0; local < kTileNodes<2>; ++local) {
-      const NodeIndex<2> node = state.tiling.node(stack, local);
+      const NodeIndex<2> node = state.tiling.node(block, local);
       if (node[0] < 1 || node[0] > 3 || node[1] < 6 || node[1] > 10) continue;
-      for (int t = stack.begin; t < stack.end; ++t) {
+      for (int t = block.begin; t < block.end; ++t) {
         const Vec<2> g = state.nodes.vector(Nodal::volume_gradient, t * kTileNodes<2> + local);
         if (node[0] * node[0] + (node[1] - 8) * (node[1] - 8) > 9) continue;
         CHECK(g.norm() < 1e-14);  // a surface node has 1e-3

@@ -26,12 +26,12 @@ bodies: [{name: a, box: {from: [4 mm, 4 mm], to: [12 mm, 10 mm]}, material: m, v
 template <class F>
 void for_each_node(const Step<2>& step, F f) {
   const auto& state = step.state();
-  for (const auto& stack : state.tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t)
+  for (const auto& block : state.tiling.node_blocks)
+    for (int t = block.begin; t < block.end; ++t)
       for (int local = 0; local < kTileNodes<2>; ++local) {
         const int slot = t * kTileNodes<2> + local;
         if (state.nodes.column(Nodal::mass)[slot] > 0)
-          f(state.tiling.node(stack, local), state.nodes.vector(Nodal::velocity, slot));
+          f(state.tiling.node(block, local), state.nodes.vector(Nodal::velocity, slot));
       }
 }
 
@@ -186,14 +186,14 @@ method: {update: flip}
 
 TEST_CASE("whatever share of an approach particles take from a wall, their momentum and the impulse agree") {
   using Update = std::pair<const char*, const char*>;  // and every how many steps it filters
-  for (const char* place : {"nodes", "plane"})
+  for (const char* enforcement : {"nodes", "plane"})
     for (const Update& filter : {Update{"flip", "1"}, Update{"pic", "1"}, Update{"xpic(3)", "1"},
                                  Update{"xpic(3)", "5"}, Update{"fmpm(3)", "1"}, Update{"fmpm(3)", "5"}}) {
-      CAPTURE(std::string(place));
+      CAPTURE(std::string(enforcement));
       const char *update = filter.first, *every = filter.second;
       CAPTURE(std::string(update));
       CAPTURE(std::string(every));
-      const std::string at = std::string("at: ") + place;
+      const std::string at = std::string("at: ") + enforcement;
       const Scene scene =
           scene_from(std::string(kBlock) + "boundaries: {bottom: {piston: 2 m/s, position: 3.7 mm, " + at +
                          "}, left: {wall: sliding, position: 4 mm, " + at + "}}\n",
@@ -207,8 +207,8 @@ TEST_CASE("whatever share of an approach particles take from a wall, their momen
 }
 
 /// What a block loses that a piston presses, over the work. It starts as the piston moves, without a blow.
-double lost_at_walls(const char* place) {
-  const std::string at = std::string("at: ") + place;
+double lost_at_walls(const char* enforcement) {
+  const std::string at = std::string("at: ") + enforcement;
   const Scene scene =
       scene_from(std::string(kBlock) + "boundaries: {bottom: {wall: sliding, position: 4 mm, " + at +
                      "}, top: {piston: 6 m/s, position: 10 mm, " + at + "}}\n",

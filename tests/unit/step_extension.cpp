@@ -71,10 +71,10 @@ struct Projected {
 template <int Dim>
 std::vector<NodeIndex<Dim>> nodes_of_slots(const State<Dim>& state) {
   std::vector<NodeIndex<Dim>> nodes(static_cast<std::size_t>(state.tiling.slots()));
-  for (const auto& stack : state.tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t)
+  for (const auto& block : state.tiling.node_blocks)
+    for (int t = block.begin; t < block.end; ++t)
       for (int local = 0; local < kTileNodes<Dim>; ++local)
-        nodes[static_cast<std::size_t>(t * kTileNodes<Dim> + local)] = state.tiling.node(stack, local);
+        nodes[static_cast<std::size_t>(t * kTileNodes<Dim> + local)] = state.tiling.node(block, local);
   return nodes;
 }
 
@@ -158,10 +158,10 @@ bodies: [{name: b, box: {from: [2.3 mm, )" +
   const auto node = nodes_of_slots(p.state());
   const auto held = static_cast<int>(std::floor(wall + 1e-9)) + 2;  // the first row at or beyond the wall
   std::map<std::array<int, 3>, int> slot_at;
-  const auto place = [&](const NodeIndex<Dim>& n) {
+  const auto index_of = [&](const NodeIndex<Dim>& n) {
     return std::array<int, 3>{n[0], n[1], Dim == 3 ? n[Dim - 1] : 0};
   };
-  for (std::size_t s = 0; s < node.size(); ++s) slot_at[place(node[s])] = static_cast<int>(s);
+  for (std::size_t s = 0; s < node.size(); ++s) slot_at[index_of(node[s])] = static_cast<int>(s);
   double* v = p.state().nodes.column(Nodal::velocity, 1);
   for (std::size_t s = 0; s < node.size(); ++s)
     v[s] = node[s][1] == held ? 0 : std::sin(3.0 * node[s][0] + 1.7 * node[s][1] * node[s][1]);
@@ -176,7 +176,7 @@ bodies: [{name: b, box: {from: [2.3 mm, )" +
     NodeIndex<Dim> mirror = n;
     mirror[1] = 2 * held - n[1];
     if (n[1] == held - 1)
-      CHECK(v[follows.slot] == doctest::Approx(-v[slot_at.at(place(mirror))]).epsilon(1e-13));
+      CHECK(v[follows.slot] == doctest::Approx(-v[slot_at.at(index_of(mirror))]).epsilon(1e-13));
     ++beyond;
   }
   CHECK(beyond > 0);

@@ -28,14 +28,14 @@ method: {basis: bspline2}
 /// What is said of a time step that is too short, of a quarter of the first, or of one that is no number.
 struct Blamed {
   std::string message;
-  bool placed = false;
+  bool has_position = false;
 
   Blamed(const Step<2>& step, double dt) {
     try {
       step.fail_collapsed(dt, 0.25);
     } catch (const RunFailure& failure) {
       message = failure.what();
-      placed = failure.place().has_value();
+      has_position = failure.position().has_value();
     }
   }
   bool says(const std::string& part) const { return message.find(part) != std::string::npos; }
@@ -62,7 +62,7 @@ TEST_CASE("a time step that collapses is blamed on the fastest, of equal ones on
     CHECK(equal.names(std::min(particles.id()[3], particles.id()[90])));
     CHECK(equal.says("the time step collapsed to 1e-09 s, 0.25 of the first (time.collapse): "));
     CHECK(equal.says("it moves at 50 m/s, J = 1"));
-    CHECK(equal.placed);
+    CHECK(equal.has_position);
   }
   // Waves count as well as speed, and a speed that is no number is passed over.
   particles.column(Quantity::wave_speed)[50] += 60;
@@ -80,7 +80,7 @@ TEST_CASE("where no particle has a speed, a time step that collapses has no plac
   for (std::size_t p = 0; p < particles.size(); ++p) set_velocity(particles, p, {0, kNoNumber});
   const Blamed none(step, 1e-9);
   CHECK(none.message == "step 0, time 0 s: the time step collapsed to 1e-09 s, 0.25 of the first");
-  CHECK_FALSE(none.placed);
+  CHECK_FALSE(none.has_position);
 }
 
 TEST_CASE(
@@ -93,7 +93,7 @@ TEST_CASE(
   };
   const Blamed none = blamed([](auto&) {});
   CHECK(none.message == "step 0, time 0 s: a speed is no number any more");
-  CHECK_FALSE(none.placed);
+  CHECK_FALSE(none.has_position);
   // The least volume, zero and negative ones.
   for (const double least : {0.0, -2.0}) {
     CAPTURE(least);
@@ -125,7 +125,7 @@ TEST_CASE(
           }
           id = std::min(particles.id()[5], particles.id()[60]);
         });
-        CHECK(left.placed == outside);
+        CHECK(left.has_position == outside);
         CHECK(left.says("a speed is no number any more") == !outside);
         if (outside) CHECK(left.names(id));
         CHECK(left.says("it left the grid at 40 m/s") == outside);
@@ -154,7 +154,7 @@ TEST_CASE("a number that is none is found in any component of any quantity, and 
         CHECK(blamed.names(particles.id()[p]));
         CHECK(blamed.says("not a number any more (" + name + ")"));
         CHECK_FALSE(blamed.says("particles around it"));
-        CHECK(blamed.placed);
+        CHECK(blamed.has_position);
         particles.column(q, k)[p] = right;
       }
   CHECK(components > 20);

@@ -54,16 +54,16 @@ struct Blamed {
       step.fail_collapsed(dt, share);
     } catch (const RunFailure& failure) {
       message = failure.what();
-      if (failure.place()) place.assign(failure.place()->begin(), failure.place()->end());
+      if (failure.position()) position.assign(failure.position()->begin(), failure.position()->end());
     }
   }
   std::string message;
-  std::vector<double> place;
+  std::vector<double> position;
 };
 
 /// Where it is, or a cell and a half above the first node of its support where its place is no number.
 template <int Dim>
-std::pair<Vec<Dim>, bool> place_of(const Step<Dim>& step, std::size_t p) {
+std::pair<Vec<Dim>, bool> position_of(const Step<Dim>& step, std::size_t p) {
   const State<Dim>& state = step.state();
   const Vec<Dim> x = state.particles.vector(Quantity::position, p);
   if (x.allFinite()) return {x, true};
@@ -77,7 +77,7 @@ template <int Dim>
 void check_blames(const Step<Dim>& step, const Blamed<Dim>& blamed, std::size_t p, const std::string& cause) {
   const State<Dim>& state = step.state();
   const std::array<std::string, 3> bodies{"first", "second", "third"}, fields{"both", "second", "both"};
-  const auto [x, known] = place_of(step, p);
+  const auto [x, known] = position_of(step, p);
   std::string where;
   for (int d = 0; d < Dim; ++d) where += fmt::format("{}{:.6g}", d > 0 ? ", " : "", x[d]);
   const std::size_t body = state.particles.body()[p];
@@ -85,9 +85,9 @@ void check_blames(const Step<Dim>& step, const Blamed<Dim>& blamed, std::size_t 
         fmt::format("step {}, time {:.9g} s: particle {} of body '{}' (velocity field '{}') {} ({}) m: {}",
                     state.step, state.time, state.particles.id()[p], bodies[body], fields[body],
                     known ? "at" : "near", where, cause));
-  REQUIRE(blamed.place.size() == 3);
+  REQUIRE(blamed.position.size() == 3);
   for (int d = 0; d < 3; ++d)
-    CHECK(blamed.place[static_cast<std::size_t>(d)] == (d < Dim ? x[std::min(d, Dim - 1)] : 0));
+    CHECK(blamed.position[static_cast<std::size_t>(d)] == (d < Dim ? x[std::min(d, Dim - 1)] : 0));
 }
 
 template <int Dim>
@@ -130,10 +130,10 @@ void check_spoilt() {
       what[p].insert(q);
     }
     Vec<Dim> middle = Vec<Dim>::Zero();
-    for (const std::size_t p : spoilt) middle += place_of(step, p).first;
+    for (const std::size_t p : spoilt) middle += position_of(step, p).first;
     middle /= static_cast<double>(spoilt.size());
     const std::size_t p = plain_least(particles, [&](std::size_t q) {
-      return spoilt.contains(q) ? (place_of(step, q).first - middle).norm() : kInfinity;
+      return spoilt.contains(q) ? (position_of(step, q).first - middle).norm() : kInfinity;
     });
     std::string names;
     for (const Quantity q : particles.quantities())

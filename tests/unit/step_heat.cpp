@@ -135,11 +135,11 @@ TEST_CASE("temperatures of nodes are exact where they are linear, also at surfac
     const auto& state = step.state();
     const double* mass = state.nodes.column(Nodal::mass);
     int nodes = 0;
-    for (const auto& stack : state.tiling.stacks)
+    for (const auto& block : state.tiling.node_blocks)
       for (int local = 0; local < kTileNodes<2>; ++local) {
-        const int slot = stack.begin * kTileNodes<2> + local;
+        const int slot = block.begin * kTileNodes<2> + local;
         if (!(mass[slot] > 1e-12)) continue;
-        const NodeIndex<2> node = state.tiling.node(stack, local);
+        const NodeIndex<2> node = state.tiling.node(block, local);
         const double x = -2e-3 + node[0] * 1e-3, y = -2e-3 + node[1] * 1e-3;
         CHECK(step.heat().temperature(state, slot) ==
               doctest::Approx(330 + 4e3 * x - 7e3 * y).epsilon(1e-12).scale(0));
@@ -225,7 +225,7 @@ contact: {friction: 0.3}
 
 /// What came in and what friction made is what bodies have more.
 template <int Dim>
-void check_books(const std::string& yaml, const std::vector<Override>& sets) {
+void check_ledger(const std::string& yaml, const std::vector<Override>& sets) {
   const Scene scene = scene_from(yaml, sets);
   Step<Dim> step(scene);
   const double before = contents(step).back();
@@ -242,7 +242,7 @@ TEST_CASE("what comes in through faces is what the bodies have more, with every 
     for (const char* filter : {"none", "{order: 2, every: 0}", "{order: 1, every: 0.1}"}) {
       CAPTURE(std::string(basis));
       CAPTURE(std::string(filter));
-      check_books<2>(kFed, {{"method.basis", basis}, {"heat.filter", filter}});
+      check_ledger<2>(kFed, {{"method.basis", basis}, {"heat.filter", filter}});
     }
 }
 

@@ -158,7 +158,7 @@ contact: {law: interface, normal_stiffness: 100 MPa/mm, shear_stiffness: 50 MPa/
   Step<2> step(scene);
   for (int k = 0; k < 20; ++k) {
     advance(step, 1);
-    CHECK(step.joint_energy() < 1e-20);
+    CHECK(step.interface_energy() < 1e-20);
   }
   const auto& particles = step.state().particles;
   for (std::size_t p = 0; p < particles.size(); ++p)
@@ -181,7 +181,7 @@ contact: {law: interface, normal_stiffness: 50 MPa/m, shear_stiffness: 0}
   Step<2> step(scene);
   const double relative = 0.5 * kinetic_energy(step.state().particles);
   double most = 0;
-  for (double now = 0; now >= most; now = step.joint_energy()) {
+  for (double now = 0; now >= most; now = step.interface_energy()) {
     most = now;
     advance(step, 1);
   }

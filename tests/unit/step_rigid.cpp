@@ -145,11 +145,11 @@ template <class F>
 int in_nodes(const Step<3>& step, int lower, int upper, F f) {
   const auto& state = step.state();
   int count = 0;
-  for (const auto& stack : state.tiling.stacks)
-    for (int t = stack.begin; t < stack.end; ++t)
+  for (const auto& block : state.tiling.node_blocks)
+    for (int t = block.begin; t < block.end; ++t)
       for (int local = 0; local < kTileNodes<3>; ++local) {
         const int slot = t * kTileNodes<3> + local;
-        const NodeIndex<3> node = state.tiling.node(stack, local);
+        const NodeIndex<3> node = state.tiling.node(block, local);
         if (!(state.nodes.column(Nodal::mass)[slot] > 0) || node.minCoeff() < lower ||
             node.maxCoeff() > upper)
           continue;
@@ -202,11 +202,11 @@ boundaries: {pin: {node: [8.2 mm, 6.9 mm], direction: [0.6, 0.8], speed: 1 m/s},
   advance(step, 3);
   const auto& state = step.state();
   int pinned = 0;
-  for (const auto& stack : state.tiling.stacks)
+  for (const auto& block : state.tiling.node_blocks)
     for (int local = 0; local < kTileNodes<2>; ++local) {
-      const NodeIndex<2> node = state.tiling.node(stack, local);
+      const NodeIndex<2> node = state.tiling.node(block, local);
       if (node != NodeIndex<2>(8, 7)) continue;
-      const Vec<2> v = state.nodes.vector(Nodal::velocity, stack.begin * kTileNodes<2> + local);
+      const Vec<2> v = state.nodes.vector(Nodal::velocity, block.begin * kTileNodes<2> + local);
       CHECK((v - Vec<2>(0.6 * 1 + 0.8 * 2, 0.8 * 1 - 0.6 * 2)).norm() < 1e-13);
       ++pinned;
     }

@@ -79,16 +79,16 @@ void check_flight(const char* basis, const char* contact, double cells_a_step) {
   const double cell = state.grid.cell, dt = 1e-6, speed = cells_a_step * cell / dt;
   Vec<Dim> velocity = Vec<Dim>::Constant(speed);
   velocity[1] = -velocity[1];
-  std::vector<Vec<Dim>> places(particles.size());
+  std::vector<Vec<Dim>> positions(particles.size());
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    places[particles.id()[p]] = particles.vector(Quantity::position, p);
+    positions[particles.id()[p]] = particles.vector(Quantity::position, p);
     for (int d = 0; d < Dim; ++d) particles.column(Quantity::velocity, d)[p] = velocity[d];
   }
   const int steps = static_cast<int>(2.9 / cells_a_step);
   for (int k = 0; k < steps; ++k) step.advance(dt);
   double furthest = 0, deformed = 0;
   for (std::size_t p = 0; p < particles.size(); ++p) {
-    const Vec<Dim> way = particles.vector(Quantity::position, p) - places[particles.id()[p]];
+    const Vec<Dim> way = particles.vector(Quantity::position, p) - positions[particles.id()[p]];
     furthest = std::max(furthest, (way - steps * dt * velocity).norm() / cell);
     deformed = std::max(deformed, (particles.deformation_gradient(p) - Mat<Dim>::Identity()).norm());
   }

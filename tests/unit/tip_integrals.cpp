@@ -145,7 +145,7 @@ TEST_CASE("a stress along the crack changes none of them") {
 
 /// Places all over the disk, with their shares of it.
 template <class F>
-void for_each_place(const F& f) {
+void for_each_position(const F& f) {
   constexpr int kRings = 80, kAngles = 160;
   for (int i = 0; i < kRings; ++i)
     for (int k = 0; k < kAngles; ++k) {
@@ -168,7 +168,7 @@ TEST_CASE("a wave that passes drives no crack: its inertia takes what its stress
                slow = std::sqrt(kShear / kDensity);
   for (const double phase : {0.3, 1.2}) {
     TipIntegrals moving(straight(), kRadius, 1), still(straight(), kRadius, 1);
-    for_each_place([&](const Vec<2>& x, double area) {
+    for_each_position([&](const Vec<2>& x, double area) {
       TipSample sample{x, area, {}, {}, {}, 0};
       sample.displacement = sample.velocity = sample.acceleration = Vec<2>::Zero();
       sample.gradient = sample.velocity_gradient = Mat<2>::Zero();
@@ -222,7 +222,7 @@ TEST_CASE("where the path is, and which side of it") {
 TEST_CASE("what sides that rub do on each other is no part of J") {
   constexpr double kStretch = 1e-3, kTraction = 5e6;
   TipIntegrals all(straight(), kRadius, 1), stresses(straight(), kRadius, 1);
-  for_each_place([&](const Vec<2>& x, double area) {
+  for_each_position([&](const Vec<2>& x, double area) {
     TipSample sample{x, area, {}, {}, {}, 0};
     sample.gradient = Mat<2>::Zero();
     sample.gradient(0, 0) = x[1] > 0 ? kStretch : -kStretch;

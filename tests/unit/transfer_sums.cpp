@@ -148,16 +148,16 @@ template <int Dim, class Basis>
 void check_basis() {
   Draw draw(7);
   const Cloud<Dim> particles(draw);
-  const auto room = std::make_unique<WeightRoom<Dim, Basis>>();
-  REQUIRE(Basis::stage(particles.geometry(), room->narrow));
-  REQUIRE(Basis::stage(particles.geometry(), room->wide));
+  const auto workspace = std::make_unique<WeightWorkspace<Dim, Basis>>();
+  REQUIRE(Basis::stage(particles.geometry(), workspace->narrow));
+  REQUIRE(Basis::stage(particles.geometry(), workspace->wide));
   for (int k = 0; k < Cloud<Dim>::kCount; ++k) {
-    check_sums<Record>(room->narrow, k, draw);
-    check_sums<WideRecord>(room->wide, k, draw);
+    check_sums<Record>(workspace->narrow, k, draw);
+    check_sums<WideRecord>(workspace->wide, k, draw);
   }
   for (int count : {1, 2, Cloud<Dim>::kCount}) {
-    check_chunk<Record>(room->narrow, count, draw);
-    check_chunk<WideRecord>(room->wide, count, draw);
+    check_chunk<Record>(workspace->narrow, count, draw);
+    check_chunk<WideRecord>(workspace->wide, count, draw);
   }
 }
 

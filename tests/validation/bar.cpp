@@ -35,7 +35,7 @@ TEST_CASE("a standing wave in an elastic bar has the frequency c/4L within 1 %")
   for (const BasisFacts& facts : kBasisFacts)
     for (const char* update : {"flip", "xpic(5)", "fmpm(5)", "apic"}) {
       if (update == std::string("apic") && facts.spread == 0) continue;
-      const std::string basis = facts.word;
+      const std::string basis = facts.keyword;
       CAPTURE(basis);
       CAPTURE(std::string(update));
       const double measured =

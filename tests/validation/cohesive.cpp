@@ -146,14 +146,14 @@ constexpr double kPartingMass = 0.04 * 0.004 * 1000 / 2, kGlued = 0.04;
 Scene two_blocks(double angle, const Vec<2>& flight, const Vec<2>& parting, const std::string& more = "") {
   const double c = std::cos(angle), s = std::sin(angle);
   const auto text = [](double x) { return std::to_string(x); };
-  const auto place = [&](double x, double y) {
+  const auto point = [&](double x, double y) {
     return "[" + text(30 + c * x - s * y) + " mm, " + text(30 + s * x + c * y) + " mm]";
   };
   const auto block = [&](double low, double high, double sign) {
     const Vec<2> v =
         flight + 0.5 * sign * Vec<2>(c * parting[0] - s * parting[1], s * parting[0] + c * parting[1]);
-    return "polygon: [" + place(-20, low) + ", " + place(20, low) + ", " + place(20, high) + ", " +
-           place(-20, high) + "], material: m, seeding: {angle: " + text(angle * 180 / std::numbers::pi) +
+    return "polygon: [" + point(-20, low) + ", " + point(20, low) + ", " + point(20, high) + ", " +
+           point(-20, high) + "], material: m, seeding: {angle: " + text(angle * 180 / std::numbers::pi) +
            " deg}, velocity: [" + text(v[0]) + " m/s, " + text(v[1]) + " m/s]";
   };
   return scene_from(
@@ -220,8 +220,8 @@ TEST_CASE("a crack moves with its bodies: a node off its end is broken or whole 
       int broken = 0, whole = 0, wrong = 0;
       for (const auto& node : list.nodes)
         for (int e = node.pair_begin; e < node.pair_end; ++e) {
-          const Vec<2> place = node.index.cast<double>() * state.grid.cell - state.time * flight;
-          const double from_end = (place - Vec<2>(0.031, 0.03)).dot(tangent) / state.grid.cell;
+          const Vec<2> point = node.index.cast<double>() * state.grid.cell - state.time * flight;
+          const double from_end = (point - Vec<2>(0.031, 0.03)).dot(tangent) / state.grid.cell;
           const bool is_broken = list.pairs.bond[e].is_broken();
           (is_broken ? broken : whole) += 1;
           if (std::abs(from_end) > 1.1 && is_broken != (from_end < 0)) ++wrong;

@@ -83,7 +83,8 @@ TEST_CASE("slow: a double cantilever beam has the load of beam theory, and loses
 /// Of fibre_pullout.yaml: E t = 6 MN/m, G = 1 J/m², τ_c = 1.4 MPa, friction 0.1 MPa on each side of 20 mm, 5
 /// mm free.
 TEST_CASE("slow: a fibre is pulled out by the force of shear lag, and then of friction") {
-  constexpr double kStretch = 6e6, kGlue = 1, kShear = 1.4e6, kRub = 0.1e6, kLength = 20e-3, kFree = 5e-3;
+  constexpr double kStretch = 6e6, kGlue = 1, kShear = 1.4e6, kFrictionStress = 0.1e6, kLength = 20e-3,
+                   kFree = 5e-3;
   const Outcome out = run(scene_file("fibre_pullout.yaml", {{"output.frames", "0"}}));
   REQUIRE(out.failure == "");
   const auto &time = out.history.at("time_s"), &force = out.history.at("pull.force_x_N");
@@ -101,18 +102,18 @@ TEST_CASE("slow: a fibre is pulled out by the force of shear lag, and then of fr
     const double way = speed * (t - 250e-6);
     double low = front, high = 2 * front;
     for (int k = 0; k < 60; ++k) {
-      const double load = 0.5 * (low + high), debonded = (load - front) / (2 * kRub);
+      const double load = 0.5 * (low + high), debonded = (load - front) / (2 * kFrictionStress);
       const double stretch = (0.5 * (front + load) * debonded + load * kFree) / kStretch;
       (2 * kGlue / kShear + stretch < way ? low : high) = load;
     }
     MESSAGE("at ", 1e6 * way, " um ", mean_force(t - 20e-6, t + 20e-6) / low, " debonded ",
-            (low - front) / (2 * kRub));
+            (low - front) / (2 * kFrictionStress));
     CHECK(mean_force(t - 20e-6, t + 20e-6) == doctest::Approx(low).epsilon(0.03).scale(0));
   }
-  MESSAGE("friction ", mean_force(1.05e-3, 1.4e-3) / (2 * kRub * kLength), " lost ",
+  MESSAGE("friction ", mean_force(1.05e-3, 1.4e-3) / (2 * kFrictionStress * kLength), " lost ",
           out.history.at("interface_J").back() / (2 * kGlue * kLength), " balance ",
           out.summary.energy_error);
-  CHECK(mean_force(1.05e-3, 1.4e-3) == doctest::Approx(2 * kRub * kLength).epsilon(0.03).scale(0));
+  CHECK(mean_force(1.05e-3, 1.4e-3) == doctest::Approx(2 * kFrictionStress * kLength).epsilon(0.03).scale(0));
   CHECK(out.history.at("interface_J").back() == doctest::Approx(2 * kGlue * kLength).epsilon(0.03).scale(0));
   CHECK(std::abs(out.summary.energy_error) < 0.01);
 }

@@ -72,10 +72,10 @@ End end_of(double angle, const Vec<2>& speed, const std::string& contact) {
   const auto pair = [](double x, double y, const char* unit) {
     return "[" + std::to_string(x) + unit + ", " + std::to_string(y) + unit + "]";
   };
-  const auto place = [&](double x, double y) { return pair(30 + c * x - s * y, 30 + s * x + c * y, " mm"); };
+  const auto point = [&](double x, double y) { return pair(30 + c * x - s * y, 30 + s * x + c * y, " mm"); };
   const auto block = [&](double low, double high, double sign) {
-    return "polygon: [" + place(-20, low) + ", " + place(20, low) + ", " + place(20, high) + ", " +
-           place(-20, high) + "], material: m, seeding: {angle: " + std::to_string(angle) +
+    return "polygon: [" + point(-20, low) + ", " + point(20, low) + ", " + point(20, high) + ", " +
+           point(-20, high) + "], material: m, seeding: {angle: " + std::to_string(angle) +
            " rad}, velocity: " +
            pair(sign * (c * speed[0] - s * speed[1]), sign * (s * speed[0] + c * speed[1]), " m/s") + "}\n";
   };

@@ -96,12 +96,12 @@ TEST_CASE("two half-spaces that touch have the temperature of their effusivities
 /// along 16 mm.
 std::string blocks(double angle, const std::string& contact) {
   const double c = std::cos(angle), s = std::sin(angle);
-  const auto place = [&](double x, double y) {
+  const auto point = [&](double x, double y) {
     return "[" + std::to_string(20 + c * x - s * y) + " mm, " + std::to_string(20 + s * x + c * y) + " mm]";
   };
   const auto block = [&](double low, double high) {
-    return "polygon: [" + place(-8, low) + ", " + place(8, low) + ", " + place(8, high) + ", " +
-           place(-8, high) +
+    return "polygon: [" + point(-8, low) + ", " + point(8, low) + ", " + point(8, high) + ", " +
+           point(-8, high) +
            "], material: m, seeding: {angle: " + std::to_string(angle * 180 / std::numbers::pi) + " deg}";
   };
   return "space: plane_strain\ngrid: {size: [40 mm, 40 mm], cell: 1 mm}\ntime: {end: 20 ms}\n"

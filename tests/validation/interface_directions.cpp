@@ -59,12 +59,12 @@ TEST_CASE(
 /// along themselves by what of their ends lies in a box. @return 1/E_eff, by the length, 1/Pa
 double turned_compliance(const std::string& contact) {
   const double c = std::cos(std::numbers::pi / 6), s = 0.5;
-  const auto place = [&](double x, double y) {
+  const auto point = [&](double x, double y) {
     return "[" + std::to_string(25 + c * x - s * y) + " mm, " + std::to_string(25 + s * x + c * y) + " mm]";
   };
   const auto bar = [&](double from, double to) {
-    return "polygon: [" + place(from, -10) + ", " + place(to, -10) + ", " + place(to, 10) + ", " +
-           place(from, 10) + "], material: rubber, seeding: {angle: 30 deg}}";
+    return "polygon: [" + point(from, -10) + ", " + point(to, -10) + ", " + point(to, 10) + ", " +
+           point(from, 10) + "], material: rubber, seeding: {angle: 30 deg}}";
   };
   const std::string low = "{box: {from: [0 mm, 0 mm], to: [26 mm, 100 mm]}, direction: ",
                     high = "{box: {from: [108 mm, 0 mm], to: [140 mm, 110 mm]}, direction: ",

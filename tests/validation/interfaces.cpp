@@ -111,14 +111,14 @@ struct Size {
 /// and opposite velocities. No cell gives way: D h/E = 1e-3.
 std::string blocks(double angle, double along, double across, const Size& size = {}) {
   const double c = std::cos(angle), s = std::sin(angle);
-  const auto place = [&](double x, double y) {
+  const auto point = [&](double x, double y) {
     return "[" + std::to_string(60 + c * x - s * y) + " mm, " + std::to_string(60 + s * x + c * y) + " mm]";
   };
   const auto block = [&](double low, double high, double sign) {
     const double vx = sign * (c * along - s * across), vy = sign * (s * along + c * across);
     const double end = size.length / 2;
-    return "polygon: [" + place(-end, low) + ", " + place(end, low) + ", " + place(end, high) + ", " +
-           place(-end, high) +
+    return "polygon: [" + point(-end, low) + ", " + point(end, low) + ", " + point(end, high) + ", " +
+           point(-end, high) +
            "], material: m, seeding: {angle: " + std::to_string(angle * 180 / std::numbers::pi) +
            " deg}, velocity: [" + std::to_string(vx) + " m/s, " + std::to_string(vy) + " m/s]";
   };

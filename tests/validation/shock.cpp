@@ -31,9 +31,9 @@ class Bar {
  public:
   explicit Bar(const Scene& scene) : step_(scene) {
     const auto& particles = step_.state().particles;
-    place_.resize(particles.size());
+    rank_.resize(particles.size());
     for (std::size_t p = 0; p < particles.size(); ++p)
-      place_[particles.id()[p]] = std::lround(particles.column(Quantity::position, 0)[p] * 1e9);
+      rank_[particles.id()[p]] = std::lround(particles.column(Quantity::position, 0)[p] * 1e9);
   }
   void run_to(double time) {
     while (step_.state().time < time) step_.advance(std::min(step_.stable_dt(), time - step_.state().time));
@@ -46,7 +46,7 @@ class Bar {
     const auto& particles = step_.state().particles;
     std::map<long, std::pair<double, int>> sums;
     for (std::size_t p = 0; p < particles.size(); ++p) {
-      auto& sum = sums[place_[particles.id()[p]]];
+      auto& sum = sums[rank_[particles.id()[p]]];
       sum.first += f(p);
       ++sum.second;
     }
@@ -68,7 +68,7 @@ class Bar {
 
  private:
   Step<2> step_;
-  std::vector<long> place_;
+  std::vector<long> rank_;
 };
 
 /// Initial x, m, of the particles that the front (coming from the right) is just passing.

@@ -208,9 +208,9 @@ double pressure_error(const char* cell, const std::vector<Override>& method) {
   const Scene scene = scene_file("hertz_plane.yaml", sets);
   Step<2> step(scene);
   const double first = step.stable_dt(), column = scene.grid.cell / 4;
-  constexpr std::size_t kPlaces = 24;
-  std::array<double, kPlaces> sum{};
-  std::array<int, kPlaces> count{};
+  constexpr std::size_t kBins = 24;
+  std::array<double, kBins> sum{};
+  std::array<int, kBins> count{};
   while (step.state().time < scene.time.end * (1 - 1e-9)) {
     const bool due = step.state().step % 20 == 0;
     step.advance(step.dt_towards(scene.time.end, first), due);
@@ -235,20 +235,20 @@ double pressure_error(const char* cell, const std::vector<Override>& method) {
       const double s = (state.particles.column(Quantity::position, 0)[p] - 8.4e-3) / half_width,
                    stress = state.particles.column(Quantity::kirchhoff_stress, 1)[p] /
                             state.particles.volume_ratio(p);
-      const auto place = static_cast<std::size_t>(0.5 * (s + 1) * kPlaces);
-      sum[place] += stress / largest + std::sqrt(1 - s * s);
-      ++count[place];
+      const auto bin = static_cast<std::size_t>(0.5 * (s + 1) * kBins);
+      sum[bin] += stress / largest + std::sqrt(1 - s * s);
+      ++count[bin];
     }
   }
   double squares = 0;
-  int places = 0;
-  for (std::size_t k = 0; k < kPlaces; ++k)
+  int bins = 0;
+  for (std::size_t k = 0; k < kBins; ++k)
     if (count[k] > 0) {
       squares += sum[k] / count[k] * sum[k] / count[k];
-      ++places;
+      ++bins;
     }
-  REQUIRE(places > 8);
-  return std::sqrt(squares / places);
+  REQUIRE(bins > 8);
+  return std::sqrt(squares / bins);
 }
 
 const std::vector<Override> kPlain{{"method.extension", "none"}};

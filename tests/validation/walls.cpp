@@ -81,16 +81,16 @@ boundaries: {bottom: {wall: sliding, at: surface}}
 
 TEST_CASE("a gap to a wall closes on time, wherever the plane is in a cell") {
   for (const char* basis : {"ugimp", "lcpdi", "bspline2"})
-    for (const double place : {10e-3, 9e-3, 9.7e-3, 8.1e-3}) {
+    for (const double position : {10e-3, 9e-3, 9.7e-3, 8.1e-3}) {
       CAPTURE(std::string(basis));
-      CAPTURE(place);
+      CAPTURE(position);
       const Scene scene = scene_from(
           kFlight,
-          {{"boundaries.bottom.position", fmt::format("{} mm", 1e3 * place)}, {"method.basis", basis}});
+          {{"boundaries.bottom.position", fmt::format("{} mm", 1e3 * position)}, {"method.basis", basis}});
       Step<2> step(scene);
       while (step.sums().boundary_impulse[0][1] == 0 && step.state().time < scene.time.end)
         step.advance(step.stable_dt());
-      CHECK(step.state().time == doctest::Approx((20e-3 - place) / 2).epsilon(0.001));  // at most 0.04 %
+      CHECK(step.state().time == doctest::Approx((20e-3 - position) / 2).epsilon(0.001));  // at most 0.04 %
     }
 }
 

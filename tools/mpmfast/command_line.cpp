@@ -51,8 +51,8 @@ void add_threads(CLI::App& command, RawOptions& raw) {
       ->type_name("N");
 }
 
-void add_out(CLI::App& command, RawOptions& raw, const std::string& says) {
-  command.add_option("--out", raw.out, says)->check(CLI::Validator(check_out, ""))->type_name("DIR");
+void add_out(CLI::App& command, RawOptions& raw, const std::string& description) {
+  command.add_option("--out", raw.out, description)->check(CLI::Validator(check_out, ""))->type_name("DIR");
 }
 
 void add_progress(CLI::App& command, RawOptions& raw) {
@@ -61,8 +61,10 @@ void add_progress(CLI::App& command, RawOptions& raw) {
       ->type_name("auto|plain|none");
 }
 
-void add_until(CLI::App& command, RawOptions& raw, const std::string& says) {
-  command.add_option("--until", raw.until, says)->check(CLI::Validator(check_until, ""))->type_name("TIME");
+void add_until(CLI::App& command, RawOptions& raw, const std::string& description) {
+  command.add_option("--until", raw.until, description)
+      ->check(CLI::Validator(check_until, ""))
+      ->type_name("TIME");
 }
 
 void add_resume_options(CLI::App& command, RawOptions& raw) {
@@ -103,8 +105,8 @@ void add_plot_options(CLI::App& command, RawOptions& raw) {
   command.add_option("DIR", raw.folders, "Output folders of runs: of several, --columns in one chart")
       ->required()
       ->type_name("");
-  const auto add_several = [&](const char* name, std::vector<std::string>& values, const char* says) {
-    return command.add_option(name, values, says)->take_all()->allow_extra_args(false);
+  const auto add_several = [&](const char* name, std::vector<std::string>& values, const char* description) {
+    return command.add_option(name, values, description)->take_all()->allow_extra_args(false);
   };
   add_several(
       "--columns", raw.columns,

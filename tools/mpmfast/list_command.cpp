@@ -23,9 +23,11 @@ void print_topic(const std::string& topic) {
   for (const CatalogueEntry& entry : entries) width = std::max(width, entry.name.size());
   say("{}\n", topic);
   for (const CatalogueEntry& entry : entries) {
-    const std::string says =
-        entry.keys.empty() || entry.says.empty() ? entry.keys + entry.says : entry.keys + ": " + entry.says;
-    say("  {:<{}}{}{}\n", entry.name, says.empty() ? 0 : width, says.empty() ? "" : "  ", says);
+    const std::string description = entry.keys.empty() || entry.description.empty()
+                                        ? entry.keys + entry.description
+                                        : entry.keys + ": " + entry.description;
+    say("  {:<{}}{}{}\n", entry.name, description.empty() ? 0 : width, description.empty() ? "" : "  ",
+        description);
   }
 }
 

@@ -14,7 +14,7 @@ static_assert(std::is_same_v<std::sig_atomic_t, int>);
 
 constexpr std::array<int, 8> kStops{SIGINT, SIGQUIT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGALRM, SIGXCPU};
 
-void remember(int number) {
+void store_signal(int number) {
   received = number;
   for (const int stop : kStops)
     if (stop != SIGXCPU) std::signal(stop, SIG_DFL);
@@ -28,7 +28,7 @@ void catch_stop_signals() {
   struct sigaction before {};
   const bool no_hang_up = sigaction(SIGHUP, nullptr, &before) == 0 && before.sa_handler == SIG_IGN;
   for (const int stop : kStops)
-    if (stop != SIGHUP || !no_hang_up) std::signal(stop, remember);  // nohup means it
+    if (stop != SIGHUP || !no_hang_up) std::signal(stop, store_signal);  // nohup means it
 }
 
 const volatile int* stop_signal() { return &received; }

@@ -56,13 +56,13 @@ std::string bytes_of(const std::vector<T>& values) {
 
 }  // namespace
 
-void note_constants(const FrameFile& file, const Places& places, const std::optional<Scene>& scene,
+void note_constants(const FrameFile& file, const PointOrder& point_order, const std::optional<Scene>& scene,
                     int dimension, FrameConstants& constants) {
   const Sides sides(file, scene, dimension);
   const auto body = file.reader().read<std::uint16_t>("body"),
              material = file.reader().read<std::uint16_t>("material");
-  for (std::size_t k = 0; k < places.in_file.size(); ++k) {
-    const std::size_t i = places.in_file[k], p = places.in_page[k];
+  for (std::size_t k = 0; k < point_order.in_file.size(); ++k) {
+    const std::size_t i = point_order.in_file[k], p = point_order.in_page[k];
     if (constants.known[p]) continue;
     constants.known[p] = true;
     constants.body[p] = body[i];

@@ -23,7 +23,7 @@ struct FrameConstants {
 };
 
 /// Notes the particles of a file that are not known yet.
-void note_constants(const FrameFile& file, const Places& places, const std::optional<Scene>& scene,
+void note_constants(const FrameFile& file, const PointOrder& point_order, const std::optional<Scene>& scene,
                     int dimension, FrameConstants& constants);
 
 /// Their columns as the page names them, packed. Ids that count from 0 are left out.

@@ -30,8 +30,8 @@ void merge(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& mo
   all = std::move(both);
 }
 
-void look_at(const FrameFile& file, const std::filesystem::path& path, std::size_t frames,
-             FrameSurvey& survey) {
+void survey_frame(const FrameFile& file, const std::filesystem::path& path, std::size_t frames,
+                  FrameSurvey& survey) {
   Polylines cracks = read_lines(file.reader(), path);
   const std::size_t stride = file.size() * frames / kSample + 1;
   merge(survey.ids, shown_ids(file.reader(), survey.particle_stride));
@@ -71,7 +71,7 @@ FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t pa
       const FrameFile file(frame.file);
       if (survey.frames.empty()) survey.fields = frame_fields(file.reader(), dimension, picture, rigid);
       survey.extents.resize(survey.fields.size());
-      look_at(file, frame.file, frames.size(), survey);
+      survey_frame(file, frame.file, frames.size(), survey);
       survey.frames.push_back(frame);
     } catch (const FileError& error) {
       notices.push_back(fmt::format("A frame is left out: {}.", error.what()));
@@ -89,16 +89,16 @@ std::vector<double> shown_points(const VtuReader& file, const std::optional<View
   return points;
 }
 
-Places find_places(const VtuReader& file, const FrameSurvey& survey) {
-  Places places;
+PointOrder find_point_order(const VtuReader& file, const FrameSurvey& survey) {
+  PointOrder point_order;
   const std::vector<std::uint32_t> ids = file.read<std::uint32_t>("id");
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const auto at = std::lower_bound(survey.ids.begin(), survey.ids.end(), ids[i]);
     if (at == survey.ids.end() || *at != ids[i]) continue;
-    places.in_file.push_back(i);
-    places.in_page.push_back(static_cast<std::size_t>(at - survey.ids.begin()));
+    point_order.in_file.push_back(i);
+    point_order.in_page.push_back(static_cast<std::size_t>(at - survey.ids.begin()));
   }
-  return places;
+  return point_order;
 }
 
 std::array<FrameField, 4> gradient_fields() {

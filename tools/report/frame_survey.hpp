@@ -50,10 +50,10 @@ FrameSurvey survey_frames(const std::vector<SeriesFrame>& frames, std::size_t pa
 std::vector<double> shown_points(const VtuReader& file, const std::optional<Viewed>& viewed);
 
 /// Where the particles of a file that are shown lie: in the file, and in the survey's ids.
-struct Places {
+struct PointOrder {
   std::vector<std::size_t> in_file, in_page;
 };
-Places find_places(const VtuReader& file, const FrameSurvey& survey);
+PointOrder find_point_order(const VtuReader& file, const FrameSurvey& survey);
 
 /// F in the plane, an entry each: xx xy yx yy; NaN without one.
 std::array<FrameField, 4> gradient_fields();

@@ -55,7 +55,7 @@ class FramePacker {
     plan_columns(values <= kFineValues, values <= kCloseValues ? kCloseSteps : kFarSteps);
     for (std::size_t f = 0; f < survey_.frames.size(); ++f) read_frame(f);
     constant_columns_ = packed_constants(constants_, survey_.ids);
-    for (auto* columns : {&places_, &gradient_, &fields_})
+    for (auto* columns : {&positions_, &gradient_, &fields_})
       for (FrameColumn& column : *columns)
         column.packed = pack_levels(column.values, width_, column.levels.bits());
   }
@@ -64,7 +64,7 @@ class FramePacker {
   std::size_t least_bytes() const {
     std::size_t bytes = 0;
     for (const auto& column : constant_columns_) bytes += column.second.size();
-    for (const FrameColumn& column : places_) bytes += column.packed.bytes.size();
+    for (const FrameColumn& column : positions_) bytes += column.packed.bytes.size();
     for (std::size_t k = 0; k < std::min(kKeptFields, fields_.size()); ++k)
       bytes += fields_[k].packed.bytes.size();
     return bytes;
@@ -77,7 +77,7 @@ class FramePacker {
   void read_frame(std::size_t frame);
   std::vector<FrameColumn*> all_columns() {
     std::vector<FrameColumn*> out;
-    for (auto* columns : {&places_, &gradient_, &fields_})
+    for (auto* columns : {&positions_, &gradient_, &fields_})
       for (FrameColumn& column : *columns) out.push_back(&column);
     return out;
   }
@@ -90,7 +90,7 @@ class FramePacker {
   std::size_t width_;  ///< particles that are ever shown
   FrameConstants constants_;
   std::vector<std::pair<std::string, std::string>> constant_columns_;  ///< name, packed
-  std::vector<FrameColumn> places_, gradient_, fields_;
+  std::vector<FrameColumn> positions_, gradient_, fields_;
 };
 
 void FramePacker::plan_columns(bool fine, double steps_per_particle) {
@@ -107,7 +107,7 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
   constexpr std::array<const char*, 3> axes{"x", "y", "z"};
   for (std::size_t d = 0; d < static_cast<std::size_t>(dimension_); ++d) {
     const double lower = survey_.box[d].empty() ? 0 : survey_.box[d].lower;
-    places_.push_back(
+    positions_.push_back(
         {{axes[d], "m", "Points", d, FrameField::Kind::component}, Levels::spaced(lower, spacing, 16), {}});
   }
   if (dimension_ == 2)
@@ -121,14 +121,15 @@ void FramePacker::plan_columns(bool fine, double steps_per_particle) {
 
 void FramePacker::read_frame(std::size_t frame) {
   const FrameFile file(survey_.frames[frame].file);
-  const Places places = find_places(file.reader(), survey_);
-  note_constants(file, places, scene_, dimension_, constants_);
+  const PointOrder point_order = find_point_order(file.reader(), survey_);
+  note_constants(file, point_order, scene_, dimension_, constants_);
   const auto put = [&](FrameColumn& column, const auto& value) {
-    for (std::size_t k = 0; k < places.in_file.size(); ++k)
-      column.values[frame * width_ + places.in_page[k]] = column.levels.nearest(value(places.in_file[k]));
+    for (std::size_t k = 0; k < point_order.in_file.size(); ++k)
+      column.values[frame * width_ + point_order.in_page[k]] =
+          column.levels.nearest(value(point_order.in_file[k]));
   };
   const std::vector<double> points = shown_points(file.reader(), survey_.viewed);
-  for (FrameColumn& column : places_)
+  for (FrameColumn& column : positions_)
     put(column, [&](std::size_t i) { return points[3 * i + column.field.component]; });
   for (auto* columns : {&gradient_, &fields_})
     for (FrameColumn& column : *columns) {
@@ -170,7 +171,7 @@ Json FramePacker::describe_lines() const {
       Json points = Json::array();
       for (const Vec<2>& x : without_needless(line, widest / kMostSteps))
         for (std::size_t d = 0; d < 2; ++d) {
-          const Levels& levels = places_[d].levels;
+          const Levels& levels = positions_[d].levels;
           points.push_back(std::llround((x[static_cast<int>(d)] - levels.lower()) / levels.spacing()));
         }
       all.push_back(std::move(points));
@@ -219,8 +220,8 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
     used += packed.size();
     json[name] = chunks.add(packed);
   }
-  for (const FrameColumn& column : places_) used += column.packed.bytes.size();
-  for (const FrameColumn& column : places_) json["places"].push_back(describe(column, chunks));
+  for (const FrameColumn& column : positions_) used += column.packed.bytes.size();
+  for (const FrameColumn& column : positions_) json["places"].push_back(describe(column, chunks));
   if (std::any_of(survey_.cracks.begin(), survey_.cracks.end(),
                   [](const Polylines& lines) { return !lines.empty(); }))
     json["lines"] = describe_lines();

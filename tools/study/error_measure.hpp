@@ -12,7 +12,7 @@
 namespace mpmfast {
 
 enum class Compare { maximum, root_mean_square, final_value, crossing };
-inline constexpr std::array<Word<Compare>, 4> kCompares{{
+inline constexpr std::array<Keyword<Compare>, 4> kCompares{{
     {Compare::maximum, "max", "largest difference from the reference in the window"},
     {Compare::root_mean_square, "rms", "root of the mean squared difference in the window"},
     {Compare::final_value, "final", "the last value, against `expected` or the reference"},
@@ -20,7 +20,7 @@ inline constexpr std::array<Word<Compare>, 4> kCompares{{
 }};
 
 enum class Relative { pointwise, maximum, absolute };
-inline constexpr std::array<Word<Relative>, 3> kRelatives{{
+inline constexpr std::array<Keyword<Relative>, 3> kRelatives{{
     {Relative::pointwise, "pointwise", "to the reference at the same place (default)"},
     {Relative::maximum, "maximum", "to the largest value of the reference in the window"},
     {Relative::absolute, "no", "the difference itself"},

@@ -107,7 +107,7 @@ class Expansion {
     for (const Setting& setting : settings) {
       if (diagnostic.file != fmt::format("--set {}={}", setting.override.first, setting.override.second))
         continue;
-      return problems_.add(setting.place, setting.path,
+      return problems_.add(setting.location, setting.path,
                            fmt::format("the scene says: {}: {}", diagnostic.path, diagnostic.message),
                            diagnostic.hint);
     }
@@ -132,7 +132,7 @@ class Expansion {
       if (!formula) return;
       for (const std::string& name : formula->expression.names())
         if (others.contains(name))
-          problems_.add(formula->place, formula->path,
+          problems_.add(formula->location, formula->path,
                         fmt::format("the reference has no constant '{}': its axis is not in per", name));
     };
     for (const ErrorSpec& spec : errors)
@@ -186,7 +186,8 @@ class Expansion {
 
   void check_names(const Formula& formula, const std::vector<std::string>& known, const std::string& what) {
     for (const UnknownName& unknown : unknown_names(formula.expression, known))
-      problems_.add(formula.place, formula.path, fmt::format("no {} '{}'", what, unknown.name), unknown.hint);
+      problems_.add(formula.location, formula.path, fmt::format("no {} '{}'", what, unknown.name),
+                    unknown.hint);
   }
 
   const Study& study_;

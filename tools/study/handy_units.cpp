@@ -70,8 +70,8 @@ HandyUnit handy_unit(const std::string& unit, double largest) {
   if (!prefixed || !(largest > 0) || !std::isfinite(largest)) return {1, unit};
   const int highest = unit == "s" ? kNoPrefix : static_cast<int>(kPrefixes.size()) - 1;
   const int thousands = static_cast<int>(std::floor(std::log10(largest) / 3));
-  const int place = std::clamp(thousands + kNoPrefix, 0, highest);
-  return {std::pow(1000.0, kNoPrefix - place), kPrefixes[static_cast<std::size_t>(place)] + unit};
+  const int step = std::clamp(thousands + kNoPrefix, 0, highest);
+  return {std::pow(1000.0, kNoPrefix - step), kPrefixes[static_cast<std::size_t>(step)] + unit};
 }
 
 }  // namespace mpmfast

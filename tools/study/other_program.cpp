@@ -53,9 +53,9 @@ void check_programs(const Study& study) {
       if (!choice.program) continue;
       const fs::path path = program_path(study, *choice.program);
       if (has_control_character(path)) {  // it stands in a comment of the scenes that it runs
-        problems.add(choice.program->place, choice.program->path, "holds a control character");
+        problems.add(choice.program->location, choice.program->path, "holds a control character");
       } else if (find_program(path).empty())
-        problems.add(choice.program->place, choice.program->path,
+        problems.add(choice.program->location, choice.program->path,
                      fmt::format("no program '{}' that could be run", path.string()));
     }
   if (problems.count() > 0) throw SceneError(problems.sorted());

@@ -52,7 +52,7 @@ std::optional<Formula> read_formula(const Value& value) {
     value.complain("not an expression: " + *wrong);
     return std::nullopt;
   }
-  return Formula{std::get<Expression>(parsed), value.node().place, value.path()};
+  return Formula{std::get<Expression>(parsed), value.node().location, value.path()};
 }
 
 void read_formula(MapReader& map, const std::string& key, std::optional<Formula>& out) {
@@ -71,7 +71,7 @@ std::vector<Setting> read_settings(MapReader& map) {
   for (std::size_t k = 0; k < found->size(); ++k) {
     const Key& key = found->node().keys[k];
     const Node& node = found->node().items[k];
-    out.push_back({{key.text, flow_text(node)}, node.place, join(found->path(), key.text)});
+    out.push_back({{key.text, flow_text(node)}, node.location, join(found->path(), key.text)});
   }
   return out;
 }
@@ -177,7 +177,7 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
   for (std::size_t k = 0; k < vary.size(); ++k) {
     const Key& key = vary.node().keys[k];
     const Value value(vary.node().items[k], join(vary.path(), key.text), vary.problems());
-    Axis axis{key.text, key.place, {}};
+    Axis axis{key.text, key.location, {}};
     if ((!value.is(Node::Kind::list) && !value.is(Node::Kind::map)) || value.size() == 0)
       value.complain("not a list of values, or a map of names to {set, let, scene, only, error}");
     for (std::size_t n = 0; n < value.size(); ++n) {
@@ -186,7 +186,7 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
       if (value.is(Node::Kind::list)) {
         const std::string text = flow_text(node);
         choice.name = node.kind == Node::Kind::scalar ? node.scalar : text;
-        choice.set.push_back({{key.text, text}, node.place, join(value.path(), std::to_string(n))});
+        choice.set.push_back({{key.text, text}, node.location, join(value.path(), std::to_string(n))});
       } else {
         choice.name = choice.label = value.node().keys[n].text;
         MapReader map(Value(node, join(value.path(), choice.name), value.problems()),
@@ -199,7 +199,7 @@ void read_axes(const Value& vary, const std::filesystem::path& folder, std::vect
         map.finish();
       }
       if (find_choice(axis, choice.name))
-        value.problems().add(node.place, value.path(), fmt::format("'{}' is given twice", choice.name));
+        value.problems().add(node.location, value.path(), fmt::format("'{}' is given twice", choice.name));
       axis.choices.push_back(std::move(choice));
     }
     axes.push_back(std::move(axis));
@@ -226,7 +226,7 @@ void read_only_of_axes(const Value& vary, std::vector<Axis>& axes) {
 
 /// `vary` was read before, so that `only` can name its axes.
 Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
-  Axis axis{"variants", list.node().place, {}};
+  Axis axis{"variants", list.node().location, {}};
   if (!list.is(Node::Kind::list) || list.size() == 0) {
     list.complain("not a list of {name, set, let, only, program}");
     return axis;
@@ -241,7 +241,7 @@ Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
     choice.only = read_only(map, axes);
     if (const auto program = map.find("program"))
       if (const auto path = program->text())
-        choice.program = Setting{{"program", *path}, program->node().place, program->path()};
+        choice.program = Setting{{"program", *path}, program->node().location, program->path()};
     map.finish();
     if (find_choice(axis, choice.name)) list.item(k).report(fmt::format("'{}' is given twice", choice.name));
     axis.choices.push_back(std::move(choice));
@@ -250,7 +250,7 @@ Axis read_variants(const Value& list, const std::vector<Axis>& axes) {
 }
 
 std::optional<std::size_t> read_axis(const Value& value, const std::vector<Axis>& axes) {
-  return value.word_index(axis_names(axes));
+  return value.keyword_index(axis_names(axes));
 }
 
 }  // namespace mpmfast

@@ -187,8 +187,8 @@ void read_costs(MapReader& top, std::vector<Cost>& costs) {
   if (list && found->size() == 0) found->complain("one cost at least was expected");
 }
 
-Formula time_column(Place place, const std::string& path) {
-  return {std::get<Expression>(Expression::parse("time_s")), place, path};
+Formula time_column(SourceLocation location, const std::string& path) {
+  return {std::get<Expression>(Expression::parse("time_s")), location, path};
 }
 
 bool names_every_scene(const Axis& axis) {
@@ -225,7 +225,7 @@ void read_top(const Node& root, Study& study, Problems& problems) {
       enough ? top.find("error") : top.need("error", "a map {quantity, compare, …}; or holds, or quantities");
   if (error) {
     ErrorSpec spec;
-    spec.x = time_column(error->node().place, "error.x");
+    spec.x = time_column(error->node().location, "error.x");
     study.error = read_error(*error, spec, has_reference);
   }
   if (vary && vary->is(Node::Kind::map) && problems.count() == before)

@@ -18,14 +18,14 @@ namespace mpmfast {
 /// An expression, and where it was written.
 struct Formula {
   Expression expression;
-  Place place;
+  SourceLocation location;
   std::string path;
 };
 
 /// One override of the scene, and where it was written.
 struct Setting {
   Override override;
-  Place place;
+  SourceLocation location;
   std::string path;
 };
 
@@ -54,7 +54,7 @@ struct Choice {
 /// The runs are the product of all axes. `variants:` is the first axis.
 struct Axis {
   std::string name;
-  Place place;
+  SourceLocation location;
   std::vector<Choice> choices;
 };
 
@@ -78,7 +78,7 @@ struct Condition {
 };
 
 enum class Over { final_value, maximum, minimum, mean };
-inline constexpr std::array<Word<Over>, 4> kOvers{{
+inline constexpr std::array<Keyword<Over>, 4> kOvers{{
     {Over::final_value, "final", "the value of the last row (default)"},
     {Over::maximum, "max", "the largest value of the history"},
     {Over::minimum, "min", "the smallest value of the history"},
@@ -99,7 +99,7 @@ struct MapSpec {
 };
 
 enum class Cost { wall, particle_steps };
-inline constexpr std::array<Word<Cost>, 2> kCosts{{
+inline constexpr std::array<Keyword<Cost>, 2> kCosts{{
     {Cost::wall, "wall_s", "wall time of the run"},
     {Cost::particle_steps, "particle_steps", "particles x steps"},
 }};

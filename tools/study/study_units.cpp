@@ -18,8 +18,8 @@ bool looks_for_value(const ErrorSpec& spec) {
 }
 
 std::string measured_unit(const StudyRuns& runs, const ErrorSpec& spec) {
-  const bool place = spec.rule.compare == Compare::crossing;
-  return shown_unit(runs, unit_of((place ? spec.x : spec.quantity)->expression));
+  const bool crossing = spec.rule.compare == Compare::crossing;
+  return shown_unit(runs, unit_of((crossing ? spec.x : spec.quantity)->expression));
 }
 
 std::string axis_label(const StudyRuns& runs, const Expression& expression) {

@@ -129,8 +129,8 @@ template <int Dim>
 double recovery_length(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairHistory& before,
                        double inverse_mass, double crossing, double dt) {
   constexpr double kNew = 0.1;
-  const double pressed = std::max(0.0, -impulse.second.dot(normal));
-  const double now = 0.5 * pressed * crossing * crossing * inverse_mass / dt;
+  const double normal_impulse = std::max(0.0, -impulse.second.dot(normal));
+  const double now = 0.5 * normal_impulse * crossing * crossing * inverse_mass / dt;
   return before.touched ? before.recovery_length + kNew * (now - before.recovery_length) : now;
 }
 

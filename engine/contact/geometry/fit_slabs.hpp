@@ -49,7 +49,7 @@ class FitSlabs {
       fitted_.push_back(g);
       Slab& slab = slabs_.back();
       slab.end = fitted_.size();
-      const auto& around = state.tiling.stacks[static_cast<std::size_t>(block)].neighbour;
+      const auto& around = state.tiling.node_blocks[static_cast<std::size_t>(block)].neighbour;
       slab.reach = std::max(slab.reach, *std::max_element(std::begin(around), std::end(around)));
     }
     at_once_ = 1;

@@ -12,12 +12,12 @@ namespace mpmfast {
 
 template <int Dim>
 struct alignas(64) FitWorkspace {
-  int block;                           ///< whose candidates are listed; −1: none
-  Candidates<Dim> candidates;          ///< particles near it
-  std::vector<CloudRoom<Dim>> clouds;  ///< of the slabs whose clouds are kept
-  CloudRoom<Dim> of_pair;              ///< the particles of two fields of a node
-  std::vector<double> side;            ///< −1, 1 or 0 for each particle of a pair (fill_sides)
-  std::vector<Vec<Dim>> sums;          ///< of normals, by pair of a node
+  int block;                                ///< whose candidates are listed; −1: none
+  Candidates<Dim> candidates;               ///< particles near it
+  std::vector<CloudWorkspace<Dim>> clouds;  ///< of the slabs whose clouds are kept
+  CloudWorkspace<Dim> of_pair;              ///< the particles of two fields of a node
+  std::vector<double> side;                 ///< −1, 1 or 0 for each particle of a pair (fill_sides)
+  std::vector<Vec<Dim>> sums;               ///< of normals, by pair of a node
   FitTally tally;
 
   /// The particles of a pair, with their sides in `side`: those of its two fields, or all of them for a
@@ -36,8 +36,8 @@ struct alignas(64) FitWorkspace {
       return cloud.part(low, count);
     }
     of_pair.count = 0;
-    of_pair.append_places(cloud, a_begin, a_end);
-    of_pair.append_places(cloud, b_begin, b_end);
+    of_pair.append_positions(cloud, a_begin, a_end);
+    of_pair.append_positions(cloud, b_begin, b_end);
     fill_sides(count, 0, a_end - a_begin);
     return of_pair.columns(0, count);
   }

@@ -7,7 +7,7 @@
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -17,7 +17,8 @@ struct FreeDirections {
   const Conditions<Dim>* conditions = nullptr;
 
   Vec<Dim> operator()(const ContactNode<Dim>& node, const Vec<Dim>& x) const {
-    return node.constrained ? conditions->free_part({node.held_combination, node.held_axes}, x) : x;
+    return node.constrained ? conditions->free_part({node.constrained_combination, node.constrained_axes}, x)
+                            : x;
   }
 };
 
@@ -34,10 +35,10 @@ void yield_constrained_directions(const FreeDirections<Dim>& free, int threads, 
   for_each_of(static_cast<std::int64_t>(list.nodes.size()), threads, kFew, [&](std::int64_t k) {
     ContactNode<Dim>& node = list.nodes[k];
     for (int f = node.field_begin; f < node.field_end; ++f) {
-      const auto held = free.conditions->held(list.fields[f].slot);
-      node.held_combination = std::max(node.held_combination, held.combination);
-      node.held_axes |= held.axes;
-      node.constrained |= held.any();
+      const auto constraint = free.conditions->constraint(list.fields[f].slot);
+      node.constrained_combination = std::max(node.constrained_combination, constraint.combination);
+      node.constrained_axes |= constraint.axes;
+      node.constrained |= constraint.any();
     }
     if (!node.constrained) return;
     for (int e = node.pair_begin; e < node.pair_end; ++e) {

@@ -44,12 +44,12 @@ class MeanNormals {
     int nodes[power(3, Dim)], count = 0;
   };
   Around around(const ContactNode<Dim>& node) const {
-    Around places;
+    Around found;
     for (int m = 0; m < power(3, Dim); ++m) {
       const int other = contact_neighbour(state_.tiling, list_, node, m);
-      if (other >= 0) places.nodes[places.count++] = other;
+      if (other >= 0) found.nodes[found.count++] = other;
     }
-    return places;
+    return found;
   }
 
   RawNormal<Dim> raw(const ContactNode<Dim>& node, const ContactPair& pair, const Vec<Dim>& normal,

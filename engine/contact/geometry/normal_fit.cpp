@@ -50,7 +50,7 @@ std::size_t NormalFit<Dim>::bytes() const {
     add(near.reach);
     add(near.domain);
     add(near.shape);
-    for (const CloudRoom<Dim>& cloud : work.clouds) {
+    for (const CloudWorkspace<Dim>& cloud : work.clouds) {
       add(cloud.xi);
       add(cloud.shape);
       sum += bytes_in(cloud.number);
@@ -71,12 +71,12 @@ void NormalFit<Dim>::fit_slab(const Run& run, std::size_t slab, ContactList<Dim>
   slabs_.for_each_node(slab, run.state, list, [&](std::size_t k, const ContactNode<Dim>& node) {
     if (!due_[k]) return;
     FitWorkspace<Dim>& work = own_workspace();
-    CloudRoom<Dim>& clouds = work.clouds[at];
+    CloudWorkspace<Dim>& clouds = work.clouds[at];
     if (work.block != node.block) find_candidates(run, list, k, work);
     collect(run, list, node, work.candidates, clouds);
     fit_node(run, node, clouds.columns(clouds.begin, clouds.count), work, list);
     if (!run.choice.smooth) return;
-    kept_[k] = {own_number(), clouds.count, clouds.begin};
+    kept_[k] = {thread_index(), clouds.count, clouds.begin};
     clouds.begin += static_cast<std::size_t>(padded_count(clouds.count));
   });
 }
@@ -144,7 +144,7 @@ void NormalFit<Dim>::find_candidates(const Run& run, const ContactList<Dim>& lis
       box.high[d] = std::max(box.high[d], list.nodes[k].index[d]);
     }
   work.candidates.clear();
-  const auto& block = tiling.stacks[static_cast<std::size_t>(work.block)];
+  const auto& block = tiling.node_blocks[static_cast<std::size_t>(work.block)];
   for (int n = block.begin; n < block.end; ++n) {
     const auto& node_tile = tiling.node_tiles[static_cast<std::size_t>(n)];
     for (int t : node_tile.particle_tile) {
@@ -163,7 +163,7 @@ void NormalFit<Dim>::find_candidates(const Run& run, const ContactList<Dim>& lis
 /// The cloud of a node, field after field. Both sides of a crack have all particles of their body.
 template <int Dim>
 void NormalFit<Dim>::collect(const Run& run, const ContactList<Dim>& list, const ContactNode<Dim>& node,
-                             const Candidates<Dim>& candidates, CloudRoom<Dim>& clouds) {
+                             const Candidates<Dim>& candidates, CloudWorkspace<Dim>& clouds) {
   clouds.count = 0;
   auto piece = candidates.pieces.begin();
   const auto end = candidates.pieces.end();

@@ -42,7 +42,7 @@ class NormalFit {
     std::size_t begin;
   };
 
-  FitWorkspace<Dim>& own_workspace() { return workspaces_[static_cast<std::size_t>(own_number())]; }
+  FitWorkspace<Dim>& own_workspace() { return workspaces_[static_cast<std::size_t>(thread_index())]; }
   FieldRanges ranges(const ContactNode<Dim>& node, int count) const {
     return {first_.data() + node.field_begin, node.field_end - node.field_begin, count};
   }
@@ -54,7 +54,7 @@ class NormalFit {
   void find_candidates(const Run& run, const ContactList<Dim>& list, std::size_t first,
                        FitWorkspace<Dim>& work) const;
   void collect(const Run& run, const ContactList<Dim>& list, const ContactNode<Dim>& node,
-               const Candidates<Dim>& candidates, CloudRoom<Dim>& clouds);
+               const Candidates<Dim>& candidates, CloudWorkspace<Dim>& clouds);
   void take_means(const Run& run, std::size_t slab, ContactList<Dim>& list);
   void count(ContactCounters& counters) const;
 

@@ -6,7 +6,7 @@
 
 #include "engine/contact/published/explicit_pairs.hpp"
 #include "engine/contact/solver/solve_nodes.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -89,7 +89,7 @@ Corrections<Dim>::Corrections(const Scene& scene, const Plan& plan, const PairLa
       laws_(laws),
       method_(scene, plan),
       solves_in_lanes_(
-          plan.one_set && !plan.bridges && scene.cracks.empty() && !laws.any([](const AnyLaw& law) {
+          plan.one_set && !plan.interface_springs && scene.cracks.empty() && !laws.any([](const AnyLaw& law) {
             return !std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
           })),
       workspaces_(static_cast<std::size_t>(omp_get_max_threads())) {}
@@ -219,9 +219,9 @@ auto Corrections<Dim>::solve_nodes(const CorrectionPass<Dim>& pass, const Begin&
   const int asked = n <= kFew ? 1 : pass.state.threads;
   std::atomic<std::uint64_t> all_converged{0}, all_unconverged{0};
   shares_.cut(asked, n, kAtOnce);
-  on_threads(asked, [&](const Member& me) {
+  on_threads(asked, [&](const TeamThread& me) {
     std::uint64_t converged = 0, unconverged = 0;
-    NodeWorkspace<Dim>& work = workspaces_[static_cast<std::size_t>(own_number())];
+    NodeWorkspace<Dim>& work = workspaces_[static_cast<std::size_t>(thread_index())];
     const auto solve_alone = [&](const ContactNode<Dim>& node) {
       ++(solve_together(pass, node, work) ? converged : unconverged);
       finish(node, work);

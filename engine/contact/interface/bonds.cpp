@@ -6,7 +6,7 @@
 
 #include "engine/contact/interface/bond_steps.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 

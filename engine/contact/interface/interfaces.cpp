@@ -9,7 +9,7 @@
 #include "engine/contact/interface/bond_steps.hpp"
 #include "engine/contact/interface/extrapolated_jump.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "kernels/contact/curved_springs.hpp"
 
 namespace mpmfast {
@@ -24,9 +24,10 @@ void apply_compressed_friction(const AnyLaw& law, const PairStart<Dim>& joint, d
                                InterfaceSpring<Dim>& spring, Vec<Dim>& end) {
   spring.friction.setZero();
   const auto slide_with = [&](const Coulomb& friction, const auto& along) {
-    const double pressed = joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
-    if (friction.friction == 0 || !(pressed > 0)) return;
-    const FrictionResult<Dim> after = apply_friction(friction, pressed, along, joint, dt, alone);
+    const double normal_impulse =
+        joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
+    if (friction.friction == 0 || !(normal_impulse > 0)) return;
+    const FrictionResult<Dim> after = apply_friction(friction, normal_impulse, along, joint, dt, alone);
     end = end.dot(joint.normal) * joint.normal + after.rate;
     spring.friction = after.impulse;
   };
@@ -61,8 +62,8 @@ Interfaces<Dim>::Interfaces(const Scene& scene, const Plan& plan, const PairLaws
     : spec_(scene.contact),
       laws_(laws),
       cracks_(cracks),
-      active_(plan.bridges),
-      bonds_active_(plan.bridges &&
+      active_(plan.interface_springs),
+      bonds_active_(plan.interface_springs &&
                     laws.any([](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); })),
       bonds_(scene, laws, cracks),
       impulses_(static_cast<std::size_t>(omp_get_max_threads())) {}
@@ -93,7 +94,7 @@ void Interfaces<Dim>::find_pair(const State<Dim>& state, const ContactNode<Dim>&
   if (geometry.normal.isZero(0)) return;
   const NodeFields<Dim> fields(state, list, node);
   const AnyLaw& law = laws_.law_of(fields, node, pair);
-  if (!joins(law)) return;
+  if (!has_springs(law)) return;
   const int other = partner(fields, node, pair);
   const double m_a = fields.mass(pair.a), m_b = fields.mass(other);
   const bool broken = pairs.is_broken(e), joined = !(std::holds_alternative<Cohesive>(law) && broken),
@@ -142,7 +143,7 @@ void Interfaces<Dim>::apply(State<Dim>& state, const ContactNode<Dim>& node, con
   for (int e = node.pair_begin; e < node.pair_end; ++e) acting += start(state, node, e, free, dt, list);
   if (acting == 0) return;
   const NodeFields<Dim> fields(state, list, node);
-  std::vector<Vec<Dim>>& impulses = impulses_[static_cast<std::size_t>(own_number())];
+  std::vector<Vec<Dim>>& impulses = impulses_[static_cast<std::size_t>(thread_index())];
   impulses.assign(static_cast<std::size_t>(fields.count()), Vec<Dim>::Zero());
   solve_node(fields, node, acting, free, dt, list, impulses);
   for (int k = 0; k < fields.count(); ++k) {

@@ -9,7 +9,7 @@
 #include "engine/contact/interface/interface_spring.hpp"
 #include "engine/state/indexed.hpp"
 #include "engine/state/state.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 #include "kernels/contact/contact_status.hpp"
 #include "kernels/dimension.hpp"
 
@@ -105,10 +105,10 @@ struct ContactNode {
   NodeIndex<Dim> index;        ///< coordinates, cells
   int field_begin, field_end;  ///< into ContactList::fields
   int pair_begin, pair_end;    ///< into ContactList::pairs
-  int explicit_begin;         ///< pairs from here on are the explicit pairs of a node of three or more fields
-  int rigid;                  ///< which of its fields is the rigid one; −1: none
-  int held_combination = -1;  ///< what conditions hold of its fields (Conditions::Held)
-  unsigned held_axes{};
+  int explicit_begin;  ///< pairs from here on are the explicit pairs of a node of three or more fields
+  int rigid;           ///< which of its fields is the rigid one; −1: none
+  int constrained_combination = -1;  ///< what conditions hold of its fields (Conditions::Constraint)
+  unsigned constrained_axes{};
   bool constrained = false;  ///< by either: contact acts in the remaining directions
 };
 

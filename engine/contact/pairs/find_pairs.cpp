@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -22,13 +22,13 @@ std::size_t PairFinder<Dim>::bytes() const {
 template <int Dim>
 void PairFinder<Dim>::find(const State<Dim>& state, PairMemory<Dim>& memory, ContactList<Dim>& list) {
   constexpr std::size_t kFewest = 64;  // blocks, below which threads would wait more than work
-  const std::size_t blocks = state.tiling.stacks.size();
+  const std::size_t blocks = state.tiling.node_blocks.size();
   memory.store(list, state.threads);
-  list.node_at.resize(state.tiling.places());
+  list.node_at.resize(state.tiling.block_nodes());
   field_begin_.resize(blocks + 1);
   const int asked = blocks < kFewest ? 1 : state.threads;
   listings_.resize(std::max(static_cast<std::size_t>(asked), listings_.size()));
-  on_threads(asked, [&](const Member& me) {
+  on_threads(asked, [&](const TeamThread& me) {
     const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
     Listing& mine = listings_[thread];
     const std::size_t begin = blocks * thread / threads, end = blocks * (thread + 1) / threads;
@@ -55,7 +55,7 @@ void PairFinder<Dim>::find(const State<Dim>& state, PairMemory<Dim>& memory, Con
 /// The number of fields that the contact nodes of a block have together.
 template <int Dim>
 int PairFinder<Dim>::count_fields(const State<Dim>& state, std::size_t b) const {
-  const auto& block = state.tiling.stacks[b];
+  const auto& block = state.tiling.node_blocks[b];
   if (block.end - block.begin < 2) return 0;
   const double* mass = state.nodes.column(Nodal::mass);
   int sum = 0;
@@ -75,7 +75,7 @@ void PairFinder<Dim>::list_block(const State<Dim>& state, std::size_t b, Contact
   std::fill_n(node_at, kTileNodes<Dim>, -1);
   int next = field_begin_[b];
   if (next == field_begin_[b + 1]) return;
-  const auto& block = state.tiling.stacks[b];
+  const auto& block = state.tiling.node_blocks[b];
   const double* mass = state.nodes.column(Nodal::mass);
   const std::size_t begin = out.nodes.size();
   for (int local = 0; local < kTileNodes<Dim>; ++local) {

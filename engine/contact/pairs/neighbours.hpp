@@ -24,7 +24,7 @@ int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& list, c
     rest /= kTileSide;
     position /= 3;
   }
-  const int block = tiling.stacks[static_cast<std::size_t>(node.block)].neighbour[block_digit];
+  const int block = tiling.node_blocks[static_cast<std::size_t>(node.block)].neighbour[block_digit];
   return block < 0 ? -1
                    : list.node_at[static_cast<std::size_t>(block) * kTileNodes<Dim> +
                                   static_cast<std::size_t>(local)];

@@ -5,7 +5,7 @@
 
 #include "engine/contact/geometry/fit_choice.hpp"
 #include "engine/state/check_values.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
@@ -42,9 +42,9 @@ template <int Dim>
 std::uint64_t pair_key(const State<Dim>& state, const ContactList<Dim>& list, const ContactNode<Dim>& node,
                        const ContactPair& pair) {
   constexpr std::uint64_t kCrack = std::uint64_t{1} << 63;
-  const auto& block = state.tiling.stacks[static_cast<std::size_t>(node.block)];
+  const auto& block = state.tiling.node_blocks[static_cast<std::size_t>(node.block)];
   const auto tile =
-      static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(block.begin)].place);
+      static_cast<std::uint64_t>(state.tiling.node_tiles[static_cast<std::size_t>(block.begin)].tile_index);
   const auto field = [&](int k) {
     return static_cast<std::uint64_t>(list.fields[node.field_begin + k].field);
   };
@@ -61,8 +61,8 @@ PairMemory<Dim>::PairMemory(const Scene& scene, const Plan& plan, const PairLaws
     // Lumped pairs come before the explicit ones of their node.
     : in_order_(scene.contact.fields != ManyFields::pairs && scene.cracks.empty()),
       separates_(FitChoice(scene.contact).separate),
-      has_springs_(plan.bridges),
-      has_bonds_(plan.bridges &&
+      has_springs_(plan.interface_springs),
+      has_bonds_(plan.interface_springs &&
                  laws.any([](const AnyLaw& law) { return std::holds_alternative<Cohesive>(law); })),
       has_fits_(plan.keeps_fits) {}
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast::penalty {
 
@@ -120,7 +120,7 @@ void CandidateSearch<Dim>::build(const SurfaceGeometry<Dim>& geometry, const Bod
   // Threads take stretches of facets in order of their numbers, so that merged lists are in order.
   for_each_of(static_cast<std::int64_t>(nearby_.facets.size()), threads, kSerialFacets, [&](std::int64_t k) {
     find_candidates(item(nearby_.facets, k), geometry.surfaces(), bins_, bounds_, pairs,
-                    item(workspaces_, own_number()));
+                    item(workspaces_, thread_index()));
   });
   merge(geometry);
 }

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "engine/contact/penalty/penetration.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast::penalty {
 
@@ -153,20 +153,20 @@ template <int Dim>
 [[gnu::always_inline]] inline void Classifier<Dim>::project(const Point& point, int f, double squared,
                                                             Projections& found) const {
   const auto& facet = geometry_.facet(f);
-  int place = 0;
-  while (place < found.count && item(found.patch, place).patch < facet.patch) ++place;
-  const bool known = place < found.count && item(found.patch, place).patch == facet.patch;
-  const double reach = known ? item(found.patch, place).closest.distance : pairs_.cell;
+  int index = 0;
+  while (index < found.count && item(found.patch, index).patch < facet.patch) ++index;
+  const bool known = index < found.count && item(found.patch, index).patch == facet.patch;
+  const double reach = known ? item(found.patch, index).closest.distance : pairs_.cell;
   const double most = item(bounds_, f).radius + reach;
   if (squared > most * most) return;
   const auto closest = project_onto(point.x, f, reach);
   if (!closest) return;
   const PatchProjection<Dim> projection{facet.body, facet.patch, f, *closest};
   if (known) {
-    if (projection.precedes(item(found.patch, place))) item(found.patch, place) = projection;
+    if (projection.precedes(item(found.patch, index))) item(found.patch, index) = projection;
   } else if (found.count < kMaxPatches) {
-    for (int m = found.count++; m > place; --m) item(found.patch, m) = item(found.patch, m - 1);
-    item(found.patch, place) = projection;
+    for (int m = found.count++; m > index; --m) item(found.patch, m) = item(found.patch, m - 1);
+    item(found.patch, index) = projection;
   }
 }
 
@@ -240,7 +240,7 @@ void classify(const SurfaceGeometry<Dim>& geometry, const std::vector<FacetBound
   for_each_of(static_cast<std::int64_t>(lists.of_facet.size()), threads, kSerialFacets, [&](std::int64_t k) {
     FacetCandidates& list = item(lists.of_facet, k);
     if (2 * lists.displacement < list.clearance) return;  // both sides may have moved by the displacement
-    const int thread = own_number();
+    const int thread = thread_index();
     const bool outside =
         classifier.classify_facet(list, item(workspaces, thread), item(out, thread).contacts);
     if (outside && lists.displacement == 0) list.clearance = classifier.clearance(list);

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "engine/contact/penalty/moment.hpp"
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast::penalty {
 

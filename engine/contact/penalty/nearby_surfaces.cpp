@@ -12,9 +12,9 @@ namespace {
 template <int Dim>
 void mark_shared_tiles(const Tiling<Dim>& tiling, std::vector<std::uint8_t>& shared) {
   shared.assign(tiling.node_tiles.size(), 0);
-  for (const auto& stack : tiling.stacks)
-    if (stack.end - stack.begin > 1)
-      for (int t = stack.begin; t < stack.end; ++t) item(shared, t) = 1;
+  for (const auto& block : tiling.node_blocks)
+    if (block.end - block.begin > 1)
+      for (int t = block.begin; t < block.end; ++t) item(shared, t) = 1;
 }
 
 /// Marks the boundary points whose particles act on shared tiles.

@@ -1,6 +1,6 @@
 #include "engine/contact/penalty/surface_geometry.hpp"
 
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 namespace mpmfast::penalty {
 

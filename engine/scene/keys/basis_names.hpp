@@ -8,9 +8,9 @@
 namespace mpmfast {
 
 inline constexpr auto kBases = [] {
-  std::array<Word<BasisKind>, kBasisFacts.size()> words{};
+  std::array<Keyword<BasisKind>, kBasisFacts.size()> words{};
   for (std::size_t k = 0; k < words.size(); ++k)
-    words[k] = {static_cast<BasisKind>(k), kBasisFacts[k].word, kBasisFacts[k].says};
+    words[k] = {static_cast<BasisKind>(k), kBasisFacts[k].keyword, kBasisFacts[k].description};
   return words;
 }();
 

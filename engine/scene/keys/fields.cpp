@@ -54,7 +54,7 @@ void Value::complain(const std::string& message, const std::string& hint) const 
 }
 
 void Value::report(const std::string& message, const std::string& hint) const {
-  if (!node_->faulty) problems_->add(node_->place, path_, message, hint);
+  if (!node_->faulty) problems_->add(node_->location, path_, message, hint);
 }
 
 bool Value::is_list(int least, int most) const {
@@ -87,7 +87,7 @@ std::optional<double> Value::quantity(Measure kind, const Limit& limit) const {
   }
   const double value = std::get<double>(parsed);
   if (!limit.holds(value)) {
-    complain(fmt::format("must be {} ({})", limit.says, expected_of(kind)));
+    complain(fmt::format("must be {} ({})", limit.description, expected_of(kind)));
     return std::nullopt;
   }
   return value;
@@ -109,8 +109,8 @@ std::optional<int> Value::integer(int lowest, int highest) const {
 }
 
 std::optional<bool> Value::boolean() const {
-  if (is_word("true")) return true;
-  if (is_word("false")) return false;
+  if (is_keyword("true")) return true;
+  if (is_keyword("false")) return false;
   complain("not true or false");  // yes, no, on and off are words like any other
   return std::nullopt;
 }
@@ -157,10 +157,10 @@ std::string Value::vector_hint(Measure kind, int count) const {
 
 std::optional<std::size_t> Value::reference(std::span<const std::string> known) const {
   if (known.empty() && !problems_->empty()) return std::nullopt;  // they could not be read themselves
-  return word_index(known);
+  return keyword_index(known);
 }
 
-std::optional<std::size_t> Value::word_index(std::span<const std::string> known) const {
+std::optional<std::size_t> Value::keyword_index(std::span<const std::string> known) const {
   const bool scalar = is(Node::Kind::scalar);
   const auto found = scalar ? std::find(known.begin(), known.end(), node_->scalar) : known.end();
   if (found != known.end()) return static_cast<std::size_t>(found - known.begin());
@@ -265,7 +265,7 @@ std::optional<Value> MapReader::find(const std::string& key) {
 std::optional<Value> MapReader::need(const std::string& key, const std::string& expected) {
   auto found = find(key);
   if (!found && valid_ && lacking_.empty()) {
-    value_.problems().add(value_.node().place, join(value_.path(), key),
+    value_.problems().add(value_.node().location, join(value_.path(), key),
                           fmt::format("missing ({})", expected));
   }
   return found;
@@ -292,9 +292,9 @@ void MapReader::refuse(const Key& key, const Node& value) {
   const std::string path = join(value_.path(), key.text);
   for (const Conditional& other : conditional_)
     if (other.key == key.text)
-      return problems.add(key.place, path, fmt::format("needs '{}' beside it", other.condition), "");
+      return problems.add(key.location, path, fmt::format("needs '{}' beside it", other.condition), "");
   const std::string meant = hint_for(key.text, known_, problems);
-  problems.add(key.place, path,
+  problems.add(key.location, path,
                meant.empty() ? fmt::format("unknown key (known here: {})", list_text(known_)) : "unknown key",
                meant.empty() ? hint_for_key(key, value, known_) : meant);
 }

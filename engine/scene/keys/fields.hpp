@@ -40,7 +40,7 @@ class Value {
   Problems& problems() const { return *problems_; }
   bool is(Node::Kind kind) const { return node_->kind == kind; }
   /// Is this the word?
-  bool is_word(const char* word) const { return is(Node::Kind::scalar) && node_->scalar == word; }
+  bool is_keyword(const char* word) const { return is(Node::Kind::scalar) && node_->scalar == word; }
   /// Is this a list of so many entries?
   bool is_list(int least = 0, int most = Form::kNoEnd) const;
 
@@ -75,12 +75,12 @@ class Value {
 
   /// One of a fixed set of words.
   template <class E, std::size_t N>
-  std::optional<E> word(const std::array<Word<E>, N>& words) const {
-    const auto index = word_index(names_of(words));
+  std::optional<E> word(const std::array<Keyword<E>, N>& words) const {
+    const auto index = keyword_index(names_of(words));
     return index ? std::optional(words[*index].value) : std::nullopt;
   }
   /// Index of the word among `known`; nothing and a complaint when it is none of them.
-  std::optional<std::size_t> word_index(std::span<const std::string> known) const;
+  std::optional<std::size_t> keyword_index(std::span<const std::string> known) const;
   /// The same where the words are names that the scene itself gives, of materials or bodies.
   std::optional<std::size_t> reference(std::span<const std::string> known) const;
 
@@ -111,7 +111,7 @@ class MapReader {
   /// Replaces `out` when the key is there and good.
   void boolean(const std::string& key, bool& out);
   template <class E, std::size_t N>
-  bool word(const std::string& key, const std::array<Word<E>, N>& words, E& out) {
+  bool word(const std::string& key, const std::array<Keyword<E>, N>& words, E& out) {
     const auto found = find(key);
     const auto read = found ? found->word(words) : std::nullopt;
     if (read) out = *read;

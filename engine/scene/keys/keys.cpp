@@ -96,7 +96,7 @@ bool Slot::take(std::string& out, const std::vector<std::string>& words) {
   for (const std::string& word : words) offer(word.c_str(), "");
   if (writes()) out_->set(out);
   if (!reads()) return true;
-  const auto index = value_->word_index(words);
+  const auto index = value_->keyword_index(words);
   if (index) out = words[*index];
   return keep(index.has_value());
 }
@@ -111,40 +111,40 @@ bool Slot::reference(int& index, const std::vector<std::string>& names) {
   return keep(read.has_value());
 }
 
-void Slot::offer(const char* word, const char* says) {
-  if (tells()) knowledge_->word(pattern_, word, says);
+void Slot::offer(const char* word, const char* description) {
+  if (describes()) registry_->word(pattern_, word, description);
 }
 
 void Slot::offer(const Form& form) {
-  if (tells()) knowledge_->form(pattern_, form);
+  if (describes()) registry_->form(pattern_, form);
 }
 
 void Slot::write(std::string text) {
   if (writes()) out_->set(std::move(text));
 }
 
-bool Slot::is_word(const char* word, bool chosen, const char* says) {
-  offer(word, says);
+bool Slot::is_keyword(const char* word, bool chosen, const char* description) {
+  offer(word, description);
   if (writes() && chosen) out_->set(word);
-  return (writes() && chosen) || (reads() && value_->is_word(word));
+  return (writes() && chosen) || (reads() && value_->is_keyword(word));
 }
 
 bool Slot::is_map(bool chosen, const MapBody& body) {
-  if (reads() ? !value_->is(Node::Kind::map) : !tells() && !chosen) return false;
+  if (reads() ? !value_->is(Node::Kind::map) : !describes() && !chosen) return false;
   map("a map", body);
-  return !tells();
+  return !describes();
 }
 
 bool Slot::is_list(bool chosen, const std::string& expected, int least, int most, std::size_t& count,
                    const ItemBody& body) {
-  if (reads() ? !value_->is(Node::Kind::list) : !tells() && !chosen) return false;
+  if (reads() ? !value_->is(Node::Kind::list) : !describes() && !chosen) return false;
   list(expected, least, most, count, body);
-  return !tells();
+  return !describes();
 }
 
 bool Slot::map(const std::string& expected, const MapBody& body) {
   offer({Form::Kind::map});
-  Keys keys = reads() ? Keys(*value_, expected) : writes() ? Keys(*out_) : Keys(*knowledge_, pattern_);
+  Keys keys = reads() ? Keys(*value_, expected) : writes() ? Keys(*out_) : Keys(*registry_, pattern_);
   if (reads() && !keys.reader().valid()) return keep(false);
   body(keys);
   if (!keys.open_) keys.close();
@@ -161,11 +161,11 @@ bool Slot::list(const std::string& expected, int least, int most, std::size_t& c
     }
     count = size;
   }
-  if (tells()) count = 1;
+  if (describes()) count = 1;
   if (writes()) out_->kind = Written::Kind::list;
   for (std::size_t k = 0; k < count; ++k) {
     Written item;
-    Slot slot = reads() ? Slot(value_->item(k)) : writes() ? Slot(item) : Slot(*knowledge_, pattern_ + "[]");
+    Slot slot = reads() ? Slot(value_->item(k)) : writes() ? Slot(item) : Slot(*registry_, pattern_ + "[]");
     body(slot, k);
     keep(slot.good());
     if (writes()) out_->add("", std::move(item));
@@ -183,18 +183,20 @@ void Slot::report(const std::string& message, const std::string& hint) {
   keep(!reads());
 }
 
-bool Keys::at(const std::string& name, const char* says, const Slot::Body& body) {
-  return reads() ? read(reader_->find(name), true, body) : describe(name, says, Presence::optional, body);
+bool Keys::at(const std::string& name, const char* description, const Slot::Body& body) {
+  return reads() ? read(reader_->find(name), true, body)
+                 : describe(name, description, Presence::optional, body);
 }
 
-bool Keys::derived_at(const std::string& name, const char* says, const Slot::Body& body) {
-  return reads() ? read(reader_->find(name), true, body) : describe(name, says, Presence::derived, body);
+bool Keys::derived_at(const std::string& name, const char* description, const Slot::Body& body) {
+  return reads() ? read(reader_->find(name), true, body)
+                 : describe(name, description, Presence::derived, body);
 }
 
-bool Keys::need_at(const std::string& name, const char* says, const std::string& expected,
+bool Keys::need_at(const std::string& name, const char* description, const std::string& expected,
                    const Slot::Body& body) {
   return reads() ? read(reader_->need(name, expected), false, body)
-                 : describe(name, says, Presence::needed, body);
+                 : describe(name, description, Presence::needed, body);
 }
 
 bool Keys::read(const std::optional<Value>& found, bool absent, const Slot::Body& body) {
@@ -208,9 +210,10 @@ bool Keys::read(const std::optional<Value>& found, bool absent, const Slot::Body
   return good;
 }
 
-bool Keys::describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
-  if (tells()) {
-    tell(name, says, presence, body);
+bool Keys::describe(const std::string& name, const char* description, Presence presence,
+                    const Slot::Body& body) {
+  if (describes()) {
+    register_key(name, description, presence, body);
     return true;
   }
   Written value;
@@ -220,21 +223,22 @@ bool Keys::describe(const std::string& name, const char* says, Presence presence
   return true;
 }
 
-void Keys::tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body) {
+void Keys::register_key(const std::string& name, const char* description, Presence presence,
+                        const Slot::Body& body) {
   const bool itself = outside_ && name == condition_;  // its presence is the condition: the map may have it
   const std::string map = itself ? *outside_ : pattern_, pattern = join(map, name);
   const bool alternative =
       std::find(alternatives_.begin(), alternatives_.end(), pattern) != alternatives_.end();
   const bool needed = presence == Presence::needed && !alternative && !itself;
-  if (!itself && outside_ && knowledge_->tells(*outside_, name, needed)) return;
-  knowledge_->key(map, pattern, needed, says);
+  if (!itself && outside_ && registry_->describes(*outside_, name, needed)) return;
+  registry_->key(map, pattern, needed, description);
   if (presence == Presence::optional) {
     Written value;
     Slot writing(value);
     body(writing);
-    if (const auto standard = default_text(value)) knowledge_->standard(pattern, *standard);
+    if (const auto standard = default_text(value)) registry_->standard(pattern, *standard);
   }
-  Slot telling(*knowledge_, pattern);
+  Slot telling(*registry_, pattern);
   body(telling);
 }
 
@@ -242,9 +246,9 @@ std::size_t Keys::count(std::size_t written) const {
   return reads() ? reader_->value().size() : writes() ? written : 1;
 }
 
-bool Keys::entry(std::size_t k, const std::string& word, const char* says, std::string& name,
+bool Keys::entry(std::size_t k, const std::string& word, const char* description, std::string& name,
                  const Slot::Body& body) {
-  if (!reads()) return describe(writes() ? name_text(name) : word, says, Presence::chosen, body);
+  if (!reads()) return describe(writes() ? name_text(name) : word, description, Presence::chosen, body);
   name = reader_->value().node().keys[k].text;
   return read(reader_->value().entry(k), true, body);
 }
@@ -252,20 +256,20 @@ bool Keys::entry(std::size_t k, const std::string& word, const char* says, std::
 Keys::Choice Keys::one_of(const KeyGroups& groups, int written) {
   Choice choice;
   choice.given_ = reads() ? reader_->one_of(groups) : written;
-  choice.all_ = tells();
-  if (!tells()) return choice;
-  const bool told = outside_ && knowledge_->has_groups(*outside_, groups);
-  if (!told) knowledge_->groups(pattern_, groups);
+  choice.all_ = describes();
+  if (!describes()) return choice;
+  const bool described = outside_ && registry_->has_groups(*outside_, groups);
+  if (!described) registry_->groups(pattern_, groups);
   for (const auto& group : groups)
     for (const std::string& name : group) {
       alternatives_.push_back(child(name));
-      if (!told) knowledge_->key(pattern_, child(name), false, "");
+      if (!described) registry_->key(pattern_, child(name), false, "");
     }
   return choice;
 }
 
 void Keys::under(const std::string& condition, bool holds, const std::function<void()>& body) {
-  if (!tells()) {
+  if (!describes()) {
     if (holds) body();
     return;
   }
@@ -294,7 +298,7 @@ void Keys::report(const std::string& message, const std::string& hint) {
 }
 
 void Keys::close() {
-  if (tells()) knowledge_->closed(pattern_);
+  if (describes()) registry_->closed(pattern_);
   if (closed_ || !reads()) return;
   closed_ = true;
   reader_->finish();

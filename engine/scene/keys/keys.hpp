@@ -20,7 +20,7 @@
 namespace mpmfast {
 
 // Forms of values, as descriptions state them; of one number see kernels/measure.hpp. Words are an array of
-// Word (names.hpp).
+// Keyword (names.hpp).
 
 struct Whole {
   int least = 0, most = Form::kNoEnd;
@@ -44,9 +44,9 @@ std::string expected_of(const Vector& form);
 std::string expected_of(const Table& form);
 std::string expected_of(const Points& form);
 template <class E, std::size_t N>
-std::string expected_of(const std::array<Word<E>, N>& words) {
+std::string expected_of(const std::array<Keyword<E>, N>& words) {
   std::string out;
-  for (const Word<E>& word : words)
+  for (const Keyword<E>& word : words)
     out += (out.empty() ? "" : &word == &words.back() ? " or " : ", ") + std::string(word.name);
   return out;
 }
@@ -63,11 +63,11 @@ class Slot {
 
   explicit Slot(const Value& value) : value_(value) {}
   explicit Slot(Written& out) : out_(&out) {}
-  Slot(Knowledge& knowledge, std::string pattern) : knowledge_(&knowledge), pattern_(std::move(pattern)) {}
+  Slot(KeyRegistry& knowledge, std::string pattern) : registry_(&knowledge), pattern_(std::move(pattern)) {}
 
   bool reads() const { return value_.has_value(); }
   bool writes() const { return out_ != nullptr; }
-  bool tells() const { return knowledge_ != nullptr; }
+  bool describes() const { return registry_ != nullptr; }
   /// Where it is read.
   const std::optional<Value>& value() const { return value_; }
   bool good() const { return good_; }
@@ -81,7 +81,7 @@ class Slot {
   bool take(std::string& out, const Name& form);
   bool take(std::string& out, const Text& form);
   template <class E, std::size_t N>
-  bool take(E& out, const std::array<Word<E>, N>& words) {
+  bool take(E& out, const std::array<Keyword<E>, N>& words) {
     std::size_t index = 0;
     while (index + 1 < N && words[index].value != out) ++index;
     if (!choose(index, words)) return false;
@@ -93,21 +93,21 @@ class Slot {
   /// The index of one of these entries, by name.
   template <class Entries>
   bool choose(std::size_t& index, const Entries& entries) {
-    for (const auto& one : entries) offer(one.name, one.says);
+    for (const auto& one : entries) offer(one.name, one.description);
     if (writes()) write(entries[index].name);
-    return !reads() || accept(index, value_->word_index(names_of(entries)));
+    return !reads() || accept(index, value_->keyword_index(names_of(entries)));
   }
   /// One of the names that another section gives.
   bool reference(int& index, const std::vector<std::string>& names);
 
   // Where a value has several forms, each of these says whether it is this one: what is read looks so, what
   // is written is `chosen`. What is told is all of them, one after another.
-  bool is_word(const char* word, bool chosen, const char* says = "");
+  bool is_keyword(const char* word, bool chosen, const char* description = "");
   bool is_map(bool chosen, const MapBody& body);
   bool is_list(bool chosen, const std::string& expected, int least, int most, std::size_t& count,
                const ItemBody& body);
   /// For words that their reader finds himself, as "xpic(m)" with m in a range.
-  void offer(const char* word, const char* says);
+  void offer(const char* word, const char* description);
   void offer(const Form& form);
   void write(std::string text);
 
@@ -140,7 +140,7 @@ class Slot {
 
   std::optional<Value> value_;
   Written* out_ = nullptr;
-  Knowledge* knowledge_ = nullptr;
+  KeyRegistry* registry_ = nullptr;
   std::string pattern_;
   bool good_ = true;
 };
@@ -154,53 +154,54 @@ class Keys {
   /// Writes.
   explicit Keys(Written& out) : out_(&out) { out.kind = Written::Kind::map; }
   /// Tells.
-  Keys(Knowledge& knowledge, std::string pattern) : knowledge_(&knowledge), pattern_(std::move(pattern)) {}
+  Keys(KeyRegistry& knowledge, std::string pattern) : registry_(&knowledge), pattern_(std::move(pattern)) {}
 
   bool reads() const { return reader_.has_value(); }
   bool writes() const { return out_ != nullptr; }
-  bool tells() const { return knowledge_ != nullptr; }
+  bool describes() const { return registry_ != nullptr; }
   /// Was all that was read as it must be?
   bool good() const { return good_; }
 
   /// A key that may be absent: the member keeps what it holds.
   template <class T, class F>
-  bool key(const std::string& name, const char* says, T& member, const F& form) {
-    return at(name, says, [&](Slot& slot) { slot.take(member, form); });
+  bool key(const std::string& name, const char* description, T& member, const F& form) {
+    return at(name, description, [&](Slot& slot) { slot.take(member, form); });
   }
-  bool key(const std::string& name, const char* says, bool& member) {
-    return key(name, says, member, Truth{});
+  bool key(const std::string& name, const char* description, bool& member) {
+    return key(name, description, member, Truth{});
   }
   /// A key that must be there.
   template <class T, class F>
-  bool need(const std::string& name, const char* says, T& member, const F& form) {
-    return need_at(name, says, expected_of(form), [&](Slot& slot) { slot.take(member, form); });
+  bool need(const std::string& name, const char* description, T& member, const F& form) {
+    return need_at(name, description, expected_of(form), [&](Slot& slot) { slot.take(member, form); });
   }
 
   /// A key whose value is described at its place. @return false where it is read and wrong
-  bool at(const std::string& name, const char* says, const Slot::Body& body);
-  bool need_at(const std::string& name, const char* says, const std::string& expected,
+  bool at(const std::string& name, const char* description, const Slot::Body& body);
+  bool need_at(const std::string& name, const char* description, const std::string& expected,
                const Slot::Body& body);
 
   /// As key and at, where what is taken in its absence follows from other keys: no default is told.
   template <class T, class F>
-  bool derived(const std::string& name, const char* says, T& member, const F& form) {
-    return derived_at(name, says, [&](Slot& slot) { slot.take(member, form); });
+  bool derived(const std::string& name, const char* description, T& member, const F& form) {
+    return derived_at(name, description, [&](Slot& slot) { slot.take(member, form); });
   }
-  bool derived_at(const std::string& name, const char* says, const Slot::Body& body);
+  bool derived_at(const std::string& name, const char* description, const Slot::Body& body);
 
   /// How many entries a map has whose keys the user chooses; `written` of them are written.
   std::size_t count(std::size_t written) const;
   /// The k-th of them; `word` stands for its name in patterns.
-  bool entry(std::size_t k, const std::string& word, const char* says, std::string& name,
+  bool entry(std::size_t k, const std::string& word, const char* description, std::string& name,
              const Slot::Body& body);
 
   /// A section that may be absent, or must be there: a map.
-  bool section(const std::string& name, const char* says, const std::string& expected, const MapBody& body) {
-    return at(name, says, [&](Slot& slot) { slot.map(expected, body); });
+  bool section(const std::string& name, const char* description, const std::string& expected,
+               const MapBody& body) {
+    return at(name, description, [&](Slot& slot) { slot.map(expected, body); });
   }
-  bool need_section(const std::string& name, const char* says, const std::string& expected,
+  bool need_section(const std::string& name, const char* description, const std::string& expected,
                     const MapBody& body) {
-    return need_at(name, says, expected.substr(expected.find('{')),
+    return need_at(name, description, expected.substr(expected.find('{')),
                    [&](Slot& slot) { slot.map(expected, body); });
   }
 
@@ -233,7 +234,7 @@ class Keys {
   /// Every other key is refused. A map that does not say so is closed when its description ends.
   void close();
   /// It is not: nobody knows what it may hold.
-  void leave_open() { open_ = true; }
+  void allow_other_keys() { open_ = true; }
 
  private:
   friend class Slot;
@@ -242,12 +243,13 @@ class Keys {
   /// @param absent  what is returned where nothing is found
   bool read(const std::optional<Value>& found, bool absent, const Slot::Body& body);
   /// Writes or tells.
-  bool describe(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
-  void tell(const std::string& name, const char* says, Presence presence, const Slot::Body& body);
+  bool describe(const std::string& name, const char* description, Presence presence, const Slot::Body& body);
+  void register_key(const std::string& name, const char* description, Presence presence,
+                    const Slot::Body& body);
 
   std::optional<MapReader> reader_;
   Written* out_ = nullptr;
-  Knowledge* knowledge_ = nullptr;
+  KeyRegistry* registry_ = nullptr;
   std::string pattern_, condition_;        ///< the innermost
   std::optional<std::string> outside_;     ///< the pattern without it
   std::vector<std::string> alternatives_;  ///< patterns of one_of's keys: none is needed by itself

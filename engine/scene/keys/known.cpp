@@ -24,7 +24,7 @@ const Form* Known::form(Form::Kind kind) const {
   return found == forms.end() ? nullptr : &*found;
 }
 
-void Knowledge::form(const std::string& pattern, const Form& form) {
+void KeyRegistry::form(const std::string& pattern, const Form& form) {
   std::vector<Form>& forms = found_[pattern].forms;
   for (Form& known : forms) {
     if (!alike(known, form)) continue;
@@ -35,24 +35,25 @@ void Knowledge::form(const std::string& pattern, const Form& form) {
   insert(form, forms);
 }
 
-void Knowledge::word(const std::string& pattern, const std::string& name, const std::string& says) {
+void KeyRegistry::word(const std::string& pattern, const std::string& name, const std::string& description) {
   Known& known = found_[pattern];
   if (!known.form(Form::Kind::word)) insert({Form::Kind::word}, known.forms);
   const bool there = std::any_of(known.words.begin(), known.words.end(),
-                                 [&](const KnownWord& word) { return word.name == name; });
-  if (!there) known.words.push_back({name, says});
+                                 [&](const KnownKeyword& word) { return word.name == name; });
+  if (!there) known.words.push_back({name, description});
 }
 
-void Knowledge::key(const std::string& map, const std::string& child, bool needed, const std::string& says) {
+void KeyRegistry::key(const std::string& map, const std::string& child, bool needed,
+                      const std::string& description) {
   const std::string name = child.substr(child.rfind('.') + 1);  // npos + 1 is 0
   std::vector<std::string>& keys = found_[map].keys;
   if (std::find(keys.begin(), keys.end(), name) == keys.end()) keys.push_back(name);
   Known& known = found_[child];
   known.needed = known.needed || needed;
-  if (known.says.empty()) known.says = says;
+  if (known.description.empty()) known.description = description;
 }
 
-void Knowledge::standard(const std::string& pattern, const std::string& text) {
+void KeyRegistry::standard(const std::string& pattern, const std::string& text) {
   if (std::find(chosen_.begin(), chosen_.end(), pattern) != chosen_.end()) return;
   Known& known = found_[pattern];
   const auto same = [&](const std::string& before) {  // a vector has a component more in 3-D
@@ -62,7 +63,7 @@ void Knowledge::standard(const std::string& pattern, const std::string& text) {
   if (!known.standard) known.standard = text;
 }
 
-bool Knowledge::tells(const std::string& map, const std::string& key, bool needed) const {
+bool KeyRegistry::describes(const std::string& map, const std::string& key, bool needed) const {
   const auto holder = found_.find(map), value = found_.find(map + "." + key);
   if (holder == found_.end() || value == found_.end()) return false;
   const auto& keys = holder->second.keys;
@@ -70,7 +71,7 @@ bool Knowledge::tells(const std::string& map, const std::string& key, bool neede
   return there && (value->second.needed || !needed);
 }
 
-bool Knowledge::has_groups(const std::string& map, const KeyGroups& groups) const {
+bool KeyRegistry::has_groups(const std::string& map, const KeyGroups& groups) const {
   const auto holder = found_.find(map);
   return holder != found_.end() && holder->second.one_of == groups;
 }

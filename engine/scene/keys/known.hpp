@@ -31,17 +31,17 @@ struct Form {
 };
 
 /// A word that a value may be, and what it means.
-struct KnownWord {
-  std::string name, says;
+struct KnownKeyword {
+  std::string name, description;
 };
 
 using KeyGroups = std::vector<std::vector<std::string>>;
 
 /// All that is known of the values at one pattern.
 struct Known {
-  std::string says;  ///< what the key means, a sentence
+  std::string description;  ///< what the key means, a sentence
   std::vector<Form> forms;
-  std::vector<KnownWord> words;  ///< where one form is a word
+  std::vector<KnownKeyword> words;  ///< where one form is a word
   bool needed = false;
   std::optional<std::string> standard;  ///< what is taken when the key is absent, as a scene would write it
   bool varies = false;                  ///< another value is taken elsewhere: other keys decide
@@ -53,12 +53,12 @@ struct Known {
 };
 
 /// Hears what the descriptions tell. What is told twice, of planes and of solids, is merged.
-class Knowledge {
+class KeyRegistry {
  public:
   void form(const std::string& pattern, const Form& form);
-  void word(const std::string& pattern, const std::string& name, const std::string& says);
+  void word(const std::string& pattern, const std::string& name, const std::string& description);
   /// @param child  pattern of the key's value
-  void key(const std::string& map, const std::string& child, bool needed, const std::string& says);
+  void key(const std::string& map, const std::string& child, bool needed, const std::string& description);
   void standard(const std::string& pattern, const std::string& text);
   /// From now on, what is told of these values is not what is taken in their absence.
   void choose(const std::vector<std::string>& patterns) { chosen_ = patterns; }
@@ -66,7 +66,7 @@ class Knowledge {
   void groups(const std::string& map, const KeyGroups& groups) { found_[map].one_of = groups; }
 
   /// Has the map this key, needed if that is asked?
-  bool tells(const std::string& map, const std::string& key, bool needed) const;
+  bool describes(const std::string& map, const std::string& key, bool needed) const;
   bool has_groups(const std::string& map, const KeyGroups& groups) const;
 
   /// By pattern.

@@ -32,14 +32,14 @@ void describe_moduli(Keys& map, const char* volumetric, double& modulus, double&
   const auto choice = map.one_of({{volumetric, "shear"}, {"young", "poisson"}});
   if (choice.none()) return report_moduli(map, volumetric);
   if (choice.takes(0)) {
-    map.need(volumetric, lame ? "First Lamé constant." : kBulkSays, modulus,
+    map.need(volumetric, lame ? "First Lamé constant." : kBulkDescription, modulus,
              Number{Measure::pressure, lame ? kNotNegative : kPositive});
-    map.need("shear", kShearSays, shear, kModulus);
+    map.need("shear", kShearDescription, shear, kModulus);
   }
   if (!choice.takes(1)) return;
   double young = 0, poisson = 0;
-  const bool first = map.need("young", kYoungSays, young, kModulus);
-  const bool second = map.need("poisson", kPoissonSays, poisson, kPoisson);
+  const bool first = map.need("young", kYoungDescription, young, kModulus);
+  const bool second = map.need("poisson", kPoissonDescription, poisson, kPoisson);
   if (!map.reads() || !first || !second) return;
   shear = young / (2 * (1 + poisson));
   modulus = lame ? 2 * shear * poisson / (1 - 2 * poisson) : young / (3 * (1 - 2 * poisson));

@@ -10,7 +10,7 @@
 
 namespace mpmfast {
 
-inline constexpr std::array<Word<Space>, 4> kSpaces{{
+inline constexpr std::array<Keyword<Space>, 4> kSpaces{{
     {Space::plane_strain, "plane_strain", "2-D, no strain along z"},
     {Space::plane_stress, "plane_stress", "2-D, no stress along z: thin plates; elastic laws only"},
     {Space::axisymmetric, "axisymmetric",
@@ -18,15 +18,15 @@ inline constexpr std::array<Word<Space>, 4> kSpaces{{
     {Space::three_dimensional, "3d", "three dimensions"},
 }};
 
-inline constexpr std::array<Word<LeavingKind>, 3> kLeaving{{
-    {LeavingKind::stop, "stop", "the run ends as failed when a particle is a cell beyond the grid (default)"},
-    {LeavingKind::outflow, "outflow",
+inline constexpr std::array<Keyword<OutflowKind>, 3> kOutflowKinds{{
+    {OutflowKind::stop, "stop", "the run ends as failed when a particle is a cell beyond the grid (default)"},
+    {OutflowKind::outflow, "outflow",
      "the run goes on without it; history.csv and run.json book what left: mass, energy, momentum"},
-    {LeavingKind::wall, "wall", "each face that boundaries say nothing of is a wall without friction"},
+    {OutflowKind::wall, "wall", "each face that boundaries say nothing of is a wall without friction"},
 }};
 
 /// xpic and fmpm are written with their order, xpic(5).
-inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
+inline constexpr std::array<Keyword<UpdateKind>, 5> kUpdates{{
     {UpdateKind::flip, "flip", "particles take the grid's acceleration; no dissipation (default)"},
     {UpdateKind::pic, "pic", "particles take the grid's velocity; strong damping"},
     {UpdateKind::xpic, "xpic(m)",
@@ -37,7 +37,7 @@ inline constexpr std::array<Word<UpdateKind>, 5> kUpdates{{
      "pic with an affine velocity about each particle: keeps angular momentum; B-splines only"},
 }};
 
-inline constexpr std::array<Word<StrainKind>, 5> kStrains{{
+inline constexpr std::array<Keyword<StrainKind>, 5> kStrains{{
     {StrainKind::first, "first",
      "before the forces: keeps the energy of bodies that bounce or vibrate; may gain in what spins"},
     {StrainKind::last, "last", "after the particles: the cheapest"},
@@ -49,7 +49,7 @@ inline constexpr std::array<Word<StrainKind>, 5> kStrains{{
      "half before, half after from the velocities that particles give back (default): keeps energy"},
 }};
 
-inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
+inline constexpr std::array<Keyword<PositionKind>, 4> kPositions{{
     {PositionKind::grid_end, "grid_end",
      "particles move with the grid's velocity at the end of the step: stable under any pressure (default)"},
     {PositionKind::grid, "grid",
@@ -60,7 +60,7 @@ inline constexpr std::array<Word<PositionKind>, 4> kPositions{{
 }};
 
 /// What is kept of exp(Δt ∇v) after the identity.
-inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
+inline constexpr std::array<Keyword<int>, 4> kDeformationTerms{{
     {1, "1", "F advances by I + dt grad v"},
     {2, "2", "the same with the square of dt grad v (default of strain last and average, also with +)"},
     {MethodSpec::kInverse, "inverse",
@@ -69,7 +69,7 @@ inline constexpr std::array<Word<int>, 4> kDeformationTerms{{
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
-inline constexpr std::array<Word<ContactFamily>, 2> kFamilies{{
+inline constexpr std::array<Keyword<ContactFamily>, 2> kFamilies{{
     {ContactFamily::nodes, "nodes",
      "on nodes that two bodies share: their velocities are corrected (default)"},
     {ContactFamily::penalty, "penalty",
@@ -83,7 +83,7 @@ struct PublishedContact {
   constexpr bool operator==(const PublishedContact&) const = default;
 };
 
-inline constexpr std::array<Word<PublishedContact>, 3> kPublishedContacts{{
+inline constexpr std::array<Keyword<PublishedContact>, 3> kPublishedContacts{{
     {{NormalKind::logistic_regression, SeparationKind::ellipsoid},
      "N20",
      "normal: logistic_regression, separation: ellipsoid (N20 Eq. 20 to 25)"},
@@ -95,7 +95,7 @@ inline constexpr std::array<Word<PublishedContact>, 3> kPublishedContacts{{
      "normal: average_gradient, separation: position_offset (N20 Eq. 16 with 0.8 cells)"},
 }};
 
-inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
+inline constexpr std::array<Keyword<NormalKind>, 11> kNormals{{
     {NormalKind::smoothed_max_margin, "smoothed_max_margin",
      "the mean of max_margin over the touching nodes around; with all that follows (default)"},
     {NormalKind::max_margin, "max_margin",
@@ -115,7 +115,7 @@ inline constexpr std::array<Word<NormalKind>, 11> kNormals{{
     {NormalKind::specified, "specified", "specified_normal, from the lower-numbered field to the higher"},
 }};
 
-inline constexpr std::array<Word<SeparationKind>, 8> kSeparations{{
+inline constexpr std::array<Keyword<SeparationKind>, 8> kSeparations{{
     {SeparationKind::ellipsoid, "ellipsoid",
      "gap between the particles' ellipsoids, radii straight along the normal (default)"},
     {SeparationKind::ellipsoid_support, "ellipsoid_support",
@@ -133,13 +133,13 @@ inline constexpr std::array<Word<SeparationKind>, 8> kSeparations{{
     {SeparationKind::none, "none", "fields that approach are in contact"},
 }};
 
-inline constexpr std::array<Word<DetectionKind>, 3> kDetections{{
+inline constexpr std::array<Keyword<DetectionKind>, 3> kDetections{{
     {DetectionKind::both, "both", "surfaces that approach and overlap (default)"},
     {DetectionKind::velocity, "velocity", "surfaces that approach, near or far"},
     {DetectionKind::separation, "separation", "surfaces that overlap, also where they part: they stick"},
 }};
 
-inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
+inline constexpr std::array<Keyword<ManyFields>, 3> kManyFields{{
     {ManyFields::lump, "lump",
      "each field against all others of the node together (default of published normals)"},
     {ManyFields::pairs, "pairs", "one or two touching pairs are solved by themselves, more are lumped"},
@@ -147,18 +147,18 @@ inline constexpr std::array<Word<ManyFields>, 3> kManyFields{{
      "all touching pairs of the node at once; conserves momentum (default)"},
 }};
 
-inline constexpr std::array<Word<GrowthRule>, 2> kGrowthRules{{
+inline constexpr std::array<Keyword<GrowthRule>, 2> kGrowthRules{{
     {GrowthRule::hoop_stress, "hoop_stress",
      "across the largest hoop stress at the end, where K of it reaches sqrt(E' toughness) (default)"},
     {GrowthRule::energy, "energy", "straight on, where J reaches the toughness"},
 }};
 
-inline constexpr std::array<Word<JumpKind>, 2> kJumps{{
+inline constexpr std::array<Keyword<JumpKind>, 2> kJumps{{
     {JumpKind::extrapolated, "extrapolated", "by the displacements of the particles (default)"},
     {JumpKind::integrated, "integrated", "by the sum of what each step adds, of the nodes around"},
 }};
 
-inline constexpr std::array<Word<AreaKind>, 2> kAreas{{
+inline constexpr std::array<Keyword<AreaKind>, 2> kAreas{{
     {AreaKind::volume_gradient, "volume_gradient", "the node's share of the surface itself (default)"},
     {AreaKind::nodal_volume, "nodal_volume", "from the nodal volumes of the two fields"},
 }};
@@ -171,7 +171,7 @@ inline constexpr std::array<const char*, 14> kPictures{
 
 /// What a face of the grid is in a word.
 enum class FaceKind { wall, symmetry, fixed, free };
-inline constexpr std::array<Word<FaceKind>, 4> kFaceKinds{{
+inline constexpr std::array<Keyword<FaceKind>, 4> kFaceKinds{{
     {FaceKind::wall, "wall", "nothing moves through it, it slides freely"},
     {FaceKind::symmetry, "symmetry", "another word for wall"},
     {FaceKind::fixed, "fixed", "a wall that also holds sideways"},
@@ -179,20 +179,20 @@ inline constexpr std::array<Word<FaceKind>, 4> kFaceKinds{{
 }};
 
 /// Does a wall hold sideways?
-inline constexpr std::array<Word<bool>, 2> kWallKinds{{
+inline constexpr std::array<Keyword<bool>, 2> kWallKinds{{
     {false, "sliding", "it slides freely"},
     {true, "held", "it also holds sideways"},
 }};
 
 /// Where a wall acts.
-inline constexpr std::array<Word<WallPlace>, 3> kWallPlaces{{
-    {WallPlace::nodes, "nodes", "it holds the nodes at and beyond its plane"},
-    {WallPlace::plane, "plane", "it holds its plane, where that cuts a cell"},
-    {WallPlace::surface, "surface", "it pushes what reaches its plane, which may part again and rub"},
+inline constexpr std::array<Keyword<WallEnforcement>, 3> kWallEnforcements{{
+    {WallEnforcement::nodes, "nodes", "it holds the nodes at and beyond its plane"},
+    {WallEnforcement::plane, "plane", "it holds its plane, where that cuts a cell"},
+    {WallEnforcement::surface, "surface", "it pushes what reaches its plane, which may part again and rub"},
 }};
 
 /// Do particles lie on rings?
-inline constexpr std::array<Word<bool>, 2> kSeedings{{
+inline constexpr std::array<Keyword<bool>, 2> kSeedings{{
     {false, "lattice", "on the grid's lattice, of a box on one of its own (default)"},
     {true, "rings", "about the centre of a disk or a ring, so that its outline is smooth"},
 }};
@@ -219,8 +219,8 @@ inline const FaceName* face_named(std::string_view name) {
 
 /// The name of a choice, as a scene writes it.
 template <class E, std::size_t N>
-std::string_view name_of(const std::array<Word<E>, N>& words, E value) {
-  for (const Word<E>& word : words) {
+std::string_view name_of(const std::array<Keyword<E>, N>& words, E value) {
+  for (const Keyword<E>& word : words) {
     if (word.value == value) return word.name;
   }
   return "";

@@ -20,7 +20,7 @@ std::string limit_text(const Limit& limit) {
   if (limit.same(kAny)) return "";
   if (limit.same(kPositive)) return " > 0";
   if (limit.same(kNotNegative)) return " ≥ 0";
-  return std::string(" ") + limit.says;
+  return std::string(" ") + limit.description;
 }
 
 std::string units_text(Measure measure, bool units) {
@@ -84,7 +84,7 @@ std::string one_form(const std::string& pattern, const Form& form, bool units) {
   }
   constexpr std::size_t kFew = 3;
   std::vector<std::string> words;
-  for (const KnownWord& word : known_at(pattern).words) words.push_back(word.name);
+  for (const KnownKeyword& word : known_at(pattern).words) words.push_back(word.name);
   return words.size() <= kFew ? fmt::format("{}", fmt::join(words, ", ")) : "word";
 }
 

@@ -68,11 +68,11 @@ std::vector<Json> Definitions::quantity(Measure measure, const Limit& limit) {
   std::string name = definition_name(measure);
   if (!limit.moves && limit.lower >= 0) name += limit.lower_open ? "_positive" : "_not_negative";
   const QuantityKind& kind = kind_of(measure);
-  const std::string says =
+  const std::string description =
       *kind.units ? fmt::format("{} with its unit: {}", kind.name, kind.units) : kind.name;
   return {number, reference(name, {{"type", "string"},
                                    {"pattern", quantity_pattern(measure, limit)},
-                                   {"description", says}})};
+                                   {"description", description}})};
 }
 
 Json Definitions::points(const Points& form) {
@@ -100,27 +100,27 @@ Json Definitions::table(Measure measure) {
                      "the points, constant outside."}});
 }
 
-Json Definitions::words(const std::vector<KnownWord>& words, const Form& form) const {
-  Json known = Json::array(), says = Json::array();
+Json Definitions::words(const std::vector<KnownKeyword>& words, const Form& form) const {
+  Json known = Json::array(), description = Json::array();
   std::vector<std::string> ordered;
   const auto add = [&](const Json& word, const std::string& meaning) {
     known.push_back(word);
-    says.push_back(meaning);
+    description.push_back(meaning);
   };
-  for (const KnownWord& word : words) {
+  for (const KnownKeyword& word : words) {
     if (word.name.ends_with("(m)")) {
       for (int m = form.least; m <= form.most; ++m)
-        add(word.name.substr(0, word.name.size() - 2) + fmt::format("{})", m), word.says);
+        add(word.name.substr(0, word.name.size() - 2) + fmt::format("{})", m), word.description);
       continue;
     }
-    add(word.name, word.says);
+    add(word.name, word.description);
     const Json as_number = json_of(word.name);
-    if (!as_number.is_string()) add(as_number, word.says);
+    if (!as_number.is_string()) add(as_number, word.description);
   }
   Json out{{"enum", known}};
-  const bool told =
-      std::any_of(words.begin(), words.end(), [](const KnownWord& w) { return !w.says.empty(); });
-  if (told) out["enumDescriptions"] = out["markdownEnumDescriptions"] = says;
+  const bool described =
+      std::any_of(words.begin(), words.end(), [](const KnownKeyword& w) { return !w.description.empty(); });
+  if (described) out["enumDescriptions"] = out["markdownEnumDescriptions"] = description;
   return out;
 }
 

@@ -22,7 +22,7 @@ class Definitions {
   std::vector<Json> quantity(Measure measure, const Limit& limit);
   Json table(Measure measure);
   Json points(const Points& form);
-  Json words(const std::vector<KnownWord>& words, const Form& form) const;
+  Json words(const std::vector<KnownKeyword>& words, const Form& form) const;
   Json name() const;
 
   /// Adds a schema under this name, and refers to it.

@@ -51,7 +51,7 @@ const std::vector<Directive>& tables() {
   return kTables;
 }
 
-const std::string& sentence_on(const std::string& pattern) { return known_at(pattern).says; }
+const std::string& sentence_on(const std::string& pattern) { return known_at(pattern).description; }
 
 /// The third column.
 std::string default_column(const KnownKey& key) {
@@ -74,9 +74,9 @@ class KeyRows {
     if (has_table(key.pattern)) return;
     for (const KnownKey& inner : all_keys(key.pattern)) add(inner, path + "." + inner.name);
   }
-  void add(const KnownWord& early) {
+  void add(const KnownKeyword& early) {
     text_ += fmt::format("| `{}` | {} | | {} |\n", early.name,
-                         early.name == "include" ? "text, or list of texts" : "map", early.says);
+                         early.name == "include" ? "text, or list of texts" : "map", early.description);
   }
   std::string text() const {
     return "| key | form | default | meaning |\n|---|---|---|---|\n" + text_ + words_;
@@ -100,19 +100,20 @@ class KeyRows {
   }
   void add_words(const KnownKey& key, const std::string& path) {
     const auto& words = known_at(key.pattern).words;
-    const bool told =
-        std::any_of(words.begin(), words.end(), [](const KnownWord& word) { return !word.says.empty(); });
+    const bool described = std::any_of(words.begin(), words.end(),
+                                       [](const KnownKeyword& word) { return !word.description.empty(); });
     const bool listed = path == "law";
     constexpr std::size_t kFew = 3;  // the form names them
-    if (words.empty() || listed || (!told && words.size() <= kFew)) return;
-    words_ += path == "FACE" ? "\nThe words:\n\n" : fmt::format("\n`{}`{}", path, told ? ":\n\n" : ": ");
-    for (const KnownWord& word : words) {
-      if (told)
-        words_ += fmt::format("- `{}`{}{}\n", word.name, word.says.empty() ? "" : ": ", word.says);
+    if (words.empty() || listed || (!described && words.size() <= kFew)) return;
+    words_ += path == "FACE" ? "\nThe words:\n\n" : fmt::format("\n`{}`{}", path, described ? ":\n\n" : ": ");
+    for (const KnownKeyword& word : words) {
+      if (described)
+        words_ +=
+            fmt::format("- `{}`{}{}\n", word.name, word.description.empty() ? "" : ": ", word.description);
       else
         words_ += fmt::format("{}`{}`", &word == &words.front() ? "" : ", ", word.name);
     }
-    if (!told) words_ += "\n";
+    if (!described) words_ += "\n";
   }
 
   std::string caption_, text_, words_;
@@ -129,13 +130,13 @@ std::string units() {
 
 /// A key that several maps may have.
 struct SharedKey {
-  std::string name, form, says;
+  std::string name, form, description;
   std::vector<std::string> owners;
 };
 
 /// Is it the same key? In the plane it has 2 components, and 3 in a solid.
 bool merge(SharedKey& known, const SharedKey& other) {
-  if (known.name != other.name || known.says != other.says) return false;
+  if (known.name != other.name || known.description != other.description) return false;
   if (known.form != other.form) {
     const bool counted = known.form.starts_with("2 ") && other.form.starts_with("3 ");
     const bool both = known.form.starts_with("2 or 3 ");
@@ -169,7 +170,7 @@ std::string shared_keys(const std::vector<CatalogueEntry>& owners, const std::st
   std::string out = "\n| key | form | meaning |\n|---|---|---|\n", last;
   for (const SharedKey& row : rows) {
     const std::string owner = row.name == last ? fmt::format(" ({})", fmt::join(row.owners, ", ")) : "";
-    out += fmt::format("| `{}`{} | {} | {} |\n", row.name, owner, row.form, row.says);
+    out += fmt::format("| `{}`{} | {} | {} |\n", row.name, owner, row.form, row.description);
     last = row.name;
   }
   return out;
@@ -178,7 +179,7 @@ std::string shared_keys(const std::vector<CatalogueEntry>& owners, const std::st
 std::string entries(const char* head, const std::vector<CatalogueEntry>& all) {
   std::string out = fmt::format("| {} | its keys | |\n|---|---|---|\n", head);
   for (const CatalogueEntry& entry : all)
-    out += fmt::format("| `{}` | {} | {} |\n", entry.name, entry.keys, entry.says);
+    out += fmt::format("| `{}` | {} | {} |\n", entry.name, entry.keys, entry.description);
   return out;
 }
 
@@ -209,7 +210,7 @@ std::string table_text(const Directive& table, const std::string& caption) {
   for (const std::string& name : table.keys) {
     for (const KnownKey& key : keys)
       if (key.name == name) rows.add(key, key.name);
-    for (const KnownWord& early : early_keys())
+    for (const KnownKeyword& early : early_keys())
       if (early.name == name) rows.add(early);
   }
   for (const KnownKey& key : keys)
@@ -224,7 +225,7 @@ std::string about(const std::string& key) {
 }
 
 /// @param caption  the line of text before it
-std::string told(const Directive& directive, const std::string& caption) {
+std::string described(const Directive& directive, const std::string& caption) {
   if (directive.verb == "@about") return about(directive.map);
   if (directive.verb == "@units") return units();
   if (directive.verb == "@laws") return entries("law", catalogue("laws"));
@@ -240,7 +241,7 @@ std::string told(const Directive& directive, const std::string& caption) {
 std::string write_reference() {
   std::string out, caption;
   for (const std::string& line : page_lines()) {
-    out += line.starts_with('@') ? told(directive_of(line), caption) : line + "\n";
+    out += line.starts_with('@') ? described(directive_of(line), caption) : line + "\n";
     if (!line.empty()) caption = line;
   }
   return out;

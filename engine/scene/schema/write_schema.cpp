@@ -25,7 +25,7 @@ Json required_of(const std::vector<KnownKey>& keys) {
 /// What an editor shows beside a key: plain, and with the words as a list.
 void describe(const KnownKey& key, Json& schema) {
   const Known& known = known_at(key.pattern);
-  std::string text = known.says;
+  std::string text = known.description;
   text += fmt::format("\n\nForm: {}.", form_text(key.pattern, true));
   const std::string standard = default_text(key.pattern);
   if (!standard.empty())
@@ -34,8 +34,8 @@ void describe(const KnownKey& key, Json& schema) {
   if (known.needed && key.condition == "3d") text += " Needed in 3-D.";
   schema["description"] = text;
   std::string list;
-  for (const KnownWord& word : known.words)
-    if (!word.says.empty()) list += fmt::format("\n- `{}`: {}", word.name, word.says);
+  for (const KnownKeyword& word : known.words)
+    if (!word.description.empty()) list += fmt::format("\n- `{}`: {}", word.name, word.description);
   if (!list.empty()) schema["markdownDescription"] = text + "\n" + list;
   if (!standard.empty()) schema["default"] = json_of(standard);
 }
@@ -69,7 +69,7 @@ class SchemaWriter {
     const Json text{{"type", "string"}};
     Json out{{"variables", {{"type", "object"}, {"additionalProperties", {{"type", {"number", "string"}}}}}},
              {"include", {{"anyOf", {text, {{"type", "array"}, {"items", text}}}}}}};
-    for (const KnownWord& key : early_keys()) out[key.name]["description"] = key.says;
+    for (const KnownKeyword& key : early_keys()) out[key.name]["description"] = key.description;
     return out;
   }
 

@@ -18,7 +18,7 @@ std::optional<int> read_level(const Slot& material, const Key& key,
                               const std::array<bool, kLevels>& present) {
   Node node;
   node.kind = Node::Kind::scalar;
-  node.place = key.place;
+  node.location = key.location;
   node.scalar = key.text;
   const Value level(node, material.value()->path(), material.value()->problems());
   const auto number = level.integer(0, kLevels - 1);
@@ -29,7 +29,7 @@ std::optional<int> read_level(const Slot& material, const Key& key,
 
 void describe_materials(Keys& map, const std::vector<std::string>& names,
                         const std::array<bool, kLevels>& present, BitmapEntry& entry) {
-  map.leave_open();
+  map.allow_other_keys();
   const std::size_t count = map.count(entry.materials.size());
   entry.materials.resize(map.reads() ? 0 : count);
   for (std::size_t k = 0; k < count; ++k) {
@@ -75,9 +75,9 @@ std::size_t pixels_so_far(const Scene& scene) {
 
 void describe_bitmap(Slot& slot, const Scene& scene, BitmapEntry& entry) {
   std::filesystem::path& file = entry.shape.file;
-  constexpr const char* kSays = "Path, counted from the folder of the scene.";
+  constexpr const char* kDescription = "Path, counted from the folder of the scene.";
   const bool map = slot.is_map(false, [&](Keys& keys) {
-    keys.need_at("file", kSays, "an 8-bit grey PNG file",
+    keys.need_at("file", kDescription, "an 8-bit grey PNG file",
                  [&](Slot& inner) { describe_file(inner, scene, file); });
   });
   if (!map && slot.reads() && !slot.value()->is(Node::Kind::scalar))

@@ -81,8 +81,8 @@ void describe_counts(Slot& slot, int dimension, std::array<int, 3>& counts) {
 }
 
 void describe_seeding(Slot& slot, Seeding& seeding) {
-  if (slot.is_word(kSeedings[0].name, !seeding.turned(), kSeedings[0].says)) return;
-  if (slot.is_word(kSeedings[1].name, seeding.rings, kSeedings[1].says)) {
+  if (slot.is_keyword(kSeedings[0].name, !seeding.turned(), kSeedings[0].description)) return;
+  if (slot.is_keyword(kSeedings[1].name, seeding.rings, kSeedings[1].description)) {
     seeding.rings = true;
     return;
   }
@@ -134,7 +134,8 @@ void describe_substance(Keys& map, const Scene& scene, const std::vector<std::st
   if (choice.none()) report_shapes(map);
   bool bitmap = false;
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    if (!choice.takes(static_cast<int>(k)) || (map.tells() && !fits(kinds[k], scene.dimension()))) continue;
+    if (!choice.takes(static_cast<int>(k)) || (map.describes() && !fits(kinds[k], scene.dimension())))
+      continue;
     map.need_at(kinds[k].name, kinds[k].note, "",
                 [&](Slot& slot) { describe_shape(slot, kinds[k], scene, entry); });
     bitmap = !kinds[k].describe && fits(kinds[k], scene.dimension());
@@ -184,19 +185,19 @@ void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string
   });
 }
 
-void add(BodySpec body, const BodyPlace& place, Scene& scene, std::vector<BodyPlace>& places) {
+void add(BodySpec body, const BodyLocation& location, Scene& scene, std::vector<BodyLocation>& locations) {
   if (body.field.empty()) body.field = body.name;
-  check_tables(place.entry, scene, body);
+  check_tables(location.entry, scene, body);
   scene.bodies.push_back(std::move(body));
-  places.push_back(place);
+  locations.push_back(location);
 }
 
 /// The bodies of a bitmap.
-void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
-                std::vector<BodyPlace>& places) {
+void add_levels(const BodyEntry& entry, const BodyLocation& location, Scene& scene,
+                std::vector<BodyLocation>& locations) {
   const BitmapEntry& bitmap = entry.bitmap;
   if (bitmap.levels.empty() && bitmap.shape.image)
-    place.entry.find("bitmap")->report("every grey level of the image is skipped");
+    location.entry.find("bitmap")->report("every grey level of the image is skipped");
   if (!bitmap.shape.image || bitmap.extent == Vec3{}) return;
   for (const int level : bitmap.levels) {
     BodySpec body = entry.body;
@@ -209,13 +210,13 @@ void add_levels(const BodyEntry& entry, const BodyPlace& place, Scene& scene,
     const auto own = std::find_if(bitmap.materials.begin(), bitmap.materials.end(),
                                   [&](const auto& one) { return one.first == std::to_string(level); });
     const bool has_own = own != bitmap.materials.end();
-    if (!has_own && !place.entry.find("material")) {
-      place.entry.report(fmt::format(
+    if (!has_own && !location.entry.find("material")) {
+      location.entry.report(fmt::format(
           "no material for the grey level {} (material: NAME, or materials: {{GREY: NAME}})", level));
       continue;
     }
     if (has_own) body.material = own->second;
-    if (has_own ? own->second >= 0 : entry.made) add(body, place, scene, places);
+    if (has_own ? own->second >= 0 : entry.made) add(body, location, scene, locations);
   }
 }
 
@@ -227,7 +228,7 @@ std::string list_hint(const Node& bodies) {
                : fmt::format("A body begins with a dash, '- {}: …'", bodies.keys[0].text);
 }
 
-void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
+void describe_list(Slot& slot, Scene& scene, std::vector<BodyLocation>& locations) {
   constexpr const char* kExpected = "a list of maps {box | disk | …, material, …}";
   if (slot.reads() && !slot.value()->is(Node::Kind::list))
     return slot.complain(std::string("not ") + kExpected, list_hint(slot.value()->node()));
@@ -242,22 +243,22 @@ void describe_list(Slot& slot, Scene& scene, std::vector<BodyPlace>& places) {
     describe_body(item, scene, materials, entry);
     if (!item.reads() || !entry.shaped) return;
     const Value& value = *item.value();
-    const BodyPlace place{value, value.find("name").value_or(value)};
+    const BodyLocation location{value, value.find("name").value_or(value)};
     if (entry.bitmap.shape.image)
-      add_levels(entry, place, scene, places);
+      add_levels(entry, location, scene, locations);
     else if (entry.made)
-      add(entry.body, place, scene, places);
+      add(entry.body, location, scene, locations);
   });
 }
 
 }  // namespace
 
-std::vector<BodyPlace> describe_bodies(Keys& top, Scene& scene) {
-  std::vector<BodyPlace> places;
+std::vector<BodyLocation> describe_bodies(Keys& top, Scene& scene) {
+  std::vector<BodyLocation> locations;
   top.need_at("bodies", "The bodies, each a shape of one material with a velocity field of its own.",
               "a list of maps {box | disk | …, material, …}",
-              [&](Slot& slot) { describe_list(slot, scene, places); });
-  return places;
+              [&](Slot& slot) { describe_list(slot, scene, locations); });
+  return locations;
 }
 
 }  // namespace mpmfast

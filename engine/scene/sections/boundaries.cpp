@@ -66,7 +66,7 @@ class Boundaries {
     if (!map) {
       kind = FaceKind::free;
       slot.take(kind, kFaceKinds);
-      wall.held = kind == FaceKind::fixed;
+      wall.fixed = kind == FaceKind::fixed;
     }
     if (slot.reads() && kind != FaceKind::free) entry.condition = wall;
   }
@@ -78,12 +78,12 @@ class Boundaries {
     if (choice.none()) map.report("needs either piston (a speed) or wall (held or sliding)");
     if (choice.none()) return false;
     if (choice.takes(0))
-      map.need("wall", "A wall, at another place than the face of the grid.", wall.held, kWallKinds);
+      map.need("wall", "A wall, at another place than the face of the grid.", wall.fixed, kWallKinds);
     if (choice.takes(1))
       map.need("piston", "A wall that moves, and its speed.", wall.speed, Table{Measure::velocity});
     map.under("piston", choice.takes(1), [&] {
       describe_sense(map, face, wall);
-      map.key("held", "The piston also holds sideways.", wall.held);
+      map.key("held", "The piston also holds sideways.", wall.fixed);
     });
     map.derived_at("position", "Where the wall is at time 0; the face of the grid if not given.",
                    [&](Slot& slot) {
@@ -93,20 +93,20 @@ class Boundaries {
     map.key("at",
             "Where the wall acts: on the nodes at and beyond its plane, on its plane, which is exact for a "
             "body that stands against it, or on the surface of what reaches it.",
-            wall.place, kWallPlaces);
+            wall.enforcement, kWallEnforcements);
     describe_friction(map, wall);
     return true;
   }
 
   /// On the surface alone; anywhere else it is answered with that.
   void describe_friction(Keys& map, WallSpec& wall) const {
-    const bool there = wall.place == WallPlace::surface;
-    if (there && wall.held)
+    const bool there = wall.enforcement == WallEnforcement::surface;
+    if (there && wall.fixed)
       map.check("friction", [](Slot& slot) {
         slot.report("a wall that is held lets nothing slide", "Friction is for wall: sliding");
       });
     if (map.reads() && !there) map.reader().begin_lacking("at: surface");
-    map.under("at=surface", map.reads() || (there && !wall.held), [&] {
+    map.under("at=surface", map.reads() || (there && !wall.fixed), [&] {
       map.key("friction", "Coulomb's coefficient of the wall on what touches it.", wall.friction,
               Number{Measure::number, kNotNegative});
     });
@@ -209,7 +209,7 @@ std::vector<BoundaryEntry> written_entries(const Scene& scene) {
 }
 
 /// What is told of: a face, with a wall that stands still or moves, and nodes.
-std::vector<BoundaryEntry> told_entries(const Scene& scene) {
+std::vector<BoundaryEntry> described_entries(const Scene& scene) {
   return {{kFaces[0].name, wall_on(kFaces[0], scene.grid)}, {"", {}}};
 }
 
@@ -242,10 +242,10 @@ void describe_boundaries(Keys& top, bool grid_known, Scene& scene) {
   const Boundaries boundaries(grid_known, scene);
   top.section("boundaries", "Walls on the faces of the grid, and nodes whose velocity is given.",
               "a map {left: wall, …}", [&](Keys& map) {
-                map.leave_open();
+                map.allow_other_keys();
                 auto entries = map.reads()    ? read_entries(map.reader().value().node())
                                : map.writes() ? written_entries(scene)
-                                              : told_entries(scene);
+                                              : described_entries(scene);
                 for (std::size_t k = 0; k < entries.size(); ++k) {
                   describe_entry(map, k, boundaries, entries[k]);
                   if (map.reads() && entries[k].condition)

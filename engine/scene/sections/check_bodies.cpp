@@ -12,7 +12,7 @@ namespace mpmfast {
 namespace {
 
 /// Particles may only lie in the grid.
-void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+void check_inside(const Scene& scene, const BodySpec& body, const BodyLocation& location) {
   const Bounds box = bounds(body.shape);
   const double slack = 1e-6 * scene.grid.cell;
   for (std::size_t k = 0; k < static_cast<std::size_t>(scene.dimension()); ++k) {
@@ -20,7 +20,7 @@ void check_inside(const Scene& scene, const BodySpec& body, const BodyPlace& pla
     const double above = box.upper[k] - (scene.grid.origin[k] + scene.grid.size[k]);
     const auto report = [&](double by, const char* where) {
       const double size = scene.grid.size[k];
-      place.entry.report(
+      location.entry.report(
           fmt::format("body '{}' lies {:.6g} m outside the grid, {} in {} (the body is at {:.6g} to "
                       "{:.6g} m, the grid at {:.6g} to {:.6g} m)",
                       body.name, by, where, "xyz"[k], box.lower[k], box.upper[k], scene.grid.origin[k],
@@ -40,10 +40,10 @@ bool is_round(const Scene& scene, const Shape& shape) {
 }
 
 /// Where particles cannot lie as `seeding` says.
-void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+void check_seeding(const Scene& scene, const BodySpec& body, const BodyLocation& location) {
   if (!body.seeding.turned()) return;
   const auto refuse = [&](const char* why) {
-    if (const auto seeding = place.entry.find("seeding")) seeding->complain(why);
+    if (const auto seeding = location.entry.find("seeding")) seeding->complain(why);
   };
   const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
   if (std::holds_alternative<LinearElastic>(model))
@@ -57,7 +57,7 @@ void check_seeding(const Scene& scene, const BodySpec& body, const BodyPlace& pl
 }
 
 /// Particles have indices of 32 bits, and nobody means a billion of them.
-void check_count(const Scene& scene, const BodySpec& body, const BodyPlace& place) {
+void check_count(const Scene& scene, const BodySpec& body, const BodyLocation& location) {
   constexpr double kMost = 1e9;
   const Bounds box = bounds(body.shape);
   double count = 1;
@@ -65,11 +65,11 @@ void check_count(const Scene& scene, const BodySpec& body, const BodyPlace& plac
     count *= (box.upper[k] - box.lower[k]) / scene.grid.cell * body.particles_per_cell[k];
   }
   if (count > kMost)
-    place.entry.report(fmt::format("body '{}' would have about {:.2g} particles", body.name, count));
+    location.entry.report(fmt::format("body '{}' would have about {:.2g} particles", body.name, count));
 }
 
 /// A rigid body's velocity is given, so nothing may move in one velocity field with it.
-void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
+void check_rigid(const Scene& scene, const std::vector<BodyLocation>& locations) {
   std::map<std::string, int> sharers;
   for (const BodySpec& body : scene.bodies) ++sharers[body.field];
   std::size_t rigid = 0;
@@ -79,51 +79,53 @@ void check_rigid(const Scene& scene, const std::vector<BodyPlace>& places) {
     ++rigid;
     const bool shared = scene.contact.active ? sharers[body.field] > 1 : scene.bodies.size() > 1;
     if (!shared) continue;
-    places[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}",
-                                       body.name, scene.contact.active ? "" : ", because of contact: none"));
+    locations[b].entry.report(fmt::format("the rigid body '{}' shares a velocity field with another body{}",
+                                          body.name,
+                                          scene.contact.active ? "" : ", because of contact: none"));
   }
-  const bool all_read = !places.empty() && places[0].entry.problems().empty();
+  const bool all_read = !locations.empty() && locations[0].entry.problems().empty();
   if (all_read && rigid == scene.bodies.size())
-    places[0].entry.report("every body is rigid: there is nothing to compute");
+    locations[0].entry.report("every body is rigid: there is nothing to compute");
 }
 
 /// One velocity field has one acceleration.
-void check_accelerations(const Scene& scene, const std::vector<BodyPlace>& places) {
+void check_accelerations(const Scene& scene, const std::vector<BodyLocation>& locations) {
   std::map<std::string, Vec3> known;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodySpec& body = scene.bodies[b];
     if (is_rigid(scene, body) && body.acceleration != Vec3{})
-      places[b].entry.find("acceleration")->report("a rigid body moves as it is told");
+      locations[b].entry.find("acceleration")->report("a rigid body moves as it is told");
     if (is_rigid(scene, body)) continue;
     const auto one = known.emplace(scene.contact.active ? body.field : "", body.acceleration).first;
     if (one->second != body.acceleration)
-      places[b].entry.report(
+      locations[b].entry.report(
           fmt::format("'{}' shares a velocity field with a body of another acceleration", body.name));
   }
 }
 
 }  // namespace
 
-void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known) {
+void check_bodies(const Scene& scene, const std::vector<BodyLocation>& locations, bool grid_known) {
   std::set<std::string> names, fields;
   for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
     const BodySpec& body = scene.bodies[b];
     if (!names.insert(body.name).second)
-      places[b].name.report(fmt::format("another body is called '{}'", body.name));
+      locations[b].name.report(fmt::format("another body is called '{}'", body.name));
     if (body.name == "all")
-      places[b].name.report("history.csv calls the means over all bodies 'all': they would share columns",
-                            "Give the body another name");
+      locations[b].name.report("history.csv calls the means over all bodies 'all': they would share columns",
+                               "Give the body another name");
     fields.insert(body.field);
-    check_seeding(scene, body, places[b]);
+    check_seeding(scene, body, locations[b]);
     if (!grid_known) continue;
-    check_inside(scene, body, places[b]);
-    check_count(scene, body, places[b]);
+    check_inside(scene, body, locations[b]);
+    check_count(scene, body, locations[b]);
   }
-  if (names.size() == scene.bodies.size()) check_rigid(scene, places);  // two of one name share a field too
-  check_accelerations(scene, places);
+  if (names.size() == scene.bodies.size())
+    check_rigid(scene, locations);  // two of one name share a field too
+  check_accelerations(scene, locations);
   constexpr std::size_t kMostBodies = 65535;  // particles carry their body in 16 bits
   if (scene.bodies.size() > kMostBodies) {
-    places[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));
+    locations[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include "engine/scene/keys/names.hpp"
 #include "engine/scene/sections/describe.hpp"
-#include "kernels/materials/depth.hpp"
+#include "kernels/materials/out_of_plane.hpp"
 
 namespace mpmfast {
 
@@ -12,7 +12,8 @@ namespace {
 
 /// Can it be asked for its stress where nothing presses along z?
 bool relaxes(const MaterialModel& model) {
-  return std::visit([]<class Law>(const Law&) { return Relaxes<Law> || std::is_same_v<Law, Rigid>; }, model);
+  return std::visit([]<class Law>(const Law&) { return HasPlaneStress<Law> || std::is_same_v<Law, Rigid>; },
+                    model);
 }
 
 /// Contact areas are found in the plane, not on the surface that turns about the axis.
@@ -42,7 +43,7 @@ void make_axis(const Value& top, Scene& scene) {
   for (const BoundarySpec& boundary : scene.boundaries) {
     const auto* wall = std::get_if<WallSpec>(&boundary.condition);
     if (boundary.name != "left" || !wall) continue;
-    const bool slides = !wall->held && wall->speed.value == std::vector<double>{0};
+    const bool slides = !wall->fixed && wall->speed.value == std::vector<double>{0};
     if (slides || wall->position > 0) return;
   }
   left->complain("the left face is the axis here (wall or symmetry, or a wall or piston at a position > 0)");

@@ -60,13 +60,14 @@ void set_published(const PublishedContact& method, ContactSpec& contact) {
 }
 
 void describe_normal(Keys& map, int dimension, ContactSpec& contact) {
-  constexpr const char* kSays = "The normal, from the body listed first to the other, or into a rigid one.";
-  map.at("specified_normal", kSays, [&](Slot& slot) {
+  constexpr const char* kDescription =
+      "The normal, from the body listed first to the other, or into a rigid one.";
+  map.at("specified_normal", kDescription, [&](Slot& slot) {
     if (slot.writes() && contact.specified_normal == Vec3{}) return;
     take_unit_vector(slot, dimension, contact.specified_normal);
   });
   map.under("normal=specified", contact.normal == NormalKind::specified,
-            [&] { map.need_at("specified_normal", kSays, "a vector", [](Slot&) {}); });
+            [&] { map.need_at("specified_normal", kDescription, "a vector", [](Slot&) {}); });
 }
 
 void describe_regression(Keys& map, ContactSpec& contact) {
@@ -155,7 +156,7 @@ void describe_corrections(Keys& map, bool strain_stated, ContactSpec& contact, S
 void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   ContactSpec& contact = scene.contact;
   map.key("family", "Where contact acts.", contact.family, kFamilies);
-  const bool nodes = contact.family == ContactFamily::nodes || map.tells();
+  const bool nodes = contact.family == ContactFamily::nodes || map.describes();
   if (nodes) describe_geometry(map, scene.dimension(), contact);
   describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.",
                scene.heat.active, contact.law);
@@ -178,7 +179,7 @@ void describe_contact(Keys& top, bool strain_stated, Scene& scene) {
   if (!top.writes()) contact.first_correction_share = share_of(scene.method.strain, contact);
   top.at("contact", "How bodies touch; none: all share one velocity field and stick together.",
          [&](Slot& slot) {
-           if (slot.is_word("none", !contact.active))
+           if (slot.is_keyword("none", !contact.active))
              contact.active = false;
            else
              slot.map("none or a map {law, friction, normal, separation, …}",

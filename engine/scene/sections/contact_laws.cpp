@@ -17,12 +17,12 @@ struct Visitor {
   const F& f;
 
   template <class T, class Form>
-  void key(const char* name, const char* says, T& member, const Form& form) const {
-    f(name, says, member, form, false);
+  void key(const char* name, const char* description, T& member, const Form& form) const {
+    f(name, description, member, form, false);
   }
   template <class T, class Form>
-  void need(const char* name, const char* says, T& member, const Form& form) const {
-    f(name, says, member, form, true);
+  void need(const char* name, const char* description, T& member, const Form& form) const {
+    f(name, description, member, form, true);
   }
 };
 
@@ -66,15 +66,15 @@ double number_of(const AnyLaw& law, const std::string& name) {
 
 /// The keys of a law: one that has no default may be absent where another law has given it.
 void describe_parameters(Keys& map, bool given, AnyLaw& law) {
-  for_each_parameter(law,
-                     [&](const char* name, const char* says, auto& member, const auto& form, bool needed) {
-                       if (!needed)
-                         map.key(name, says, member, form);
-                       else if (given)
-                         map.derived(name, says, member, form);
-                       else
-                         map.need(name, says, member, form);
-                     });
+  for_each_parameter(
+      law, [&](const char* name, const char* description, auto& member, const auto& form, bool needed) {
+        if (!needed)
+          map.key(name, description, member, form);
+        else if (given)
+          map.derived(name, description, member, form);
+        else
+          map.need(name, description, member, form);
+      });
 }
 
 bool has(const ContactLawKind& kind, const std::string& name) {
@@ -146,7 +146,7 @@ void check_curves(Keys& map, const AnyLaw& law) {
 }
 
 /// All that any law may say.
-void tell_laws(Keys& map) {
+void register_laws(Keys& map) {
   for (const ContactLawKind& kind : contact_laws()) {
     AnyLaw law = kind.standard;
     describe_parameters(map, true, law);
@@ -157,7 +157,7 @@ template <std::size_t... K>
 std::vector<ContactLawKind> kinds_of(std::index_sequence<K...>) {
   std::vector<ContactLawKind> kinds;
   const auto add = [&]<class Law>(Law law) {
-    kinds.push_back({Law::kWord, Law::kSays, law, {}});
+    kinds.push_back({Law::kKeyword, Law::kDescription, law, {}});
     for_each_parameter(kinds.back().standard,
                        [&](const char* name, const char*, const auto&, const auto&, bool needed) {
                          kinds.back().parameters.push_back({name, needed});
@@ -185,13 +185,13 @@ std::vector<std::string> contact_parameters() {
 
 /// How heat crosses what touches.
 void describe_conductance(Keys& map, bool heat, ConductanceSpec& conductance) {
-  constexpr const char* kSays =
+  constexpr const char* kDescription =
       "How heat crosses surfaces that touch: perfect, none, or so much a kelvin that they differ by.";
   if (map.writes() && !heat) return;
-  map.at("conductance", kSays, [&](Slot& slot) {
-    if (slot.is_word("perfect", std::isinf(conductance.touching))) {
+  map.at("conductance", kDescription, [&](Slot& slot) {
+    if (slot.is_keyword("perfect", std::isinf(conductance.touching))) {
       conductance.touching = kInfinity;
-    } else if (slot.is_word("none", conductance.touching == 0)) {
+    } else if (slot.is_keyword("none", conductance.touching == 0)) {
       conductance.touching = 0;
     } else {
       slot.take(conductance.touching, Number{Measure::conductance, kPositive});
@@ -201,16 +201,16 @@ void describe_conductance(Keys& map, bool heat, ConductanceSpec& conductance) {
           conductance.gap, Number{Measure::conductivity, kNotNegative});
 }
 
-void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law) {
+void describe_law(Keys& map, const char* description, bool heat, SurfaceLaw& law) {
   describe_conductance(map, heat, law.conductance);
-  describe_tractions(map, says, law);
+  describe_tractions(map, description, law);
 }
 
-void describe_tractions(Keys& map, const char* says, SurfaceLaw& law) {
+void describe_tractions(Keys& map, const char* description, SurfaceLaw& law) {
   const std::size_t inherited = law.acts.index();
   std::size_t index = inherited;
-  map.at("law", says, [&](Slot& slot) { slot.choose(index, contact_laws()); });
-  if (map.tells()) return tell_laws(map);
+  map.at("law", description, [&](Slot& slot) { slot.choose(index, contact_laws()); });
+  if (map.describes()) return register_laws(map);
   const ContactLawKind& kind = contact_laws()[index];
   if (index != inherited) {
     Values known = values_of(law.acts);
@@ -224,7 +224,7 @@ void describe_tractions(Keys& map, const char* says, SurfaceLaw& law) {
   if (has(kind, "friction")) {
     law.friction = number_of(law.acts, "friction");
   } else {  // so that --set can choose another law
-    map.key("friction", kFrictionSays, law.friction, kCoefficient);
+    map.key("friction", kFrictionDescription, law.friction, kCoefficient);
   }
   if (!map.reads()) return;
   refuse_others(map, kind);

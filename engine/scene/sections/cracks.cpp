@@ -28,7 +28,7 @@ void describe_line(Slot& slot, Points& points) {
 
 /// Does any part of a line lie in a shape? It is looked at where it passes through the box around that.
 bool runs_through(const Shape& shape, const Points& points) {
-  constexpr int kPlaces = 400;  // along each segment
+  constexpr int kSamples = 400;  // along each segment
   const Bounds box = bounds(shape);
   for (std::size_t k = 1; k < points.size(); ++k) {
     double first = 0, last = 1;
@@ -40,8 +40,8 @@ bool runs_through(const Shape& shape, const Points& points) {
       first = std::max(first, std::min(low, high));
       last = std::min(last, std::max(low, high));
     }
-    for (int place = 0; first <= last && place <= kPlaces; ++place) {
-      const double share = first + (last - first) * place / kPlaces;
+    for (int sample = 0; first <= last && sample <= kSamples; ++sample) {
+      const double share = first + (last - first) * sample / kSamples;
       const auto at = [&](std::size_t d) {  // (along an axis exactly on it: edges belong to one side alone)
         return points[k - 1][d] + share * (points[k][d] - points[k - 1][d]);
       };
@@ -193,7 +193,7 @@ void describe_crack(Slot& slot, const Scene& scene, CrackSpec& crack) {
                        crack.law);
     map.at("growth", "Lets its ends grow that lie in the body.", [&](Slot& growth) {
       if (growth.writes() && !crack.growth.active) return;
-      if (growth.reads() && growth.is_word("none", false)) return;
+      if (growth.reads() && growth.is_keyword("none", false)) return;
       growth.map("a map {toughness, rule, …}", [&](Keys& keys) { describe_growth(keys, scene, crack); });
     });
   });
@@ -207,7 +207,7 @@ void describe_cracks(Keys& top, Scene& scene) {
          [&](Slot& slot) {
            std::size_t count = scene.cracks.size();
            if (slot.writes() && count == 0) return;
-           if (slot.reads() && slot.is_word("none", false)) return;
+           if (slot.reads() && slot.is_keyword("none", false)) return;
            slot.list("a list of maps {body, line | arc, law, …}", 0, kMostCracks, count,
                      [&](Slot& entry, std::size_t k) {
                        CrackSpec crack;
@@ -258,7 +258,7 @@ void check_cracks(const Value& top, const Scene& scene) {
   refuse(scene.method.extended, "extended splines (method.extension)");
   refuse(scene.contact.family == ContactFamily::penalty,
          "surfaces that are followed (contact.family: penalty)");
-  refuse(scene.grid.leaving == LeavingKind::outflow, "bodies that flow out (grid.leaving)");
+  refuse(scene.grid.outflow == OutflowKind::outflow, "bodies that flow out (grid.leaving)");
   if (scene.contact.fields != ManyFields::simultaneous)
     stated.report("the sides of cracks meet in pairs: contact.fields: simultaneous was expected");
   if (scene.contact.normal == NormalKind::own_gradient)

@@ -12,12 +12,12 @@
 namespace mpmfast {
 
 /// Where a body was written.
-struct BodyPlace {
+struct BodyLocation {
   Value entry, name;
 };
 /// The whole scene.
 /// @return the places of the bodies that are read
-std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene);
+std::vector<BodyLocation> describe_scene(Keys& top, Scene& scene);
 /// The scene with every default, in the format that is read.
 std::string write_scene(const Scene& scene);
 
@@ -36,9 +36,9 @@ bool describe_method(Keys& top, MethodSpec& method);
 void describe_contact(Keys& top, bool strain_stated, Scene& scene);
 /// `law` and its parameters; what is absent keeps its value, also where another law has it.
 /// @param heat  the scene has temperatures
-void describe_law(Keys& map, const char* says, bool heat, SurfaceLaw& law);
+void describe_law(Keys& map, const char* description, bool heat, SurfaceLaw& law);
 /// The same without heat.
-void describe_tractions(Keys& map, const char* says, SurfaceLaw& law);
+void describe_tractions(Keys& map, const char* description, SurfaceLaw& law);
 /// `contact.pairs`. Needs the bodies.
 /// @param top  the scene, where bodies stand that could not be read
 void describe_pairs(Keys& contact, Keys& top, Scene& scene);
@@ -48,7 +48,7 @@ void describe_cracks(Keys& top, Scene& scene);
 void describe_materials(Keys& top, std::vector<MaterialSpec>& materials);
 /// Needs grid and materials.
 /// @return the places of the bodies that are read
-std::vector<BodyPlace> describe_bodies(Keys& top, Scene& scene);
+std::vector<BodyLocation> describe_bodies(Keys& top, Scene& scene);
 /// Needs the grid and the bodies.
 void describe_boundaries(Keys& top, bool grid_known, Scene& scene);
 
@@ -78,12 +78,12 @@ void check_loads(const Value& top, const Scene& scene);
 /// Refuses what cracks do not know.
 void check_cracks(const Value& top, const Scene& scene);
 /// Refuses what heat does not know, and materials that it knows too little of.
-void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlace>& places);
+void check_heat(const Value& top, const Scene& scene, const std::vector<BodyLocation>& locations);
 /// Refuses what does not turn about the axis, and makes the axis a wall. Needs everything else.
 void check_axisymmetric(const Value& top, bool grid_known, Scene& scene);
 
 /// What a body must not be, beside others, in this grid, of this material.
-void check_bodies(const Scene& scene, const std::vector<BodyPlace>& places, bool grid_known);
+void check_bodies(const Scene& scene, const std::vector<BodyLocation>& locations, bool grid_known);
 /// Tables make sense only where the body obeys them.
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body);
 
@@ -93,7 +93,7 @@ void check_tables(const Value& entry, const Scene& scene, const BodySpec& body);
 struct ShapeKind {
   const char* name;
   int dimension;                                                   ///< 2, 3, or 0 for both
-  const char* says;                                                ///< a line for `mpmfast list`
+  const char* description;                                         ///< a line for `mpmfast list`
   const char* note;                                                ///< what the key means
   void (*describe)(Slot& slot, Shape& shape, const Scene& scene);  ///< none for a bitmap, which is several
   Shape standard;                                                  ///< the struct that holds it
@@ -131,7 +131,7 @@ struct LawChoice {
 };
 struct MaterialKind {
   const char* name;
-  const char* says;
+  const char* description;
   std::vector<LawChoice> laws;  ///< that which needs no key first
 };
 /// Every model that a scene may name, from kernels/materials/laws.hpp.
@@ -144,7 +144,7 @@ struct LawParameter {
 };
 struct ContactLawKind {
   const char* name;
-  const char* says;
+  const char* description;
   AnyLaw standard;
   std::vector<LawParameter> parameters;
 };
@@ -154,6 +154,6 @@ const std::vector<ContactLawKind>& contact_laws();
 std::vector<std::string> contact_parameters();
 
 /// Keys that are done with before the sections are read: their name and what they mean.
-const std::vector<KnownWord>& early_keys();
+const std::vector<KnownKeyword>& early_keys();
 
 }  // namespace mpmfast

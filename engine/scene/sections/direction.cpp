@@ -6,7 +6,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr Word<Vec3> kDirections[] = {
+constexpr Keyword<Vec3> kDirections[] = {
     {{1, 0, 0}, "x", ""},   {{0, 1, 0}, "y", ""},     {{0, 0, 1}, "z", ""},     {{1, 0, 0}, "+x", ""},
     {{0, 1, 0}, "+y", ""},  {{0, 0, 1}, "+z", ""},    {{-1, 0, 0}, "-x", ""},   {{0, -1, 0}, "-y", ""},
     {{0, 0, -1}, "-z", ""}, {{-1, 0, 0}, "left", ""}, {{1, 0, 0}, "right", ""}, {{0, -1, 0}, "down", ""},
@@ -23,14 +23,14 @@ void take_unit_vector(Slot& slot, int dimension, Vec3& direction) {
 }
 
 void describe_direction(Slot& slot, int dimension, bool any, Vec3& direction) {
-  std::vector<Word<Vec3>> known;
-  for (const Word<Vec3>& named : kDirections)
-    if (dimension == 3 || named.value[2] == 0 || slot.tells()) known.push_back(named);
+  std::vector<Keyword<Vec3>> known;
+  for (const Keyword<Vec3>& named : kDirections)
+    if (dimension == 3 || named.value[2] == 0 || slot.describes()) known.push_back(named);
   const auto name = std::find_if(known.begin(), known.end(),
-                                 [&](const Word<Vec3>& named) { return named.value == direction; });
+                                 [&](const Keyword<Vec3>& named) { return named.value == direction; });
   const bool by_vector = slot.reads() ? slot.value()->is(Node::Kind::list) : name == known.end();
-  if (any && (slot.tells() || by_vector)) take_unit_vector(slot, dimension, direction);
-  if (any && by_vector && !slot.tells()) return;
+  if (any && (slot.describes() || by_vector)) take_unit_vector(slot, dimension, direction);
+  if (any && by_vector && !slot.describes()) return;
   auto index = static_cast<std::size_t>(name - known.begin());
   if (slot.choose(index, known) && slot.reads()) direction = known[index].value;
 }

@@ -44,8 +44,8 @@ bool describe_grid(Keys& top, int dimension, GridSpec& grid) {
         map.need("size", "Edges of the grid, each a whole number of cells.", grid.size,
                  Vector{Measure::length, dimension, kPositive});
         map.need("cell", "Edge of a cell.", grid.cell, Number{Measure::length, kPositive});
-        map.key("leaving", "What becomes of a particle that goes a cell beyond the grid.", grid.leaving,
-                kLeaving);
+        map.key("leaving", "What becomes of a particle that goes a cell beyond the grid.", grid.outflow,
+                kOutflowKinds);
         if (!map.reads() || !map.good()) return;
         map.check("origin", [&](Slot& origin) { check_origin(origin, dimension, grid); });
         if (map.good()) map.check("size", [&](Slot& size) { check_cells(size, dimension, grid); });
@@ -63,7 +63,7 @@ void describe_time(Keys& top, TimeSpec& time) {
         map.key("collapse", "A time step below this share of the first ends the run as failed; 0: never.",
                 time.collapse, Number{Measure::number, kShare});
         map.at("max_step", "Longest time step; none: as long as `cfl` allows.", [&](Slot& slot) {
-          if (slot.is_word("none", std::isinf(time.max_step)))
+          if (slot.is_keyword("none", std::isinf(time.max_step)))
             time.max_step = kInfinity;
           else
             slot.take(time.max_step, Number{Measure::time, kPositive});

@@ -12,8 +12,8 @@ namespace {
 using Kind = HeatConditionSpec::Kind;
 
 /// A temperature in time, above zero.
-void need_temperature(Keys& map, const char* name, const char* says, TimeTable& table) {
-  map.need_at(name, says, expected_of(Table{Measure::temperature}), [&](Slot& slot) {
+void need_temperature(Keys& map, const char* name, const char* description, TimeTable& table) {
+  map.need_at(name, description, expected_of(Table{Measure::temperature}), [&](Slot& slot) {
     if (!slot.take(table, Table{Measure::temperature}) || !slot.reads()) return;
     if (std::any_of(table.value.begin(), table.value.end(), [](double value) { return !(value > 0); }))
       slot.complain("not positive");
@@ -71,7 +71,7 @@ void describe_condition(Slot& slot, const Scene& scene, HeatConditionSpec& condi
 }
 
 void describe_conditions(Keys& map, const Scene& scene, std::vector<HeatConditionSpec>& conditions) {
-  map.leave_open();
+  map.allow_other_keys();
   std::vector<HeatConditionSpec> entries;
   const auto add = [&](const std::string& name, Kind kind) {
     HeatConditionSpec entry;
@@ -81,7 +81,7 @@ void describe_conditions(Keys& map, const Scene& scene, std::vector<HeatConditio
     entries.push_back(entry);
   };
   if (map.writes()) entries = conditions;
-  if (map.tells()) {
+  if (map.describes()) {
     add(kFaces[0].name, Kind::temperature);
     add("", Kind::temperature);
   }
@@ -100,7 +100,7 @@ void describe_conditions(Keys& map, const Scene& scene, std::vector<HeatConditio
 
 /// none or {order, every}.
 void describe_filter(Slot& slot, HeatSpec& heat) {
-  if (slot.is_word("none", heat.filter_order == 0)) {
+  if (slot.is_keyword("none", heat.filter_order == 0)) {
     heat.filter_order = 0;
     return;
   }
@@ -122,7 +122,7 @@ void describe_heat(Keys& top, bool, Scene& scene) {
   HeatSpec& heat = scene.heat;
   top.at("heat", "Temperatures that are conducted; none: heat stays where it is made.", [&](Slot& slot) {
     if (slot.writes() && !heat.active) return;
-    if (slot.is_word("none", !heat.active)) return;
+    if (slot.is_keyword("none", !heat.active)) return;
     slot.map("none or a map {temperature, boundaries, filter}", [&](Keys& map) {
       if (map.reads()) heat.active = true;
       map.key("temperature", "Of bodies at the start.", heat.temperature, kTemperature);
@@ -166,12 +166,12 @@ void check_picture(const Value& top, const Scene& scene) {
 
 }  // namespace
 
-void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlace>& places) {
+void check_heat(const Value& top, const Scene& scene, const std::vector<BodyLocation>& locations) {
   check_picture(top, scene);
   if (!scene.heat.active) {
-    for (std::size_t b = 0; b < scene.bodies.size() && b < places.size(); ++b)
+    for (std::size_t b = 0; b < scene.bodies.size() && b < locations.size(); ++b)
       if (scene.bodies[b].temperature)
-        if (const auto stated = places[b].entry.find("temperature"))
+        if (const auto stated = locations[b].entry.find("temperature"))
           stated->report("bodies have temperatures where the scene has heat", "heat: {}");
     return;
   }
@@ -194,10 +194,10 @@ void check_heat(const Value& top, const Scene& scene, const std::vector<BodyPlac
                                   [&](const BodySpec& body) { return body.material == static_cast<int>(m); });
     if (!used || std::holds_alternative<Rigid>(material.model)) continue;
     const auto entry = top.find("materials")->find(material.name);
-    const Value place = entry ? *entry : stated;
+    const Value location = entry ? *entry : stated;
     const LawHeat law = heat_of(material);
     if (!law.temperature && material.heat_capacity == 0)
-      place.report(fmt::format("'{}' needs its heat_capacity in a scene with heat", material.name));
+      location.report(fmt::format("'{}' needs its heat_capacity in a scene with heat", material.name));
   }
 }
 

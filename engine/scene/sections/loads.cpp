@@ -21,9 +21,9 @@ std::vector<ShapeKind> region_kinds(int dimension) {
 }
 
 /// {box: …} or another shape; absent where nothing is given.
-void describe_place(Slot& slot, const Scene& scene, std::optional<Shape>& place) {
-  if (slot.writes() && !place) return;
-  Shape shape = place.value_or(BoxShape{});
+void describe_place(Slot& slot, const Scene& scene, std::optional<Shape>& location) {
+  if (slot.writes() && !location) return;
+  Shape shape = location.value_or(BoxShape{});
   const bool of_scene = slot.reads() || slot.writes();  // else all that the format knows is listed
   const std::vector<ShapeKind> kinds = region_kinds(of_scene ? scene.dimension() : 0);
   const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const ShapeKind& kind) {
@@ -40,7 +40,7 @@ void describe_place(Slot& slot, const Scene& scene, std::optional<Shape>& place)
         map.need_at(kinds[k].name, kinds[k].note, "",
                     [&](Slot& one) { kinds[k].describe(one, shape, scene); });
   });
-  if (slot.reads() && slot.good()) place = shape;
+  if (slot.reads() && slot.good()) location = shape;
 }
 
 void describe_load(Slot& slot, const Scene& scene, PressureSpec& pressure) {
@@ -69,8 +69,8 @@ void describe_load(Slot& slot, const Scene& scene, PressureSpec& pressure) {
 
 /// The loads of one kind, a list.
 template <class Spec>
-void describe_kind(Keys& map, const char* name, const char* says, const char* expected, Scene& scene) {
-  map.at(name, says, [&](Slot& slot) {
+void describe_kind(Keys& map, const char* name, const char* description, const char* expected, Scene& scene) {
+  map.at(name, description, [&](Slot& slot) {
     std::vector<Spec> known;
     for (const LoadSpec& load : scene.loads)
       if (const auto* spec = std::get_if<Spec>(&load)) known.push_back(*spec);

@@ -18,7 +18,7 @@ void add(std::vector<MaterialKind>& kinds) {
   const auto describe = [](Keys& map, MaterialModel& model) { std::get<Law>(model).describe(map); };
   const auto same = [](const MaterialKind& kind) { return std::string_view(kind.name) == Law::kModel; };
   auto kind = std::find_if(kinds.begin(), kinds.end(), same);
-  if (kind == kinds.end()) kind = kinds.insert(kind, {Law::kModel, Law::kSays, {}});
+  if (kind == kinds.end()) kind = kinds.insert(kind, {Law::kModel, Law::kDescription, {}});
   kind->laws.push_back({with, Law{}, describe});
 }
 
@@ -45,14 +45,14 @@ const LawChoice& law_of(Keys& map, const MaterialKind& kind, const MaterialModel
 
 /// What heat asks of any material.
 void describe_heat_of(Keys& map, MaterialSpec& material) {
-  const auto key = [&](const char* name, const char* says, double& member, const Number& form) {
-    if (!map.writes() || member != 0) map.derived(name, says, member, form);
+  const auto key = [&](const char* name, const char* description, double& member, const Number& form) {
+    if (!map.writes() || member != 0) map.derived(name, description, member, form);
   };
-  struct Knows {
+  struct Own {
     bool temperature = false, expansion = false;
   };
-  const Knows own = std::visit(
-      []<class Law>(const Law&) -> Knows {
+  const Own own = std::visit(
+      []<class Law>(const Law&) -> Own {
         if constexpr (std::is_same_v<Law, Rigid>) return {false, true};
         if constexpr (Evolving<Law>) return {Law::kColumns.temperature, Law::kColumns.internal_energy};
         return {};
@@ -72,7 +72,7 @@ void describe_model(Keys& map, const MaterialKind& kind, MaterialSpec& material)
   MaterialModel& model = material.model;
   const LawChoice& chosen = law_of(map, kind, model);
   for (const LawChoice& law : kind.laws) {
-    if (!map.tells() && &law != &chosen) continue;
+    if (!map.describes() && &law != &chosen) continue;
     const auto body = [&] {
       if (!map.writes()) model = law.standard;
       law.describe(map, model);
@@ -90,7 +90,7 @@ void describe_material(Slot& slot, MaterialSpec& material) {
   const std::vector<MaterialKind>& kinds = material_kinds();
   if (slot.reads() && !is_name(material.name)) slot.report("not a name (letters, digits, '_' and '-')");
   slot.map("a map {model, density, …}", [&](Keys& map) {
-    map.leave_open();  // until it has a model
+    map.allow_other_keys();  // until it has a model
     std::size_t index = slot.writes() ? kind_of(material.model) : 0;
     const bool known = map.need_at("model", "The law that the material obeys.",
                                    fmt::format("one of {}", fmt::join(names_of(kinds), ", ")),
@@ -119,7 +119,7 @@ void describe_materials(Keys& top, std::vector<MaterialSpec>& materials) {
   constexpr const char* kExpected = "a map of names, each {model: …}";
   top.need_at("materials", "The materials by name; bodies refer to them.", kExpected, [&](Slot& slot) {
     slot.map(kExpected, [&](Keys& map) {
-      map.leave_open();
+      map.allow_other_keys();
       const std::size_t count = map.count(materials.size());
       for (std::size_t k = 0; k < count; ++k) {
         MaterialSpec material = map.writes() ? materials[k] : MaterialSpec{};

@@ -45,7 +45,7 @@ void read_update(Slot& slot, MethodSpec& method) {
   const Value& value = *slot.value();
   if (!value.is(Node::Kind::scalar)) return slot.complain(kExpected);
   const std::string &text = value.node().scalar, name = text.substr(0, text.find('('));
-  for (const Word<UpdateKind>& word : kUpdates) {
+  for (const Keyword<UpdateKind>& word : kUpdates) {
     const std::string known = word.name;
     if (text != known && (!filters(word.value) || name + "(m)" != known)) continue;
     method.update = word.value;
@@ -64,7 +64,7 @@ void read_update(Slot& slot, MethodSpec& method) {
 /// flip, pic, apic, xpic(m) or fmpm(m).
 void describe_update(Slot& slot, MethodSpec& method) {
   slot.offer({Form::Kind::word, Measure::number, kAny, kLeastOrder, kMostOrder});
-  for (const Word<UpdateKind>& word : kUpdates) slot.offer(word.name, word.says);
+  for (const Keyword<UpdateKind>& word : kUpdates) slot.offer(word.name, word.description);
   std::string name(name_of(kUpdates, method.update));
   if (filters(method.update)) name.replace(name.find("(m)"), 3, fmt::format("({})", method.xpic_order));
   slot.write(name);
@@ -73,7 +73,7 @@ void describe_update(Slot& slot, MethodSpec& method) {
   if (!slot.good() || method.update != UpdateKind::apic || facts(method.basis).spread > 0) return;
   std::vector<std::string> good;
   for (const BasisFacts& basis : kBasisFacts)
-    if (basis.spread > 0) good.emplace_back(basis.word);
+    if (basis.spread > 0) good.emplace_back(basis.keyword);
   slot.report(fmt::format("apic needs basis: {} (the second moment of its weights must be constant)",
                           fmt::join(good, " or ")));
 }
@@ -81,7 +81,7 @@ void describe_update(Slot& slot, MethodSpec& method) {
 /// none or {occupation}.
 void describe_extension(Slot& slot, MethodSpec& method) {
   constexpr Limit kShare{"in (0, 1)", 0, 1, true, true};
-  if (slot.is_word("none", !method.extended)) return;
+  if (slot.is_keyword("none", !method.extended)) return;
   slot.map("none or a map {occupation}", [&](Keys& map) {
     if (map.reads()) method.extended = true;
     map.key("occupation", "A cell has enough of a body that is filled to more than this share.",
@@ -96,11 +96,11 @@ void describe_split(Slot& slot, MethodSpec& method) {
   constexpr const char* kExpected = "none, true or a map {edge}";
   // Shorter than a cell, and particles would be split as they are seeded; domains of two are scaled down.
   constexpr Limit kEdge{"from 1 to 2 cells", 1, 2};
-  if (slot.is_word("none", !method.split)) return;
-  if (slot.tells()) slot.offer({Form::Kind::truth});
+  if (slot.is_keyword("none", !method.split)) return;
+  if (slot.describes()) slot.offer({Form::Kind::truth});
   if (slot.reads() && slot.value()->is(Node::Kind::scalar)) {
-    method.split = slot.value()->is_word("true");
-    if (!method.split && !slot.value()->is_word("false"))
+    method.split = slot.value()->is_keyword("true");
+    if (!method.split && !slot.value()->is_keyword("false"))
       return slot.complain(std::string("not ") + kExpected, "Write {edge: 1.5}");
   } else {
     slot.map(kExpected, [&](Keys& map) {
@@ -112,7 +112,7 @@ void describe_split(Slot& slot, MethodSpec& method) {
   if (!slot.reads() || !method.split || facts(method.basis).convected) return;
   std::vector<std::string> good;
   for (const BasisFacts& basis : kBasisFacts)
-    if (basis.convected) good.emplace_back(basis.word);
+    if (basis.convected) good.emplace_back(basis.keyword);
   slot.report(fmt::format("only particles whose domains follow the deformation are split (basis: {})",
                           fmt::join(good, " or ")));
 }

@@ -6,7 +6,7 @@ namespace {
 
 /// By wall time, by steps, or both; what is not asked for is off.
 void describe_checkpoint(Slot& slot, CheckpointSpec& checkpoint) {
-  if (slot.is_word("none", !checkpoint.active)) {
+  if (slot.is_keyword("none", !checkpoint.active)) {
     checkpoint.active = false;
     return;
   }
@@ -16,13 +16,14 @@ void describe_checkpoint(Slot& slot, CheckpointSpec& checkpoint) {
   slot.map(kExpected, [&](Keys& map) {
     constexpr int kMostSteps = 2000000000;
     map.at("every", "After so much wall time; none where only `steps` is given.", [&](Slot& every) {
-      if (every.is_word("none", checkpoint.every == 0))
+      if (every.is_keyword("none", checkpoint.every == 0))
         checkpoint.every = 0;
       else
         every.take(checkpoint.every, Number{Measure::time, kPositive});
     });
     map.at("steps", "After so many steps.", [&](Slot& steps) {
-      if (!steps.is_word("none", checkpoint.steps == 0)) steps.take(checkpoint.steps, Whole{1, kMostSteps});
+      if (!steps.is_keyword("none", checkpoint.steps == 0))
+        steps.take(checkpoint.steps, Whole{1, kMostSteps});
     });
     if (map.reads() && !map.stated("every") && checkpoint.steps > 0) checkpoint.every = 0;
   });
@@ -65,7 +66,7 @@ void describe_output(Keys& top, int dimension, OutputSpec& output) {
                "never.",
                [&](Slot& slot) { describe_checkpoint(slot, output.checkpoint); });
         map.key("picture", "What the second picture shows, beside the bodies; none: no pictures.",
-                output.picture, pictures(map.tells() ? 3 : dimension));
+                output.picture, pictures(map.describes() ? 3 : dimension));
       });
 }
 

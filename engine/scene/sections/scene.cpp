@@ -58,7 +58,7 @@ void check_penalty(const Value& top, const Scene& scene) {
         law.acts);
   };
   if (scene.contact.any(bonds)) stated.report("penalty contact only pushes: it has no bonds");
-  if (scene.grid.leaving == LeavingKind::outflow)
+  if (scene.grid.outflow == OutflowKind::outflow)
     stated.report("surfaces are followed whole: none may flow out (grid.leaving)");
   if (scene.space == Space::axisymmetric)
     stated.report("penalty contact does not know scenes about an axis yet");
@@ -74,7 +74,7 @@ void check_split(const Value& top, const Scene& scene) {
 
 /// Springs join two bodies each, whose displacements tell how far they are apart.
 void check_interfaces(const Value& top, const Scene& scene) {
-  if (!scene.contact.any([](const SurfaceLaw& law) { return joins(law.acts); })) return;
+  if (!scene.contact.any([](const SurfaceLaw& law) { return has_springs(law.acts); })) return;
   const Value stated = *top.find("contact");
   if (scene.contact.fields != ManyFields::simultaneous)
     stated.report("interfaces join bodies in pairs: fields: simultaneous was expected");
@@ -96,8 +96,9 @@ void check_crack(const Value& top, const Scene& scene) {
 }
 
 /// What follows from several sections.
-void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>& places, Scene& scene) {
-  check_bodies(scene, places, grid_known);
+void check_scene(const Value& top, bool grid_known, const std::vector<BodyLocation>& locations,
+                 Scene& scene) {
+  check_bodies(scene, locations, grid_known);
   if (scene.contact.family == ContactFamily::penalty)
     check_penalty(top, scene);
   else if (scene.contact.active)
@@ -105,39 +106,39 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyPlace>
   check_crack(top, scene);
   if (scene.method.extended) check_extension(top, scene);
   if (scene.method.split) check_split(top, scene);
-  check_heat(top, scene, places);
+  check_heat(top, scene, locations);
   if (!scene.cracks.empty()) check_cracks(top, scene);
   check_loads(top, scene);
   if (scene.space == Space::plane_stress) check_plane_stress(top, scene);
   if (scene.space == Space::axisymmetric) check_axisymmetric(top, grid_known, scene);
-  if (grid_known && scene.grid.leaving == LeavingKind::wall) close_faces(top, scene);
+  if (grid_known && scene.grid.outflow == OutflowKind::wall) close_faces(top, scene);
   if (grid_known) check_walls(top, scene);  // also those that the scene leaves to us
 }
 
 }  // namespace
 
-std::vector<BodyPlace> describe_scene(Keys& top, Scene& scene) {
-  for (const KnownWord& early : early_keys()) top.stated(early.name);  // done with
+std::vector<BodyLocation> describe_scene(Keys& top, Scene& scene) {
+  for (const KnownKeyword& early : early_keys()) top.stated(early.name);  // done with
   describe_head(top, scene);
   const bool grid_known = describe_grid(top, scene.dimension(), scene.grid);
   describe_time(top, scene.time);
   const bool strain_stated = describe_method(top, scene.method);
   describe_heat(top, grid_known, scene);
   describe_materials(top, scene.materials);
-  const std::vector<BodyPlace> places = describe_bodies(top, scene);
+  const std::vector<BodyLocation> locations = describe_bodies(top, scene);
   describe_boundaries(top, grid_known, scene);
   describe_gravity(top, scene.dimension(), scene.gravity);
   describe_loads(top, scene);
   describe_contact(top, strain_stated, scene);
   describe_cracks(top, scene);
   describe_output(top, scene.dimension(), scene.output);
-  if (top.reads()) check_scene(top.reader().value(), grid_known, places, scene);
+  if (top.reads()) check_scene(top.reader().value(), grid_known, locations, scene);
   top.close();
-  return places;
+  return locations;
 }
 
-const std::vector<KnownWord>& early_keys() {
-  static const std::vector<KnownWord> kEarly{
+const std::vector<KnownKeyword>& early_keys() {
+  static const std::vector<KnownKeyword> kEarly{
       {"variables", "Numbers and quantities by name, for expressions `${…}` anywhere in the scene."},
       {"include", "A scene that this one starts from, or several: paths counted from its folder."},
   };
@@ -145,16 +146,16 @@ const std::vector<KnownWord>& early_keys() {
 }
 
 const std::map<std::string, Known>& known_values() {
-  static const Knowledge kKnowledge = [] {
-    Knowledge knowledge;
-    const auto tell = [&](Scene scene) {
+  static const KeyRegistry kKnowledge = [] {
+    KeyRegistry knowledge;
+    const auto register_key = [&](Scene scene) {
       Keys top(knowledge, "");
       describe_scene(top, scene);
     };
     Scene scene;
-    for (const Word<Space>& space : kSpaces) {
+    for (const Keyword<Space>& space : kSpaces) {
       scene.space = space.value;
-      tell(scene);
+      register_key(scene);
     }
     // Choices on which defaults of other keys depend: those are told to vary.
     knowledge.choose({"contact.normal", "contact.law", "method.update", "method.strain"});
@@ -162,7 +163,7 @@ const std::map<std::string, Known>& known_values() {
     scene.contact.law.acts = Adhesion{};
     scene.method.update = UpdateKind::apic;
     scene.method.strain = StrainKind::first;
-    tell(scene);
+    register_key(scene);
     return knowledge;
   }();
   return kKnowledge.found();

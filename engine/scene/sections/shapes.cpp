@@ -102,9 +102,9 @@ void describe_heights(Slot& slot, PolygonShape& polygon) {
 void describe_polygon(Slot& slot, Shape& shape, const Scene& scene) {
   auto& polygon = as<PolygonShape>(shape);
   const bool prism = scene.dimension() == 3;
-  if (!prism && (slot.tells() || (slot.reads() && slot.value()->is(Node::Kind::list)))) {
+  if (!prism && (slot.describes() || (slot.reads() && slot.value()->is(Node::Kind::list)))) {
     describe_points(slot, polygon.points);
-    if (!slot.tells()) return;
+    if (!slot.describes()) return;
   }
   slot.map(prism ? "a map {points, z: [lower, upper]}" : "a list of points or a map {points}",
            [&](Keys& map) {

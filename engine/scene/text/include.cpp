@@ -22,7 +22,7 @@ void merge(Node& into, Node from) {
     into = std::move(from);
     return;
   }
-  into.place = from.place;
+  into.location = from.location;
   for (std::size_t k = 0; k < from.keys.size(); ++k) {
     const int index = index_of(into, from.keys[k].text);
     if (index < 0) {
@@ -78,10 +78,10 @@ class Includer {
     } else {
       take(names, path, folder, merged);
     }
-    const Place place = root.place;
+    const SourceLocation location = root.location;
     merge(merged, std::move(root));
     root = std::move(merged);
-    root.place = place;
+    root.location = location;
   }
 
  private:
@@ -95,11 +95,11 @@ class Includer {
 
   void take(const Node& name, const std::string& path, const fs::path& folder, Node& merged) {
     if (name.kind != Node::Kind::scalar || name.scalar.empty())
-      return problems_.add(name.place, path,
+      return problems_.add(name.location, path,
                            "not a file name or a list of file names, got " + describe(name));
     const fs::path file = (folder / name.scalar).lexically_normal();
     const auto refuse = [&](const std::string& why, const std::string& hint = "") {
-      problems_.add(name.place, path, fmt::format("cannot include {}: {}", file.string(), why), hint);
+      problems_.add(name.location, path, fmt::format("cannot include {}: {}", file.string(), why), hint);
     };
     const std::string known = known_as(file);
     if (std::find(open_.begin(), open_.end(), known) != open_.end())
@@ -116,7 +116,7 @@ class Includer {
                            "empty (a map of sections was expected)");
     if (!root) return;
     if (root->kind != Node::Kind::map)
-      return problems_.add(root->place, "",
+      return problems_.add(root->location, "",
                            "not a map of sections such as materials, got " + describe(*root));
     const TreeSize size = size_of(*root);
     nodes_ += size.nodes;

@@ -12,7 +12,7 @@ namespace mpmfast {
 
 /// Where a piece of the scene was written: source 0 is the file, k the k-th override; then come included
 /// files.
-struct Place {
+struct SourceLocation {
   int line{}, column{};  ///< 1-based
   int source{};
 };
@@ -27,7 +27,7 @@ class Problems {
   int add_file(std::string name);
   bool is_included(int source) const { return source > overrides_; }
 
-  void add(const Place& place, std::string path, std::string message, std::string hint = "");
+  void add(const SourceLocation& location, std::string path, std::string message, std::string hint = "");
   bool empty() const { return found_.empty(); }
   std::size_t count() const { return found_.size(); }
 
@@ -36,7 +36,7 @@ class Problems {
 
  private:
   struct Found {
-    Place place;
+    SourceLocation location;
     Diagnostic diagnostic;
   };
   std::vector<std::string> sources_;

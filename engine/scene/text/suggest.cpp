@@ -33,7 +33,7 @@ namespace {
 struct Synonyms {
   std::string_view ours;
   std::array<std::string_view, 4> others;
-  std::string_view says = "";  ///< in place of "Did you mean …?"
+  std::string_view description = "";  ///< in place of "Did you mean …?"
 };
 
 constexpr Synonyms kSynonyms[] = {
@@ -66,10 +66,10 @@ constexpr Synonyms kSynonyms[] = {
 /// What a synonym stands for among the known words.
 std::string hint_of_synonym(std::string_view word, std::span<const std::string> known) {
   const std::string small = lower_case(word);
-  for (const auto& [ours, others, says] : kSynonyms) {
+  for (const auto& [ours, others, description] : kSynonyms) {
     const bool meant = !small.empty() && std::find(others.begin(), others.end(), small) != others.end();
     if (!meant || std::find(known.begin(), known.end(), ours) == known.end()) continue;
-    return says.empty() ? fmt::format("Did you mean '{}'?", ours) : std::string(says);
+    return description.empty() ? fmt::format("Did you mean '{}'?", ours) : std::string(description);
   }
   return "";
 }

@@ -97,31 +97,31 @@ class TreeBuilder : public YAML::EventHandler {
     bool drop = false;                 ///< that value belongs to a refused key
   };
 
-  Place at(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1, source_}; }
+  SourceLocation at(const YAML::Mark& mark) const { return {mark.line + 1, mark.column + 1, source_}; }
 
   Node make(Node::Kind kind, const YAML::Mark& mark) {
     count({1, 0, 0}, at(mark));
     quoted_ = false;
     Node node;
     node.kind = kind;
-    node.place = at(mark);
+    node.location = at(mark);
     return node;
   }
 
   /// Of what begins at the mark, inside all that is open.
-  void count(const TreeSize& more, const Place& place) {
+  void count(const TreeSize& more, const SourceLocation& location) {
     nodes_ += more.nodes;
     text_ += more.text;
     if (nodes_ > kMostNodes)
-      stop(place, fmt::format("too many values (at most {}, aliases expanded)", kMostNodes));
+      stop(location, fmt::format("too many values (at most {}, aliases expanded)", kMostNodes));
     if (text_ > kMostText)
-      stop(place, fmt::format("too much text (at most {} bytes, aliases expanded)", kMostText));
+      stop(location, fmt::format("too much text (at most {} bytes, aliases expanded)", kMostText));
     if (frames_.size() + more.levels > kDeepest)
-      stop(place, fmt::format("nested too deeply (at most {} levels, aliases expanded)", kDeepest));
+      stop(location, fmt::format("nested too deeply (at most {} levels, aliases expanded)", kDeepest));
   }
 
-  [[noreturn]] void stop(const Place& place, std::string why) {
-    problems_.add(place, "", std::move(why));
+  [[noreturn]] void stop(const SourceLocation& location, std::string why) {
+    problems_.add(location, "", std::move(why));
     throw StopParsing();
   }
 
@@ -149,7 +149,7 @@ class TreeBuilder : public YAML::EventHandler {
   /// Hands a complete node to what encloses it.
   void finish(Node node, YAML::anchor_t anchor) {
     if (anchor != YAML::NullAnchor) {
-      count(size_of(node), node.place);
+      count(size_of(node), node.location);
       anchors_[anchor] = node;
     }
     if (frames_.empty()) {
@@ -172,15 +172,15 @@ class TreeBuilder : public YAML::EventHandler {
 
   void take_key(Frame& frame, const Node& node) {
     const std::string parent = path();
-    frame.key = Key{node.scalar, node.place};
+    frame.key = Key{node.scalar, node.location};
     frame.drop = true;
     if (node.kind != Node::Kind::scalar) {
-      problems_.add(node.place, parent, "a key must be a word, got " + describe(node));
+      problems_.add(node.location, parent, "a key must be a word, got " + describe(node));
     } else if (node.scalar == "<<" && !quoted_) {
-      problems_.add(node.place, join(parent, "<<"), "merge keys are not supported",
+      problems_.add(node.location, join(parent, "<<"), "merge keys are not supported",
                     "Put the anchor on a whole value, or use --set");
-    } else if (const auto [first, fresh] = frame.lines.emplace(node.scalar, node.place.line); !fresh) {
-      problems_.add(node.place, join(parent, node.scalar),
+    } else if (const auto [first, fresh] = frame.lines.emplace(node.scalar, node.location.line); !fresh) {
+      problems_.add(node.location, join(parent, node.scalar),
                     fmt::format("already given on line {}", first->second));
     } else {
       frame.drop = false;

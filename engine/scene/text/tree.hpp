@@ -15,13 +15,13 @@ namespace mpmfast {
 
 struct Key {
   std::string text;
-  Place place;
+  SourceLocation location;
 };
 
 struct Node {
   enum class Kind { null, scalar, list, map };
   Kind kind = Kind::null;
-  Place place;
+  SourceLocation location;
   std::string scalar;
   std::string written;      ///< where `scalar` was computed: what stood there, "${dx/2}"
   bool faulty = false;      ///< reported already: readers keep silent

@@ -58,11 +58,11 @@ class Expander {
     if (!found) return;
     Node& section = *found;
     if (section.kind != Node::Kind::map) {
-      return problems_.add(section.place, "variables",
+      return problems_.add(section.location, "variables",
                            "not a map of names and values such as {dx: 0.5 mm}, got " + describe(section));
     }
     if (section.items.size() > kMostVariables) {
-      return problems_.add(section.place, "variables",
+      return problems_.add(section.location, "variables",
                            fmt::format("{} variables (at most {})", section.items.size(), kMostVariables));
     }
     for (std::size_t k = 0; k < section.items.size(); ++k) {
@@ -71,7 +71,7 @@ class Expander {
       variable.used = used_.contains(key.text);
       if (!may_name_variable(key.text)) {
         variable.used = true;  // one complaint is enough
-        problems_.add(key.place, variable.path,
+        problems_.add(key.location, variable.path,
                       key.text == "pi"
                           ? "pi is known already"
                           : "not a name for a variable (letters, digits and '_', no digit first)");
@@ -91,7 +91,7 @@ class Expander {
     const std::size_t before = problems_.count();
     Node& node = *variable.node;
     if (node.kind != Node::Kind::scalar)
-      problems_.add(node.place, variable.path, "not a number, a quantity or text, got " + describe(node));
+      problems_.add(node.location, variable.path, "not a number, a quantity or text, got " + describe(node));
     else
       expand(node, variable.path);
     variable.state = problems_.count() > before || node.faulty ? State::bad : State::good;
@@ -105,7 +105,8 @@ class Expander {
   }
 
   void fault(Node& node, const std::string& path, const std::string& what, const std::string& hint = "") {
-    if (!node.faulty) problems_.add(node.place, path, fmt::format("{}, got {}", what, describe(node)), hint);
+    if (!node.faulty)
+      problems_.add(node.location, path, fmt::format("{}, got {}", what, describe(node)), hint);
     node.faulty = true;
   }
 
@@ -237,8 +238,8 @@ class Expander {
   /// of them needs.
   void report_unused() {
     for (const Variable& variable : variables_) {
-      if (variable.used || problems_.is_included(variable.key.place.source)) continue;
-      problems_.add(variable.key.place, variable.path, "nobody uses this variable",
+      if (variable.used || problems_.is_included(variable.key.location.source)) continue;
+      problems_.add(variable.key.location, variable.path, "nobody uses this variable",
                     hint_for(variable.key.text));
     }
   }

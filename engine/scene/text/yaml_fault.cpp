@@ -17,7 +17,7 @@ std::size_t indentation(std::string_view line) {
   return std::min(line.find_first_not_of(" \t"), line.size());
 }
 
-bool says_nothing(std::string_view line) {
+bool is_blank(std::string_view line) {
   const std::size_t first = indentation(line);
   return first == line.size() || line[first] == '#' || line[first] == '\r';
 }
@@ -82,7 +82,7 @@ std::optional<YamlFault> tab_fault(const std::vector<std::string_view>& lines, i
   for (int n = std::max(line - 1, 1); n <= line + 1 && n <= static_cast<int>(lines.size()); ++n) {
     const std::string_view text = lines[static_cast<std::size_t>(n) - 1];
     const std::size_t tab = text.substr(0, indentation(text)).find('\t');
-    if (tab == std::string_view::npos || says_nothing(text)) continue;
+    if (tab == std::string_view::npos || is_blank(text)) continue;
     return YamlFault{n, static_cast<int>(tab) + 1, "a tab indents this line", "Use blanks"};
   }
   return std::nullopt;
@@ -114,7 +114,7 @@ std::optional<YamlFault> line_fault(const std::vector<std::string_view>& lines, 
     return YamlFault{line, column, "a second ':' in the value of a key",
                      "Put a text that holds ': ' in quotes"};
   int above = line - 1;
-  while (above > 0 && says_nothing(lines[static_cast<std::size_t>(above) - 1])) --above;
+  while (above > 0 && is_blank(lines[static_cast<std::size_t>(above) - 1])) --above;
   if (above == 0) return std::nullopt;
   const std::string_view before = lines[static_cast<std::size_t>(above) - 1];
   const int start = static_cast<int>(indentation(before)) + 1;
@@ -134,14 +134,15 @@ std::optional<YamlFault> line_fault(const std::vector<std::string_view>& lines, 
 
 }  // namespace
 
-YamlFault yaml_fault(const std::string& text, int line, int column, const std::string& parser_says) {
+YamlFault yaml_fault(const std::string& text, int line, int column, const std::string& parser_message) {
   const std::vector<std::string_view> lines = parts_of(text, '\n');
   std::optional<YamlFault> fault = tab_fault(lines, line);
   if (!fault) fault = bracket_fault(lines, line, column);
-  const bool about_lines = parser_says == "illegal map value" || parser_says == "end of map not found" ||
-                           parser_says == "end of sequence not found";
+  const bool about_lines = parser_message == "illegal map value" ||
+                           parser_message == "end of map not found" ||
+                           parser_message == "end of sequence not found";
   if (!fault && about_lines) fault = line_fault(lines, line, column);
-  if (!fault) fault = YamlFault{line, column, parser_says, ""};
+  if (!fault) fault = YamlFault{line, column, parser_message, ""};
   fault->message = "not valid YAML: " + fault->message;
   return *fault;
 }

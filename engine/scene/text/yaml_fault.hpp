@@ -14,6 +14,6 @@ struct YamlFault {
 
 /// @param line, column  where the parser stopped, 1-based
 /// @param parser_says   what it missed there
-YamlFault yaml_fault(const std::string& text, int line, int column, const std::string& parser_says);
+YamlFault yaml_fault(const std::string& text, int line, int column, const std::string& parser_message);
 
 }  // namespace mpmfast

@@ -19,7 +19,7 @@ constexpr int kThreads = 4;
 template <class Check>
 void in_both(const Check& check) {
   check();
-  Team::gather(kThreads, check);
+  ThreadTeam::parallel_region(kThreads, check);
 }
 
 TEST_CASE("each turn of a loop is taken once, whoever takes it") {
@@ -70,7 +70,7 @@ TEST_CASE("after a barrier each thread sees what all have written before it") {
     std::vector<int> written(kThreads, 0);
     std::atomic<int> wrong{0}, members{0};
     for (int job = 0; job < 200; ++job)
-      on_threads(kThreads, [&](const Member& me) {
+      on_threads(kThreads, [&](const TeamThread& me) {
         members += me.threads;
         for (int turn = 0; turn < 20; ++turn) {
           const int value = 20 * job + turn;
@@ -86,9 +86,9 @@ TEST_CASE("after a barrier each thread sees what all have written before it") {
 }
 
 TEST_CASE("a part of the team can do something alone, and waits for its own only") {
-  Team::gather(kThreads, [] {
+  ThreadTeam::parallel_region(kThreads, [] {
     std::atomic<int> there{0};
-    on_threads(2, [&](const Member& me) {
+    on_threads(2, [&](const TeamThread& me) {
       CHECK(me.threads == 2);
       ++there;
       me.wait_for_all();
@@ -100,11 +100,11 @@ TEST_CASE("a part of the team can do something alone, and waits for its own only
 TEST_CASE("a loop within a loop is the calling thread's alone") {
   in_both([] {
     std::vector<std::atomic<int>> taken(kThreads * 10);
-    on_threads(kThreads, [&](const Member& me) {
+    on_threads(kThreads, [&](const TeamThread& me) {
       for_each_of(10, kThreads, 1, [&](std::int64_t k) {
         ++taken[static_cast<std::size_t>(me.thread * 10 + static_cast<int>(k))];
       });
-      on_threads(kThreads, [&](const Member& alone) {
+      on_threads(kThreads, [&](const TeamThread& alone) {
         CHECK(alone.threads == 1);
         alone.wait_for_all();
       });
@@ -115,29 +115,31 @@ TEST_CASE("a loop within a loop is the calling thread's alone") {
 
 TEST_CASE("what is thrown comes out of the gathering, and the next one works") {
   for (int k = 0; k < 3; ++k) {
-    CHECK_THROWS_AS(Team::gather(kThreads, [] { throw std::runtime_error("a particle is lost"); }),
-                    std::runtime_error);
+    CHECK_THROWS_AS(
+        ThreadTeam::parallel_region(kThreads, [] { throw std::runtime_error("a particle is lost"); }),
+        std::runtime_error);
     std::atomic<int> threads{0};
-    Team::gather(kThreads, [&] { on_threads(kThreads, [&](const Member&) { ++threads; }); });
+    ThreadTeam::parallel_region(kThreads,
+                                [&] { on_threads(kThreads, [&](const TeamThread&) { ++threads; }); });
     CHECK(threads == kThreads);
   }
 }
 
-// As where a caller runs a simulation on each thread: rooms are by own_number().
+// As where a caller runs a simulation on each thread: workspaces are by thread_index().
 TEST_CASE("in a parallel region of the caller's, what each of its threads does is its own") {
   std::atomic<int> wrong{0}, turns{0};
 #pragma omp parallel num_threads(kThreads)
-  Team::gather(kThreads, [&] {
-    on_threads(kThreads, [&](const Member& me) { wrong += me.threads != 1 || own_number() != 0; });
+  ThreadTeam::parallel_region(kThreads, [&] {
+    on_threads(kThreads, [&](const TeamThread& me) { wrong += me.threads != 1 || thread_index() != 0; });
     for_each_of(10, kThreads, 1, [&](std::int64_t) { ++turns; });
   });
   CHECK(wrong == 0);
   CHECK(turns == 10 * kThreads);
   in_both([] {
     std::atomic<int> other{0};
-    on_threads(kThreads, [&](const Member& me) { other += own_number() != me.thread; });
+    on_threads(kThreads, [&](const TeamThread& me) { other += thread_index() != me.thread; });
     CHECK(other == 0);
-    CHECK(own_number() == 0);
+    CHECK(thread_index() == 0);
   });
 }
 
@@ -145,8 +147,8 @@ TEST_CASE("in a parallel region of the caller's, what each of its threads does i
 TEST_CASE("threads that wait give way to those that work") {
   const int threads = 4 * omp_get_num_procs();
   std::atomic<int> turns{0};
-  Team::gather(threads, [&] {
-    for (int job = 0; job < 50; ++job) on_threads(threads, [&](const Member&) { ++turns; });
+  ThreadTeam::parallel_region(threads, [&] {
+    for (int job = 0; job < 50; ++job) on_threads(threads, [&](const TeamThread&) { ++turns; });
   });
   CHECK(turns == 50 * threads);
 }

@@ -1,4 +1,4 @@
-#include "engine/state/team.hpp"
+#include "engine/state/thread_team.hpp"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -70,56 +70,56 @@ void call(Signal& signal) {
 
 }  // namespace
 
-void Member::wait_for_all() const {
+void TeamThread::wait_for_all() const {
   if (threads == 1) return;
   if (team) return team->wait_for_all();
 #pragma omp barrier
 }
 
-Team*& Team::led() {
-  static thread_local Team* team = nullptr;
+ThreadTeam*& ThreadTeam::of_this_thread() {
+  static thread_local ThreadTeam* team = nullptr;
   return team;
 }
 
-bool Team::hand_out(int most, Job f) {
-  Team* team = led();
+bool ThreadTeam::run_on_team(int most, Job f) {
+  ThreadTeam* team = of_this_thread();
   if (!team || team->busy_) return false;
   team->run(most, f);
   return true;
 }
 
-void Team::run(int most, const Job& job) noexcept {
+void ThreadTeam::run(int most, const Job& job) noexcept {
   job_ = &job;
-  members_ = std::min(most, size_);
+  running_ = std::min(most, size_);
   done_.value.store(0, std::memory_order_relaxed);
   called_.value.fetch_add(1);
   call(called_);
   busy_ = 1;
-  job({0, members_, this});
+  job({0, running_, this});
   busy_ = 0;
   await(done_, [&](int done) { return done == size_ - 1; });
 }
 
-void Team::serve(int thread) {
-  own_number() = thread;
+void ThreadTeam::serve(int thread) {
+  thread_index() = thread;
   for (int seen = 0;; ++seen) {
     await(called_, [&](int called) { return called != seen; });
     if (!job_) break;
-    if (thread < members_) (*job_)({thread, members_, this});
+    if (thread < running_) (*job_)({thread, running_, this});
     if (done_.value.fetch_add(1) == size_ - 2) call(done_);
   }
-  own_number() = 0;
+  thread_index() = 0;
 }
 
-void Team::dismiss() {
+void ThreadTeam::dismiss() {
   job_ = nullptr;
   called_.value.fetch_add(1);
   call(called_);
 }
 
-void Team::wait_for_all() {
+void ThreadTeam::wait_for_all() {
   const int passed = passed_.value.load(std::memory_order_relaxed);
-  if (arrived_.fetch_add(1) == members_ - 1) {
+  if (arrived_.fetch_add(1) == running_ - 1) {
     arrived_.store(0, std::memory_order_relaxed);
     passed_.value.fetch_add(1);
     call(passed_);
@@ -128,15 +128,15 @@ void Team::wait_for_all() {
   }
 }
 
-void on_threads(int threads, FunctionRef<void(const Member&)> f) {
-  if (threads <= 1) return f(Member{});
-  if (Team::hand_out(threads, f)) return;
-  if (omp_in_parallel()) return f(Member{});
+void on_threads(int threads, FunctionRef<void(const TeamThread&)> f) {
+  if (threads <= 1) return f(TeamThread{});
+  if (ThreadTeam::run_on_team(threads, f)) return;
+  if (omp_in_parallel()) return f(TeamThread{});
 #pragma omp parallel num_threads(threads)
   {
-    own_number() = omp_get_thread_num();
-    f(Member{omp_get_thread_num(), omp_get_num_threads(), nullptr});
-    own_number() = 0;
+    thread_index() = omp_get_thread_num();
+    f(TeamThread{omp_get_thread_num(), omp_get_num_threads(), nullptr});
+    thread_index() = 0;
   }
 }
 

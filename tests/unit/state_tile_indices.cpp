@@ -23,7 +23,7 @@ using Draw = std::mt19937_64;
 
 int whole(Draw& draw, int lower, int upper) { return std::uniform_int_distribution<int>(lower, upper)(draw); }
 
-using Place = std::array<int, 3>;  ///< of a tile: last axis, ..., x; unused ones zero
+using TileIndex = std::array<int, 3>;  ///< of a tile: last axis, ..., x; unused ones zero
 
 /// What is known of one particle.
 template <int Dim>
@@ -56,8 +56,8 @@ struct Record {
 };
 
 template <int Dim>
-Place place_of(const std::array<int, Dim>& tile) {
-  Place out{};
+TileIndex tile_index_of(const std::array<int, Dim>& tile) {
+  TileIndex out{};
   for (std::size_t d = 0; d < Dim; ++d) out[Dim - 1 - d] = tile[d];
   return out;
 }
@@ -76,11 +76,11 @@ class Checked {
     check_particles();
     check_tiles();
     check_node_tiles();
-    check_stacks();
+    check_blocks();
   }
 
   /// Maps are told by the number of their tile's place in order, and their group.
-  static std::vector<std::size_t> place_numbers(const std::vector<Record<Dim>>& sorted) {
+  static std::vector<std::size_t> tile_numbers(const std::vector<Record<Dim>>& sorted) {
     std::vector<std::size_t> out;
     for (std::size_t p = 0; p < sorted.size(); ++p)
       out.push_back(p == 0 ? 0 : out.back() + (sorted[p].at() != sorted[p - 1].at()));
@@ -102,7 +102,7 @@ class Checked {
   }
 
   void check_tiles() {
-    const auto numbers = place_numbers(sorted_);
+    const auto numbers = tile_numbers(sorted_);
     std::size_t t = 0, r = 0, p = 0;
     while (p < sorted_.size()) {
       const Record<Dim>& first = sorted_[p];
@@ -147,8 +147,9 @@ class Checked {
   }
 
   void check_node_tiles() {
-    std::map<std::pair<Place, int>, std::array<int, kCorners<Dim>>> wanted;  // first particle tile by corner
-    const auto need = [&](const Place& at, int field, std::size_t c, std::size_t t) {
+    std::map<std::pair<TileIndex, int>, std::array<int, kCorners<Dim>>>
+        wanted;  // first particle tile by corner
+    const auto need = [&](const TileIndex& at, int field, std::size_t c, std::size_t t) {
       std::array<int, kCorners<Dim>> none;
       none.fill(-1);
       int& first = wanted.insert({{at, field}, none}).first->second[c];
@@ -158,9 +159,9 @@ class Checked {
       for (std::size_t c = 0; c < kCorners<Dim>; ++c) {
         auto at = seen_[t].first.tile();
         for (std::size_t d = 0; d < Dim; ++d) at[d] += static_cast<int>(c >> d & 1);
-        const Place place = place_of<Dim>(at);
+        const TileIndex tile_index = tile_index_of<Dim>(at);
         const int field = seen_[t].first.field;
-        need(place, field, c, t);
+        need(tile_index, field, c, t);
         if (!seen_[t].second) continue;
         for (std::size_t w = 0; w < kWindowNodes<Dim>; ++w) {
           bool below = true;
@@ -168,7 +169,8 @@ class Checked {
           for (std::size_t d = 0; d < Dim; ++d, rest /= 8)
             below = below && ((rest % 8 >= 4) == ((c >> d & 1) == 1));
           const int side = seen_[t].second->side[w];
-          if (below && side > 0) need(place, first_side_[static_cast<std::size_t>(field)] + side - 1, c, t);
+          if (below && side > 0)
+            need(tile_index, first_side_[static_cast<std::size_t>(field)] + side - 1, c, t);
         }
       }
     REQUIRE(tiling_.node_tiles.size() == wanted.size());
@@ -185,7 +187,7 @@ class Checked {
         auto at = seen_[t].first.tile();
         for (std::size_t d = 0; d < Dim; ++d) at[d] += static_cast<int>(c >> d & 1);
         REQUIRE(tiling_.tiles[t].slot[c] ==
-                number_.at({place_of<Dim>(at), seen_[t].first.field}) * kTileNodes<Dim>);
+                number_.at({tile_index_of<Dim>(at), seen_[t].first.field}) * kTileNodes<Dim>);
       }
       const int* const slots = tiling_.tiles[t].node_slot;
       REQUIRE((slots != nullptr) == (seen_[t].second != nullptr));
@@ -207,37 +209,37 @@ class Checked {
       tile[d] = Record<Dim>::floored(node[d]);
       local += stride * (node[d] - 4 * tile[d]);
     }
-    const auto found = number_.find({place_of<Dim>(tile), field});
+    const auto found = number_.find({tile_index_of<Dim>(tile), field});
     return found == number_.end() ? -1 : found->second * kTileNodes<Dim> + local;
   }
 
-  void check_stacks() {
-    std::map<Place, int> stacks;
-    for (const auto& [key, n] : number_) stacks.insert({key.first, static_cast<int>(stacks.size())});
-    REQUIRE(tiling_.stacks.size() == stacks.size());
-    REQUIRE(tiling_.places() == stacks.size() * kTileNodes<Dim>);
+  void check_blocks() {
+    std::map<TileIndex, int> blocks;
+    for (const auto& [key, n] : number_) blocks.insert({key.first, static_cast<int>(blocks.size())});
+    REQUIRE(tiling_.node_blocks.size() == blocks.size());
+    REQUIRE(tiling_.block_nodes() == blocks.size() * kTileNodes<Dim>);
     int begin = 0;
-    for (const auto& [place, s] : stacks) {
-      const auto& stack = tiling_.stacks[static_cast<std::size_t>(s)];
+    for (const auto& [tile_index, s] : blocks) {
+      const auto& block = tiling_.node_blocks[static_cast<std::size_t>(s)];
       int fields = 0;
-      for (const auto& [key, n] : number_) fields += key.first == place;
-      REQUIRE(stack.begin == begin);
-      REQUIRE(stack.end == (begin += fields));
+      for (const auto& [key, n] : number_) fields += key.first == tile_index;
+      REQUIRE(block.begin == begin);
+      REQUIRE(block.end == (begin += fields));
       for (int d = 0; d < Dim; ++d)
-        REQUIRE(stack.first_node[d] == 4 * place[static_cast<std::size_t>(Dim - 1 - d)]);
+        REQUIRE(block.first_node[d] == 4 * tile_index[static_cast<std::size_t>(Dim - 1 - d)]);
       for (int k = 0; k < power(3, Dim); ++k) {
-        Place beside = place;
+        TileIndex beside = tile_index;
         for (int d = 0, rest = k; d < Dim; ++d, rest /= 3)
           beside[static_cast<std::size_t>(Dim - 1 - d)] += rest % 3 - 1;
-        const auto found = stacks.find(beside);
-        REQUIRE(stack.neighbour[k] == (found == stacks.end() ? -1 : found->second));
+        const auto found = blocks.find(beside);
+        REQUIRE(block.neighbour[k] == (found == blocks.end() ? -1 : found->second));
       }
       for (int local = 0; local < kTileNodes<Dim>; ++local) {
-        const NodeIndex<Dim> node = tiling_.node(stack, local);
+        const NodeIndex<Dim> node = tiling_.node(block, local);
         std::array<int, Dim> at;
         for (std::size_t d = 0; d < Dim; ++d) {
           at[d] = node[static_cast<int>(d)];
-          REQUIRE(at[d] == stack.first_node[static_cast<int>(d)] + (d == 0   ? local % 4
+          REQUIRE(at[d] == block.first_node[static_cast<int>(d)] + (d == 0   ? local % 4
                                                                     : d == 1 ? local / 4 % 4
                                                                              : local / 16));
         }
@@ -256,7 +258,7 @@ class Checked {
   std::vector<int> first_side_;
   std::map<std::pair<int, int>, SideMap<Dim>> maps_;
   std::vector<Seen> seen_;
-  std::map<std::pair<Place, int>, int> number_;
+  std::map<std::pair<TileIndex, int>, int> number_;
 };
 
 /// Keeps what is written to it in memory.
@@ -347,10 +349,10 @@ void check_sorts(int seed, bool cracked) {
     if (cracked) {
       // Some places of field 1 get groups, in the order of a hash; every tile is one place yet.
       tiling.start_groups();
-      std::vector<std::size_t> places(tiling.tiles.size());
-      for (std::size_t t = 0; t < places.size(); ++t) places[t] = t;
-      std::shuffle(places.begin(), places.end(), draw);
-      for (const std::size_t t : places) {
+      std::vector<std::size_t> order(tiling.tiles.size());
+      for (std::size_t t = 0; t < order.size(); ++t) order[t] = t;
+      std::shuffle(order.begin(), order.end(), draw);
+      for (const std::size_t t : order) {
         const auto tile = tiling.tiles[t];
         if (tile.field != 1 || whole(draw, 0, 2) == 0) continue;
         std::vector<SideMap<Dim>> of_groups(static_cast<std::size_t>(whole(draw, 1, 3)));
@@ -458,13 +460,13 @@ TEST_CASE("a column lies on a line of the cache, holds what was in it, and tells
     for (int k = 0; k < 12; ++k) {
       const auto n = static_cast<std::size_t>(whole(draw, 0, k % 3 == 0 ? 3000 : 300));
       const bool keep = whole(draw, 0, 1) == 1;
-      const auto room = static_cast<std::size_t>(whole(draw, 0, 400));
+      const auto least_capacity = static_cast<std::size_t>(whole(draw, 0, 400));
       if (keep)
         column.grow(n);
       else
-        column.resize_discard(n, room);
+        column.resize_discard(n, least_capacity);
       if (n + 64 > capacity) {  // whole lines of eight, a quarter more where it grows
-        const std::size_t asked = (keep ? n + n / 4 : std::max(n, room)) + 64;
+        const std::size_t asked = (keep ? n + n / 4 : std::max(n, least_capacity)) + 64;
         capacity = (asked + 7) / 8 * 8;
         used = 0;
         if (!keep) wanted.assign(n, 0);
@@ -611,9 +613,9 @@ void check_particles() {
   CHECK(particles.size() == 20);
   CHECK(particles.next_id() == 30);
 
-  state.depth = Depth::hoop;
+  state.plane_kind = PlaneKind::axisymmetric;
   const ParticleView<Dim> view = state.view();
-  CHECK(view.depth == Depth::hoop);
+  CHECK(view.plane_kind == PlaneKind::axisymmetric);
   std::set<const double*> seen;
   const auto are = [&](const double* const* got, Quantity q) {
     for (int k = 0; k < Particles<Dim>::components(q); ++k) {

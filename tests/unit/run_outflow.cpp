@@ -173,7 +173,7 @@ TEST_CASE("walls on the faces that a scene says nothing of keep particles in") {
   const auto& wall = std::get<WallSpec>(scene.boundaries[1].condition);
   CHECK(wall.axis == 0);
   CHECK_FALSE(wall.upper);
-  CHECK_FALSE(wall.held);
+  CHECK_FALSE(wall.fixed);
   CHECK(wall.position == 0);
   CHECK(parse_scene(scene.resolved_yaml, "test.yaml").resolved_yaml == scene.resolved_yaml);
 

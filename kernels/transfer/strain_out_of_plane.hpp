@@ -1,8 +1,9 @@
 #pragma once
 
-/// @file Strain and stress of particles in planes that stretch along their normal (materials/depth.hpp).
+/// @file Strain and stress of particles in planes that stretch along their normal
+/// (materials/out_of_plane.hpp).
 
-#include "kernels/materials/depth.hpp"
+#include "kernels/materials/out_of_plane.hpp"
 #include "kernels/materials/shape_memory.hpp"
 #include "kernels/views.hpp"
 
@@ -66,21 +67,21 @@ inline void store_state(const StateView<Dim>& view, const Law& law, std::uint32_
 
 /// Plane stress: F ← (I + a) F, then s where τ_zz vanishes.
 template <class Law>
-inline void advance_relaxed(const StateView<2>& view, const Law& law, const Lanes (&l)[4], double dt,
-                            int terms, std::uint32_t at, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
-                            Lanes& wave_speed_squared) {
+inline void advance_plane_stress(const StateView<2>& view, const Law& law, const Lanes (&l)[4], double dt,
+                                 int terms, std::uint32_t at, Lanes (&f)[4], Lanes& s, Lanes (&tau)[6],
+                                 Lanes& wave_speed_squared) {
   advance_deformation<2>(l, dt, terms, f);
-  Lanes seen[4] = {f[0], f[1], f[2], f[3]}, relaxed = s, full[9];
+  Lanes seen[4] = {f[0], f[1], f[2], f[3]}, plane_stress = s, full[9];
   if (view.thermal_stretch) {
     const Lanes cooling = detail::cooling(view, at);
     detail::cool(cooling, seen);
-    relaxed *= cooling;
+    plane_stress *= cooling;
   }
-  relaxed = law.relaxed_stretch(seen, relaxed);
-  embed(seen, relaxed, full);
+  plane_stress = law.out_of_plane_stretch(seen, plane_stress);
+  embed(seen, plane_stress, full);
   law.template stress<3>(full, tau, wave_speed_squared);
-  wave_speed_squared = law.plate_wave_speed_squared(seen, relaxed);
-  s = view.thermal_stretch ? relaxed * load_lanes(view.thermal_stretch + at) : relaxed;
+  wave_speed_squared = law.plate_wave_speed_squared(seen, plane_stress);
+  s = view.thermal_stretch ? plane_stress * load_lanes(view.thermal_stretch + at) : plane_stress;
 }
 
 /// Axisymmetry: F ← (I + a) F and s ← (1 + b) s, b the increment of the hoop rate v_r/r. Plane strain that
@@ -111,7 +112,7 @@ inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes 
         state, tau, wave_speed_squared);
     plane = narrowed(state);
     detail::store_state(view, law, at, count, plane);
-    if (law.shape_limit() < kWholeShape) forget_shape<2>(law.shape_limit(), now / s, count, f);
+    if (law.shape_limit() < kWholeShape) limit_shape<2>(law.shape_limit(), now / s, count, f);
     return now;
   } else {
     law.template stress<3>(full, tau, wave_speed_squared);
@@ -125,11 +126,11 @@ inline Lanes advance_law_with_depth(const ParticleView<2>& p, const Law& law, co
                                     double dt, int terms, std::uint32_t at, int count, Lanes (&f)[4],
                                     Lanes& s, Lanes (&tau)[4], Lanes& wave_speed_squared) {
   Lanes all[6], j;
-  bool relaxed = false;
-  if constexpr (Relaxes<Law>) relaxed = p.depth == Depth::relaxed;
-  if (relaxed) {
-    if constexpr (Relaxes<Law>)
-      advance_relaxed(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
+  bool plane_stress = false;
+  if constexpr (HasPlaneStress<Law>) plane_stress = p.plane_kind == PlaneKind::plane_stress;
+  if (plane_stress) {
+    if constexpr (HasPlaneStress<Law>)
+      advance_plane_stress(p.state, law, l, dt, terms, at, f, s, all, wave_speed_squared);
     j = s * determinant<2>(f);
   } else {
     j = advance_hoop(p.state, law, l, rate, dt, terms, at, count, f, s, all, wave_speed_squared);

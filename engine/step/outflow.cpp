@@ -9,14 +9,14 @@ namespace mpmfast {
 
 /// Only what is sound flows out: a finite particle that did not come there through the axis of symmetry.
 template <int Dim>
-void Step<Dim>::let_leave() {
+void Step<Dim>::remove_outflow() {
   if (!lost_) return;
   const auto timed = clock_.enter(Task::leave);
   lost_ = false;
   constexpr const char* kLost = "a particle left the grid or is not a number";
-  if (scene_->grid.leaving != LeavingKind::outflow) fail(kLost);
+  if (scene_->grid.outflow != OutflowKind::outflow) fail(kLost);
   auto& particles = state_.particles;
-  const bool has_axis = plan_.depth == Depth::hoop;
+  const bool has_axis = plan_.plane_kind == PlaneKind::axisymmetric;
   for (std::size_t p = 0; p < particles.size(); ++p) {
     const Vec<Dim> x = particles.vector(Quantity::position, p), v = particles.vector(Quantity::velocity, p);
     const double fastest = v.norm() + particles.column(Quantity::wave_speed)[p];
@@ -39,7 +39,7 @@ void Step<Dim>::let_leave() {
   sort_due_ = true;
 }
 
-template void Step<2>::let_leave();
-template void Step<3>::let_leave();
+template void Step<2>::remove_outflow();
+template void Step<3>::remove_outflow();
 
 }  // namespace mpmfast

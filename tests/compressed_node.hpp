@@ -14,14 +14,14 @@ namespace mpmfast {
 /// Each field leaves a place of its own for the node; all pairs are in contact, with normals from place to
 /// place.
 template <int Dim>
-struct PressedNode {
+struct CompressedNode {
   std::vector<MovingField<Dim>> fields;
   std::vector<FieldContact<Dim>> contacts;
 
-  PressedNode() = default;
+  CompressedNode() = default;
   /// @param orders  of magnitude that the masses span, 1 kg at most: the corners of grains have some four
   template <class Generator>
-  PressedNode(int count, double orders, Generator& draw) {
+  CompressedNode(int count, double orders, Generator& draw) {
     std::normal_distribution<double> gauss;
     std::uniform_real_distribution<double> exponent(-orders, 0);
     const auto vector = [&] {

@@ -43,12 +43,12 @@ inline V stretch_increment(V rate, double dt, int terms) {
 }
 
 /// Laws for plane stress:
-///   s = relaxed_stretch(F_plane, s of the last step): where τ_zz = 0;
+///   s = out_of_plane_stretch(F_plane, s of the last step): where τ_zz = 0;
 ///   plate_wave_speed_squared(F_plane, s): of in-plane waves through the energy W(F_plane, s(F_plane)). With
 ///   y = ln s its modulus along n is that at fixed s less (∂τ_nn/∂y)²/(∂τ_zz/∂y).
 template <class Law>
-concept Relaxes = requires(const Law& law, const double (&f)[4], double s) {
-  law.relaxed_stretch(f, s);
+concept HasPlaneStress = requires(const Law& law, const double (&f)[4], double s) {
+  law.out_of_plane_stretch(f, s);
   law.plate_wave_speed_squared(f, s);
 };
 

@@ -9,10 +9,10 @@
 #include <random>
 
 #include "kernels/dimension.hpp"
-#include "kernels/materials/depth.hpp"
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/logarithmic_neo_hookean.hpp"
 #include "kernels/materials/neo_hookean.hpp"
+#include "kernels/materials/out_of_plane.hpp"
 
 using namespace mpmfast;
 
@@ -41,11 +41,11 @@ struct Rows {
   explicit Rows(const Mat<2>& m) : f{m(0, 0), m(0, 1), m(1, 0), m(1, 1)} {}
 };
 
-/// The relaxed stretch from far away, by as many rounds as it takes.
+/// The plane_stress stretch from far away, by as many rounds as it takes.
 template <class Law>
 double stretch(const Law& law, const Mat<2>& f) {
   double s = 1;
-  for (int k = 0; k < 20; ++k) s = law.relaxed_stretch(Rows(f).f, s);
+  for (int k = 0; k < 20; ++k) s = law.out_of_plane_stretch(Rows(f).f, s);
   return s;
 }
 
@@ -185,7 +185,7 @@ double worst_residual(const Law& law, double modulus) {
     const Mat<2> f = random_deformation(draw, 0.6);
     Mat<2> change = Mat<2>::Identity();
     for (int e = 0; e < 4; ++e) change(e / 2, e % 2) += uniform(draw, -0.02, 0.02);
-    const double s = law.relaxed_stretch(Rows(Mat<2>(change * f)).f, stretch(law, f));
+    const double s = law.out_of_plane_stretch(Rows(Mat<2>(change * f)).f, stretch(law, f));
     worst = std::max(worst, std::abs(stress(law, Mat<2>(change * f), s)[2]) / modulus);
   }
   return worst;
@@ -227,10 +227,10 @@ TEST_CASE("plane stress: lanes of particles get the stretches of one by one") {
     const Mat<2> m = random_deformation(draw, 0.3);
     last[i] = uniform(draw, 0.9, 1.1);
     for (int e = 0; e < 4; ++e) f[e][i] = Rows(m).f[e];
-    alone[i] = kSolid.relaxed_stretch(Rows(m).f, last[i]);
+    alone[i] = kSolid.out_of_plane_stretch(Rows(m).f, last[i]);
     speed[i] = kSolid.plate_wave_speed_squared(Rows(m).f, alone[i]);
   }
-  const Lanes s = kSolid.relaxed_stretch(f, last), c2 = kSolid.plate_wave_speed_squared(f, s);
+  const Lanes s = kSolid.out_of_plane_stretch(f, last), c2 = kSolid.plate_wave_speed_squared(f, s);
   for (int i = 0; i < kLanes; ++i) {
     CHECK(s[i] == doctest::Approx(alone[i]).epsilon(1e-13));
     CHECK(c2[i] == doctest::Approx(speed[i]).epsilon(1e-12));
