@@ -55,7 +55,7 @@ void solve_in_lanes(benchmark::State& state) {
   std::vector<CompressedNode<Dim>> nodes;
   for (int i = 0; i < draws; ++i) nodes.emplace_back(kFields, kOrders, draw);
   const Coulomb friction{0.2, 0};
-  SetRule<Dim> rule;
+  ActiveSetRule<Dim> rule;
   rule.acts = rule.friction = true;
   LaneSolver<Dim, kFields> solver;
   std::size_t next = 0;
@@ -69,7 +69,7 @@ void solve_in_lanes(benchmark::State& state) {
         solver.set_field(lane, k, field.velocity, field.inverse_mass);
       }
       for (const FieldContact<Dim>& c : node.contacts)
-        solver.add_contact(lane, c.a, c.b, c.normal, c.reduced, 0, rule, friction);
+        solver.add_contact(lane, c.a, c.b, c.normal, c.reduced_mass, 0, rule, friction);
       next = (next + 1) % draws;
     }
     unsettled += kLanes - std::popcount(solver.solve(true));

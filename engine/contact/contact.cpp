@@ -216,7 +216,7 @@ template <int Dim>
 std::size_t Contact<Dim>::bytes() const {
   const PairColumns<Dim>& pairs = list_.pairs;
   return bytes_in(list_.nodes, list_.fields, list_.node_at, pairs.pair, pairs.geometry, pairs.before,
-                  pairs.status, pairs.impulse, pairs.slip, pairs.spring, pairs.bond, pairs.fit) +
+                  pairs.status, pairs.impulse, pairs.relative, pairs.spring, pairs.bond, pairs.fit) +
          phases_->memory.bytes() + phases_->finder.bytes() + phases_->fit.bytes();
 }
 

@@ -19,6 +19,7 @@
 #include <cmath>
 
 #include "kernels/contact/cohesive.hpp"
+#include "kernels/contact/friction_cone.hpp"
 #include "kernels/contact/interface.hpp"
 #include "kernels/contact/largest_root.hpp"
 #include "kernels/dimension.hpp"
@@ -34,8 +35,8 @@ struct Parted {
 
 template <int Dim>
 Parted parted(const Vec<Dim>& jump, const Vec<Dim>& normal) {
-  const double along = jump.dot(normal);
-  return {std::max(0.0, along), (jump - along * normal).squaredNorm()};
+  const auto [opening, slip] = split(jump, normal);
+  return {std::max(0.0, opening), slip.squaredNorm()};
 }
 
 /// ω̄ of a step, and ω at its end.

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/contact/friction_cone.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -151,31 +152,32 @@ Vec<Dim> rate_after(const Springs& springs, const PairStart<Dim>& joint, double 
          SlipSpring{springs.shear}.rate_after(joint, dt, alone);
 }
 
-/// What friction makes of a slip.
+/// A slip at the end of a step with friction.
 template <int Dim>
 struct FrictionResult {
   Vec<Dim> rate;     ///< of the slip at the end of the step, m/s
   Vec<Dim> impulse;  ///< of friction on the first field, N s
 };
 
-/// Friction of surfaces that springs press (NN §5.7), beside a spring along them: they rest, or what law
-/// there is says how much of the momentum that rest would take is taken. The inertia is that of the spring
-/// without friction: one that changed as surfaces press and part would make energy.
-/// @param law      of Sliding (sliding.hpp)
-/// @param pressed  the impulse of the normal springs, N s, positive in compression
+/// Friction of surfaces that springs press together (NN §5.7), in parallel with a spring along them. The
+/// momentum that rest would take is limited by the law. The inertia is that of the spring without friction,
+/// since an inertia that changed as surfaces press and part would add energy.
+/// @param law             of Sliding (sliding.hpp)
+/// @param normal_impulse  of the normal springs, N s, positive in compression
+/// @param alone           no other pair of the node has springs
 template <int Dim, class Law, class Spring>
 FrictionResult<Dim> apply_friction(const Law& law, double normal_impulse, const Spring& spring,
                                    const PairStart<Dim>& joint, double dt, bool alone) {
   const Vec<Dim> slip = joint.across(joint.jump), rate = joint.across(joint.rate),
                  drawn = joint.across(joint.opening);
-  const Vec<Dim> held = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
-  const Vec<Dim> stick = spring.inertia(joint.mass, dt, alone) * rate + dt * (drawn - held);
-  const double needed = stick.norm(), limit = law({normal_impulse, needed, joint.mass});
-  if (needed <= limit) return {Vec<Dim>::Zero(), stick};
-  const Vec<Dim> impulse = limit / needed * stick;
+  const Vec<Dim> spring_force = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
+  const Vec<Dim> stick = spring.inertia(joint.mass, dt, alone) * rate + dt * (drawn - spring_force);
+  const double needed = stick.norm();
+  const Friction<Dim> friction = into_cone(stick, needed, law({normal_impulse, needed, joint.mass}));
+  if (friction.sticks) return {Vec<Dim>::Zero(), stick};
   PairStart<Dim> sliding = joint;
-  sliding.opening -= impulse / dt;
-  return {spring.rate_after(sliding, dt, alone), impulse};
+  sliding.opening -= friction.impulse / dt;
+  return {spring.rate_after(sliding, dt, alone), friction.impulse};
 }
 
 }  // namespace mpmfast

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "kernels/constants.hpp"
+#include "kernels/contact/active_set_rule.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/contact/node_solver.hpp"
-#include "kernels/contact/set_rule.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/simd/lanes.hpp"
 
@@ -52,18 +52,18 @@ class LaneSolver {
     f.inverse_mass[lane] = inverse_mass;
   }
   /// Adds a contact (FieldContact); no two contacts of a node have the same fields.
-  void add_contact(int lane, int a, int b, const Vec<Dim>& normal, double reduced, double target_approach,
-                   const SetRule<Dim>& rule, const Coulomb& law) {
+  void add_contact(int lane, int a, int b, const Vec<Dim>& normal, double reduced_mass,
+                   double target_approach, const ActiveSetRule<Dim>& rule, const Coulomb& law) {
     Contact& c = contacts_[pair_index(a, b)];
     for (int d = 0; d < Dim; ++d) c.normal[d][lane] = a < b ? normal[d] : -normal[d];
-    c.reduced[lane] = reduced;
+    c.reduced_mass[lane] = reduced_mass;
     c.target_approach[lane] = target_approach;
     c.friction[lane] = rule.friction ? law.friction : 0;
     c.static_friction[lane] = rule.friction ? law.static_friction : 0;
     c.exists[lane] = 1;
     c.acts[lane] = rule.acts;
     c.bilateral[lane] = rule.bilateral;
-    c.holds_slip[lane] = rule.holds_slip;
+    c.must_stick[lane] = rule.must_stick;
   }
   bool has(int lane, int a, int b) const { return contacts_[pair_index(a, b)].exists[lane] != 0; }
   /// Result: Δp_a, N s.
@@ -73,11 +73,14 @@ class LaneSolver {
     for (int d = 0; d < Dim; ++d) out[d] = a < b ? c.impulse[d][lane] : -c.impulse[d][lane];
     return out;
   }
-  bool sticks(int lane, int a, int b) const { return contacts_[pair_index(a, b)].status[lane] == kStick; }
+  ContactStatus status(int lane, int a, int b) const {
+    return static_cast<ContactStatus>(contacts_[pair_index(a, b)].status[lane]);
+  }
 
   /// Finds the impulses of all nodes from zero. They can be read until the next begin_node.
-  /// @param may_stick  whether contacts may stick in this correction. (A property of the correction, not of
-  /// these nodes: sums of fewer terms round differently.)
+  /// @param may_stick  whether contacts may stick in this correction. (It belongs to the correction, so that
+  ///                   the result of a lane does not depend on the others: sums of fewer terms round
+  ///                   otherwise.)
   /// @return a bit for each lane whose node converged
   unsigned solve(bool may_stick) {
     if (is_empty()) return 0;
@@ -98,7 +101,9 @@ class LaneSolver {
   }
 
  private:
-  static constexpr double kOpen = 0, kSlip = 1, kStick = 2;  ///< as ContactStatus
+  static constexpr auto kOpen = static_cast<double>(ContactStatus::open),
+                        kSlip = static_cast<double>(ContactStatus::slip),
+                        kStick = static_cast<double>(ContactStatus::stick);
   using Column = double[kLanes];
   using VecLanes = Lanes[Dim];
 
@@ -107,8 +112,8 @@ class LaneSolver {
   };
   /// In columns, to be filled lane by lane.
   struct Contact {
-    Column normal[Dim], reduced, target_approach, friction, static_friction, exists, acts, bilateral,
-        holds_slip;
+    Column normal[Dim], reduced_mass, target_approach, friction, static_friction, exists, acts, bilateral,
+        must_stick;
     Column impulse[Dim], status;
   };
   /// While they are solved.
@@ -118,8 +123,8 @@ class LaneSolver {
   };
   struct Solving {
     VecLanes normal, impulse, change;
-    Lanes reduced, target_approach, friction, static_friction, status;
-    IntLanes acts, bilateral, holds_slip;
+    Lanes reduced_mass, target_approach, friction, static_friction, status;
+    IntLanes acts, bilateral, must_stick;
   };
   static constexpr int first_field(int pair) {
     int a = 0;
@@ -162,13 +167,13 @@ class LaneSolver {
       const IntLanes exists = is_set(from.exists);
       const auto there = [&](const Column& x) { return chosen(exists, load_lanes(x), Lanes{}); };
       for (int d = 0; d < Dim; ++d) to.normal[d] = there(from.normal[d]), to.impulse[d] = Lanes{};
-      to.reduced = there(from.reduced);
+      to.reduced_mass = there(from.reduced_mass);
       to.target_approach = there(from.target_approach);
       to.friction = there(from.friction);
       to.static_friction = there(from.static_friction);
       to.acts = exists & is_set(from.acts);
       to.bilateral = exists & is_set(from.bilateral);
-      to.holds_slip = exists & is_set(from.holds_slip);
+      to.must_stick = exists & is_set(from.must_stick);
       to.status = Lanes{};
     }
   }
@@ -199,7 +204,7 @@ class LaneSolver {
       momentum += chosen(
           moves, quotient(square_root(dot(apart, apart)), chosen(moves, f.inverse_mass, one())), Lanes{});
     }
-    for (const Solving& c : solving_) heaviest = larger(heaviest, c.reduced);
+    for (const Solving& c : solving_) heaviest = larger(heaviest, c.reduced_mass);
     noise_ = kRoundOff * kRoundOff * heaviest * heaviest * fastest;
     most_ = kMost * kMost * momentum * momentum;
   }
@@ -212,12 +217,12 @@ class LaneSolver {
     return sum < std::numeric_limits<double>::infinity();
   }
 
-  /// SetRule::response with Coulomb's law.
+  /// ActiveSetRule::response with Coulomb's law.
   /// @param trial    Δp_a that sticking would need, N s
   /// @param impulse  result, or null
   /// @return the status
   static Lanes response(const Solving& c, const VecLanes& trial, VecLanes* impulse) {
-    const Lanes along = dot(trial, c.normal), end = along + c.reduced * c.target_approach;
+    const Lanes along = dot(trial, c.normal), end = along + c.reduced_mass * c.target_approach;
     VecLanes tangential;
     for (int d = 0; d < Dim; ++d) tangential[d] = trial[d] - along * c.normal[d];
     const Lanes needed =
@@ -225,7 +230,7 @@ class LaneSolver {
     const Lanes presses = larger(-end, Lanes{}), limit = c.friction * presses;
     const IntLanes none = ~c.acts | ((end > 0.0) & ~c.bilateral);
     const IntLanes sticks =
-        c.holds_slip | (needed <= c.static_friction * presses) | ((needed <= limit) & (limit > 0.0));
+        c.must_stick | (needed <= c.static_friction * presses) | ((needed <= limit) & (limit > 0.0));
     if (impulse) {
       const Lanes share = chosen(sticks, one(), quotient(limit, needed));
       for (int d = 0; d < Dim; ++d)
@@ -245,7 +250,7 @@ class LaneSolver {
     }
   }
   template <int kPair>
-  void slip(VecLanes& out) const {
+  void relative_velocity(VecLanes& out) const {
     for (int d = 0; d < Dim; ++d)
       out[d] = moving_[second_field(kPair)].velocity[d] - moving_[first_field(kPair)].velocity[d];
   }
@@ -263,8 +268,8 @@ class LaneSolver {
     for_each_pair([&](auto pair) {
       Solving& c = solving_[pair];
       VecLanes trial, impulse, step;
-      slip<pair>(trial);
-      for (int d = 0; d < Dim; ++d) trial[d] = c.impulse[d] + c.reduced * trial[d];
+      relative_velocity<pair>(trial);
+      for (int d = 0; d < Dim; ++d) trial[d] = c.impulse[d] + c.reduced_mass * trial[d];
       c.status = chosen(active, response(c, trial, &impulse), c.status);
       for (int d = 0; d < Dim; ++d) step[d] = chosen(active, impulse[d] - c.impulse[d], Lanes{});
       add<pair>(step);
@@ -310,8 +315,9 @@ class LaneSolver {
       const IntLanes loaded = magnitude(along) > constants::kLeastImpulse;
       const Lanes inverse = quotient(one(), chosen(loaded, along, one()));
       VecLanes residual;
-      slip<pair>(residual);
-      for (int d = 0; d < Dim; ++d) residual[d] = c.reduced * (residual[d] + c.target_approach * c.normal[d]);
+      relative_velocity<pair>(residual);
+      for (int d = 0; d < Dim; ++d)
+        residual[d] = c.reduced_mass * (residual[d] + c.target_approach * c.normal[d]);
       for (int row = 0; row < kRows; ++row) {
         const int i = pair * kRows + row;
         for (int d = 0; d < Dim; ++d) {
@@ -324,8 +330,8 @@ class LaneSolver {
       }
     });
     for_each_pair([&](auto k) {
-      const Lanes share_a = solving_[k].reduced * moving_[first_field(k)].inverse_mass,
-                  share_b = solving_[k].reduced * moving_[second_field(k)].inverse_mass;
+      const Lanes share_a = solving_[k].reduced_mass * moving_[first_field(k)].inverse_mass,
+                  share_b = solving_[k].reduced_mass * moving_[second_field(k)].inverse_mass;
       for_each_pair([&](auto l) {
         constexpr int a = first_field(k), b = second_field(k), p = first_field(l), q = second_field(l);
         constexpr int sign_a = (a == p) - (a == q), sign_b = (b == q) - (b == p);
@@ -381,7 +387,7 @@ class LaneSolver {
       if (bits_of(sticks) == 0) continue;
       VecLanes trial;
       for (int d = 0; d < Dim; ++d)
-        trial[d] = c.impulse[d] + share * c.change[d] - c.reduced * c.target_approach * c.normal[d];
+        trial[d] = c.impulse[d] + share * c.change[d] - c.reduced_mass * c.target_approach * c.normal[d];
       all &= ~sticks | (response(c, trial, nullptr) == kStick);
     }
     return all;

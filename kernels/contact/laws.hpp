@@ -136,15 +136,15 @@ struct VelocityFriction {
   double operator()(const Sliding& s) const {
     const double at_rest = std::max(friction, static_friction);  // zero: as `friction`
     if (s.stick <= at_rest * s.normal) return kSticks;
-    double speed = (s.stick - friction * s.normal) / s.reduced;
+    double speed = (s.stick - friction * s.normal) / s.reduced_mass;
     for (int k = 0; k < 50; ++k) {
       const double falling = (at_rest - friction) * s.normal * std::exp(-speed / decay_speed);
-      const double excess = s.reduced * speed + friction * s.normal + falling - s.stick;
-      const double step = excess / (s.reduced - falling / decay_speed);
+      const double excess = s.reduced_mass * speed + friction * s.normal + falling - s.stick;
+      const double step = excess / (s.reduced_mass - falling / decay_speed);
       speed -= step;
       if (!(std::abs(step) > 1e-14 * speed)) break;
     }
-    return s.stick - s.reduced * std::max(0.0, speed);
+    return s.stick - s.reduced_mass * std::max(0.0, speed);
   }
 };
 
@@ -166,7 +166,7 @@ struct Viscous {
   }
   double operator()(const Sliding& s) const {
     const double c = viscosity / film * s.area_time;
-    return s.stick * c / (s.reduced + c);
+    return s.stick * c / (s.reduced_mass + c);
   }
 };
 

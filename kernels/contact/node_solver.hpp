@@ -11,6 +11,7 @@
 #include "kernels/constants.hpp"
 #include "kernels/contact/contact_status.hpp"
 #include "kernels/contact/delassus_operator.hpp"
+#include "kernels/contact/friction_cone.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -22,7 +23,7 @@ struct MovingField {
   double inverse_mass;  ///< 1/kg
 };
 
-/// What a law answers for one contact while the others stay.
+/// The impulse and status of one contact by its law while the others stay.
 template <int Dim>
 struct Response {
   Vec<Dim> impulse;  ///< Δp_a, N s
@@ -43,7 +44,7 @@ template <int Dim>
 struct FieldContact {
   int a, b;
   Vec<Dim> normal;           ///< unit, from a to b
-  double reduced;            ///< m_red = 1/(1/m_a + 1/m_b), kg
+  double reduced_mass;       ///< m_red = 1/(1/m_a + 1/m_b), kg
   double target_approach{};  ///< approach velocity that closes the gap by the end of the step, m/s
   bool bilateral = false;    ///< it pulls as well as it presses
   ContactStatus status = ContactStatus::open;  ///< result
@@ -64,8 +65,9 @@ class NodeSolver {
   std::vector<MovingField<Dim>> fields;
   std::vector<FieldContact<Dim>> contacts;
 
-  /// Finds the impulses, starting from the present ones. Where they do not converge, friction lags behind the
-  /// normal impulses, and friction that would drive is cut. Converged or not, impulses do no positive work.
+  /// Finds the impulses, starting from the present ones. If they do not converge, friction is prescribed and
+  /// the normal impulses are solved for it, by turns; friction that would do positive work is removed.
+  /// Converged or not, impulses do no positive work.
   /// @param law  law(k, trial): the Response of contact k to the impulse that sticking would need
   /// @return whether they converged (constants::kSweepTolerance) and obey their laws
   template <class Law>
@@ -84,38 +86,38 @@ class NodeSolver {
  private:
   MovingField<Dim>& field(int k) { return fields[static_cast<std::size_t>(k)]; }
   /// v_b − v_a, m/s.
-  Vec<Dim> slip(const FieldContact<Dim>& c) { return field(c.b).velocity - field(c.a).velocity; }
+  Vec<Dim> relative_velocity(const FieldContact<Dim>& c) { return field(c.b).velocity - field(c.a).velocity; }
 
   void add(FieldContact<Dim>& c, const Vec<Dim>& impulse) {
     field(c.a).velocity += field(c.a).inverse_mass * impulse;
     field(c.b).velocity -= field(c.b).inverse_mass * impulse;
   }
 
-  /// Friction follows the last normal impulses, from zero, and the normal impulses then converge for it.
-  /// Fields that jam may have no impulses that obey both laws; normal impulses for given friction always
-  /// exist, and do no work.
+  /// By turns, friction is set from the last normal impulses and the normal impulses are solved for it. Both
+  /// begin at zero. Fields that jam may have no impulses that obey both laws; normal impulses for given
+  /// friction always exist, and do no work.
   /// @return whether the friction converged too
   template <class Law>
   bool solve_with_lagged_friction(const Law& law) {
     lags_ = true;
     bool converged = false;
     double last = std::numeric_limits<double>::infinity();
-    bool pressed = restart(law);
+    bool normal_converged = restart(law);
     for (int round = 0; round < constants::kFrictionRounds && !converged; ++round) {
       double largest = 0, change = 0;
       changes_.resize(contacts.size());
       for (std::size_t k = 0; k < contacts.size(); ++k) {
         FieldContact<Dim>& c = contacts[k];
-        const Vec<Dim> impulse = law(k, c.impulse + c.reduced * slip(c)).impulse;
-        changes_[k] = impulse - impulse.dot(c.normal) * c.normal - c.friction;
+        const Vec<Dim> impulse = law(k, c.impulse + c.reduced_mass * relative_velocity(c)).impulse;
+        changes_[k] = split(impulse, c.normal).tangential - c.friction;
         largest = std::max(largest, impulse.squaredNorm());
         change = std::max(change, changes_[k].squaredNorm());
       }
-      converged = pressed && is_converged(change, largest);
+      converged = normal_converged && is_converged(change, largest);
       if (!(change < last)) break;
       for (std::size_t k = 0; k < contacts.size(); ++k) contacts[k].friction += 0.5 * changes_[k];
       last = change;
-      pressed = solve_normal_impulses(law);
+      normal_converged = solve_normal_impulses(law);
     }
     for (int round = 0; round < constants::kFrictionRounds && !converged && cut_friction(law); ++round)
       solve_normal_impulses(law);
@@ -158,9 +160,9 @@ class NodeSolver {
     bool cut = false;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       FieldContact<Dim>& c = contacts[k];
-      const Vec<Dim> impulse = law(k, c.impulse + c.reduced * slip(c)).impulse;
-      const double allowed = (impulse - impulse.dot(c.normal) * c.normal).norm(), now = c.friction.norm();
-      const double share = c.friction.dot(slip(c)) < 0                 ? 0
+      const Vec<Dim> impulse = law(k, c.impulse + c.reduced_mass * relative_velocity(c)).impulse;
+      const double allowed = split(impulse, c.normal).tangential.norm(), now = c.friction.norm();
+      const double share = c.friction.dot(relative_velocity(c)) < 0    ? 0
                            : now > constants::kSpareFriction * allowed ? allowed / now
                                                                        : 1;
       c.friction *= share;
@@ -182,7 +184,7 @@ class NodeSolver {
       fastest = std::max(fastest, f.velocity.squaredNorm());
       if (f.inverse_mass < ground->inverse_mass) ground = &f;
     }
-    for (const FieldContact<Dim>& c : contacts) heaviest = std::max(heaviest, c.reduced);
+    for (const FieldContact<Dim>& c : contacts) heaviest = std::max(heaviest, c.reduced_mass);
     noise_ = constants::kVelocityRoundOff * heaviest * std::sqrt(fastest);
     momentum_ = 0;
     start_.clear();
@@ -198,7 +200,7 @@ class NodeSolver {
     largest_ = 0;
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       FieldContact<Dim>& c = contacts[k];
-      const Vec<Dim> trial = c.impulse + c.reduced * slip(c);
+      const Vec<Dim> trial = c.impulse + c.reduced_mass * relative_velocity(c);
       const Response<Dim> response = lags_ ? normal_response(law, k, trial) : law(k, trial);
       const Vec<Dim> step = response.impulse - c.impulse;
       add(c, step);
@@ -210,11 +212,12 @@ class NodeSolver {
     return is_converged(change, largest_);
   }
 
-  /// Contact may only dissipate: Σ J · slip ≥ 0 over the slips that it leaves. Impulses that have not
-  /// converged may drive fields apart that jam in a ring; they are scaled to where they dissipate most.
+  /// Scales the impulses so that contact only dissipates, Σ J·w ≥ 0 with the relative velocities w that it
+  /// leaves. Impulses that have not converged may drive fields apart that jam in a ring. The work is
+  /// s J·w_0 − ½ s² Σ |Δp|²/m with a factor s and w_0 before any impulse; s maximises it.
   void remove_work() {
-    double dissipated = 0, squares = 0;  // Σ J · slip after; Σ |Δp|²/m; their sum is Σ J · slip before
-    for (const FieldContact<Dim>& c : contacts) dissipated += c.impulse.dot(slip(c));
+    double dissipated = 0, squares = 0;  // Σ J·w; Σ |Δp|²/m; their sum is Σ J·w_0
+    for (const FieldContact<Dim>& c : contacts) dissipated += c.impulse.dot(relative_velocity(c));
     if (dissipated >= 0) return;
     changes_.assign(fields.size(), Vec<Dim>::Zero());
     for (const FieldContact<Dim>& c : contacts) {
@@ -239,8 +242,8 @@ class NodeSolver {
             response.status == ContactStatus::open ? ContactStatus::open : ContactStatus::slip};
   }
 
-  /// What each contact constrains in its present status: all relative velocity where it sticks; the approach
-  /// where it slips, with an impulse J = J_n (n + s) of constant s.
+  /// Assembles the constraints of each contact by its present status. A contact that sticks constrains its
+  /// whole relative velocity; one that slips its approach, with an impulse J = J_n (n + s) of constant s.
   /// @return false if nothing is constrained, or more than the operator has space for
   bool assemble_operator() {
     operator_.clear();
@@ -248,16 +251,16 @@ class NodeSolver {
       const FieldContact<Dim>& c = contacts[k];
       if (c.status == ContactStatus::open) continue;
       if (operator_.is_full()) return false;
-      const Vec<Dim> residual = c.reduced * (slip(c) + c.target_approach * c.normal);
+      const Vec<Dim> residual = c.reduced_mass * (relative_velocity(c) + c.target_approach * c.normal);
       const auto push = [&](const Vec<Dim>& impulse, const Vec<Dim>& motion) {
-        operator_.push({static_cast<int>(k), c.a, c.b, c.reduced * field(c.a).inverse_mass,
-                        c.reduced * field(c.b).inverse_mass, impulse, motion, residual.dot(motion)});
+        operator_.push({static_cast<int>(k), c.a, c.b, c.reduced_mass * field(c.a).inverse_mass,
+                        c.reduced_mass * field(c.b).inverse_mass, impulse, motion, residual.dot(motion)});
       };
-      const double along = c.impulse.dot(c.normal);
+      const double normal_impulse = c.impulse.dot(c.normal);
       if (c.status == ContactStatus::stick)
         for (int d = 0; d < Dim; ++d) push(Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
       else
-        push(lags_ || along == 0 ? c.normal : Vec<Dim>(c.impulse / along), c.normal);
+        push(lags_ || normal_impulse == 0 ? c.normal : Vec<Dim>(c.impulse / normal_impulse), c.normal);
     }
     return operator_.count() > 0;
   }
@@ -296,7 +299,7 @@ class NodeSolver {
     }
   }
 
-  /// What the impulses of frictionless contacts minimise: Σ ½ m v² − Σ (target approach) J·n, J.
+  /// The function that the impulses of frictionless contacts minimise: Σ ½ m v² − Σ (target approach) J·n, J.
   double objective() {
     double sum = 0;
     for (const MovingField<Dim>& f : fields)
@@ -311,15 +314,15 @@ class NodeSolver {
     for (std::size_t k = 0; k < contacts.size(); ++k) {
       const FieldContact<Dim>& c = contacts[k];
       if (c.status != ContactStatus::stick) continue;
-      const Vec<Dim> impulse = c.impulse + share * changes_[k];
-      if (law(k, impulse - c.reduced * c.target_approach * c.normal).status != ContactStatus::stick)
+      const Vec<Dim> impulse = c.impulse + share * changes_[k];  // the law adds the target approach
+      if (law(k, impulse - c.reduced_mass * c.target_approach * c.normal).status != ContactStatus::stick)
         return false;
     }
     return true;
   }
 
-  /// The whole step, or the share at which the first status changes: what lies beyond may be far from any
-  /// solution.
+  /// The share of the step up to the first change of a status, at most 1. Beyond it, the step may be far from
+  /// any solution.
   /// @param opens  result: the contact that ends the step by opening
   template <class Law>
   double step_length(const Law& law, FieldContact<Dim>*& opens) {
@@ -328,7 +331,7 @@ class NodeSolver {
       FieldContact<Dim>& c = contacts[k];
       if (c.status != ContactStatus::slip || c.bilateral) continue;
       const double now = c.impulse.dot(c.normal), change = changes_[k].dot(c.normal), end = now + change;
-      if (now > 0 ? !(end < 0) : !(end > 0)) continue;
+      if (now > 0 ? !(end < 0) : !(end > 0)) continue;  // the normal impulse keeps its sign
       const double share = std::max(0.0, -now / change);
       if (share < most) most = share, opens = &c;
     }

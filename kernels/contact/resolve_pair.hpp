@@ -1,7 +1,8 @@
 #pragma once
 
-/// @file What a contact law does to a pair of fields on a node.
+/// @file The impulse of a contact law between two fields of a node.
 
+#include "kernels/contact/friction_cone.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/dimension.hpp"
 
@@ -15,19 +16,20 @@ namespace mpmfast {
 /// @param normal unit, from a to b
 template <int Dim, class Law>
 inline Vec<Dim> resolve_pair(const Vec<Dim>& stick, const Vec<Dim>& normal, double separation, const Law& law,
-                             double reduced = 0, double area_time = 0) {
+                             double reduced_mass = 0, double area_time = 0) {
   if constexpr (Law::scope == LawScope::nowhere || Law::scope == LawScope::interface) return Vec<Dim>::Zero();
   if constexpr (Law::scope == LawScope::everywhere) return stick;
-  const double along = stick.dot(normal);
+  const SplitVector<Dim> trial = split(stick, normal);
   if constexpr (Law::scope == LawScope::bonded) {
-    const double shear = (stick - along * normal).norm();
-    if (separation < law.longest_gap() && law.holds({-along, shear, reduced, area_time})) return stick;
+    const double shear = trial.tangential.norm();
+    if (separation < law.longest_gap() && law.holds({-trial.normal, shear, reduced_mass, area_time}))
+      return stick;
   }
-  if (!(along < 0 && separation < 0)) return Vec<Dim>::Zero();
-  const Vec<Dim> tangential = stick - along * normal;
-  const double needed = tangential.norm(), limit = law({-along, needed, reduced, area_time});
-  if (!(needed > limit)) return stick;
-  return along * normal + (limit / needed) * tangential;
+  if (!(trial.normal < 0 && separation < 0)) return Vec<Dim>::Zero();
+  const double needed = trial.tangential.norm();
+  const double limit = law({-trial.normal, needed, reduced_mass, area_time});
+  const Friction<Dim> friction = into_cone(trial.tangential, needed, limit);
+  return friction.sticks ? stick : Vec<Dim>(trial.normal * normal + friction.impulse);
 }
 
 }  // namespace mpmfast

@@ -15,10 +15,10 @@ enum class LawScope { contact, bonded, everywhere, interface, nowhere };
 
 /// What a law is asked of a node.
 struct Sliding {
-  double normal;       ///< −Δp_a(0)·n, N s; positive in compression
-  double stick;        ///< |Δp_a(0)·t|, N s: what sticking needs
-  double reduced{};    ///< m_red, kg
-  double area_time{};  ///< A_c Δt, m² s, for laws that use the area
+  double normal;          ///< −Δp_a(0)·n, N s; positive in compression
+  double stick;           ///< |Δp_a(0)·t|, N s: what sticking needs
+  double reduced_mass{};  ///< m_red, kg
+  double area_time{};     ///< A_c Δt, m² s, for laws that use the area
 };
 
 inline constexpr double kSticks = std::numeric_limits<double>::infinity();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/contact/friction_cone.hpp"
 #include "kernels/contact/resolve_pair.hpp"
 
 namespace mpmfast {
@@ -75,24 +76,23 @@ struct PairLaw {
   }
 };
 
-/// The status that the law of one pair asks for, given what the other pair does. The local demand of sticking
-/// is Δp(0) = J + m_red w.
+/// The status of one pair by its law while the other pair stays. The trial impulse is Δp(0) = J + m_red w.
 template <int Dim>
-Status<Dim> asked(const PairContact<Dim>& p, const Status<Dim>& now, const PairLaw& law, double noise) {
+Status<Dim> status_by_law(const PairContact<Dim>& p, const Status<Dim>& now, const PairLaw& law,
+                          double noise) {
   Status<Dim> next;
   if (law.tied()) return next;
-  const double reduced = 1 / p.inverse_mass;
-  const Vec<Dim> demand = p.impulse + reduced * p.slip;
-  const double along = demand.dot(p.normal);
-  if (along > (now.surfaces == Surfaces::open ? -noise : noise)) {
+  const double reduced_mass = 1 / p.inverse_mass;
+  const Vec<Dim> trial = p.impulse + reduced_mass * p.slip;
+  const auto [normal_impulse, tangential] = split(trial, p.normal);
+  if (normal_impulse > (now.surfaces == Surfaces::open ? -noise : noise)) {
     next.surfaces = Surfaces::open;
     return next;
   }
-  const Vec<Dim> tangential = demand - along * p.normal;
-  const double needed = tangential.norm(), limit = law({-along, needed, reduced, p.area_time});
+  const double needed = tangential.norm(), limit = law({-normal_impulse, needed, reduced_mass, p.area_time});
   if (!(needed > limit)) return next;
   next.surfaces = Surfaces::sliding;
-  next.slope = limit / (needed * std::max(-along, noise)) * tangential;
+  next.slope = limit / (needed * std::max(-normal_impulse, noise)) * tangential;
   return next;
 }
 
@@ -114,8 +114,8 @@ bool solve_two_pairs(PairContact<Dim> (&pair)[2], double coupling, const AnyLaw&
     double scale = 0;  // a light field between heavy ones passes on far more than it can take
     for (const auto& p : pair) scale = std::max({scale, p.jump.norm() / p.inverse_mass, p.impulse.norm()});
     const double noise = 1e-13 * scale;
-    const Status<Dim> next[2] = {asked(pair[0], status[0], {law_one}, noise),
-                                 asked(pair[1], status[1], {law_two}, noise)};
+    const Status<Dim> next[2] = {status_by_law(pair[0], status[0], {law_one}, noise),
+                                 status_by_law(pair[1], status[1], {law_two}, noise)};
     bool changed[2], same = true;
     for (int i = 0; i < 2; ++i) {
       changed[i] = next[i].surfaces != status[i].surfaces;

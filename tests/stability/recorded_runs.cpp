@@ -272,7 +272,7 @@ void list_contact(const Step<Dim>& step, const Sizes& sizes, std::vector<Figure>
       add_vector("entries/impulse", impulse.now, push);
       add_vector("entries/first", impulse.first, push);
       add_vector("entries/second", impulse.second, push);
-      add_vector("entries/slip_end", pairs.slip[e].end, speed);
+      add_vector("entries/slip_end", Vec<Dim>(-pairs.relative[e].end), speed);
       if (!pairs.spring.empty()) {
         const InterfaceSpring<Dim>& spring = pairs.spring[e];
         acting += spring.acts;

@@ -41,8 +41,8 @@ Numbers eliminated(const std::vector<typename DelassusOperator<Dim>::Row>& all, 
     velocity[index(all[j].a)] += inverse_mass[index(all[j].a)] * all[j].impulse;
     velocity[index(all[j].b)] -= inverse_mass[index(all[j].b)] * all[j].impulse;
     for (std::size_t i = 0; i < count; ++i) {
-      const double reduced = 1 / (inverse_mass[index(all[i].a)] + inverse_mass[index(all[i].b)]);
-      row[i][j] = reduced * all[i].motion.dot(velocity[index(all[i].a)] - velocity[index(all[i].b)]);
+      const double reduced_mass = 1 / (inverse_mass[index(all[i].a)] + inverse_mass[index(all[i].b)]);
+      row[i][j] = reduced_mass * all[i].motion.dot(velocity[index(all[i].a)] - velocity[index(all[i].b)]);
     }
     row[j][count] = all[j].residual;
   }
@@ -95,11 +95,11 @@ TEST_CASE_TEMPLATE("delassus of any number of sliding contacts are solved as eli
       // friction.
       const int near = count % 2 ? i : 0, far = i + 1;
       const int a = uniform(draw, 0, 1) < 0.5 ? near : far, b = near + far - a;
-      const double reduced = 1 / (inverse_mass[index(a)] + inverse_mass[index(b)]);
+      const double reduced_mass = 1 / (inverse_mass[index(a)] + inverse_mass[index(b)]);
       const Vec<Dim> normal = random_direction<Dim>(draw);
       const Vec<Dim> impulse = normal + 0.3 * random_direction<Dim>(draw);
-      all.push_back({7 * i + 3, a, b, reduced * inverse_mass[index(a)], reduced * inverse_mass[index(b)],
-                     impulse, normal, uniform(draw, -2, 2)});
+      all.push_back({7 * i + 3, a, b, reduced_mass * inverse_mass[index(a)],
+                     reduced_mass * inverse_mass[index(b)], impulse, normal, uniform(draw, -2, 2)});
     }
     const Numbers expected = eliminated<Dim>(all, inverse_mass), found = found_by(delassus, all);
     double largest = 0, apart = 0;
@@ -126,11 +126,11 @@ TEST_CASE_TEMPLATE("fields that all stick to each other end their motion, though
       std::vector<typename DelassusOperator<Dim>::Row> all;
       for (int a = 0; a < fields; ++a)
         for (int b = a + 1; b < fields; ++b) {
-          const double reduced = 1 / (inverse_mass[index(a)] + inverse_mass[index(b)]);
+          const double reduced_mass = 1 / (inverse_mass[index(a)] + inverse_mass[index(b)]);
           for (int d = 0; d < Dim; ++d)
-            all.push_back({0, a, b, reduced * inverse_mass[index(a)], reduced * inverse_mass[index(b)],
-                           Vec<Dim>::Unit(d), Vec<Dim>::Unit(d),
-                           reduced * (velocity[index(b)] - velocity[index(a)])[d]});
+            all.push_back({0, a, b, reduced_mass * inverse_mass[index(a)],
+                           reduced_mass * inverse_mass[index(b)], Vec<Dim>::Unit(d), Vec<Dim>::Unit(d),
+                           reduced_mass * (velocity[index(b)] - velocity[index(a)])[d]});
         }
       const Numbers found = found_by(delassus, all);
       Vec<Dim> mean = Vec<Dim>::Zero();
@@ -177,16 +177,16 @@ struct PlainContact {
   int a, b;
   Vec<Dim> normal;
   double target_approach = 0;
-  bool acts = true, bilateral = false, holds_slip = false, friction = true;
+  bool acts = true, bilateral = false, must_stick = false, friction = true;
   Coulomb law{0, 0};
   Vec<Dim> impulse = Vec<Dim>::Zero();
 
   /// The impulse that it would have alone where sticking needs this.
-  Vec<Dim> demand(const Vec<Dim>& stick, double reduced) const {
-    const double normal_part = stick.dot(normal) + reduced * target_approach;
+  Vec<Dim> demand(const Vec<Dim>& stick, double reduced_mass) const {
+    const double normal_part = stick.dot(normal) + reduced_mass * target_approach;
     if (!acts || (normal_part > 0 && !bilateral)) return Vec<Dim>::Zero();
     Vec<Dim> along = stick - stick.dot(normal) * normal;
-    if (!holds_slip) {
+    if (!must_stick) {
       const double pressure = std::max(0.0, -normal_part), needed = along.norm();
       const bool rests = friction && needed <= std::max(law.friction, law.static_friction) * pressure;
       if (!friction)
@@ -204,7 +204,7 @@ struct PlainNode {
   std::vector<double> inverse_mass;
   std::vector<PlainContact<Dim>> contacts;
 
-  double reduced(const PlainContact<Dim>& c) const {
+  double reduced_mass(const PlainContact<Dim>& c) const {
     return 1 / (inverse_mass[index(c.a)] + inverse_mass[index(c.b)]);
   }
   /// The velocities that the impulses leave.
@@ -226,8 +226,8 @@ struct PlainNode {
     const auto v = after();
     double most = 0;
     for (const auto& c : contacts) {
-      const Vec<Dim> stick = c.impulse + reduced(c) * (v[index(c.b)] - v[index(c.a)]);
-      most = std::max(most, (c.demand(stick, reduced(c)) - c.impulse).norm());
+      const Vec<Dim> stick = c.impulse + reduced_mass(c) * (v[index(c.b)] - v[index(c.a)]);
+      most = std::max(most, (c.demand(stick, reduced_mass(c)) - c.impulse).norm());
     }
     return most;
   }
@@ -238,8 +238,8 @@ struct PlainNode {
     for (int sweep = 0; sweep < 5000; ++sweep) {
       double change = 0;
       for (auto& c : contacts) {
-        const Vec<Dim> stick = c.impulse + reduced(c) * (v[index(c.b)] - v[index(c.a)]);
-        const Vec<Dim> step = c.demand(stick, reduced(c)) - c.impulse;
+        const Vec<Dim> stick = c.impulse + reduced_mass(c) * (v[index(c.b)] - v[index(c.a)]);
+        const Vec<Dim> step = c.demand(stick, reduced_mass(c)) - c.impulse;
         c.impulse += step;
         v[index(c.a)] += inverse_mass[index(c.a)] * step;
         v[index(c.b)] -= inverse_mass[index(c.b)] * step;
@@ -252,11 +252,11 @@ struct PlainNode {
 };
 
 template <int Dim>
-SetRule<Dim> rule_of(const PlainContact<Dim>& c) {
-  SetRule<Dim> rule;
+ActiveSetRule<Dim> rule_of(const PlainContact<Dim>& c) {
+  ActiveSetRule<Dim> rule;
   rule.acts = c.acts;
   rule.bilateral = c.bilateral;
-  rule.holds_slip = c.holds_slip;
+  rule.must_stick = c.must_stick;
   rule.friction = c.friction;
   return rule;
 }
@@ -273,12 +273,12 @@ Solved solve_one(PlainNode<Dim>& node, NodeSolver<Dim>& solver) {
   for (std::size_t k = 0; k < node.velocity.size(); ++k)
     solver.fields.push_back({node.velocity[k], node.inverse_mass[k]});
   for (const auto& c : node.contacts)
-    solver.contacts.push_back({c.a, c.b, c.normal, node.reduced(c), c.target_approach, c.bilateral});
+    solver.contacts.push_back({c.a, c.b, c.normal, node.reduced_mass(c), c.target_approach, c.bilateral});
   int asked = 0;
   const bool settled = solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     ++asked;
     const auto& c = node.contacts[k];
-    return rule_of(c).response(c.normal, c.target_approach, stick, node.reduced(c), c.law, 0.0,
+    return rule_of(c).response(c.normal, c.target_approach, stick, node.reduced_mass(c), c.law, 0.0,
                                [](double normal) { return normal; });
   });
   for (std::size_t k = 0; k < node.contacts.size(); ++k)
@@ -307,7 +307,7 @@ std::vector<bool> solve_lanes(std::vector<PlainNode<Dim>>& nodes, LaneSolver<Dim
         batch.set_field(lane, k, nodes[to].velocity[index(k)], nodes[to].inverse_mass[index(k)]);
       for (const auto& c : nodes[to].contacts) {
         CHECK(!batch.has(lane, c.a, c.b));
-        batch.add_contact(lane, c.a, c.b, c.normal, nodes[to].reduced(c), c.target_approach, rule_of(c),
+        batch.add_contact(lane, c.a, c.b, c.normal, nodes[to].reduced_mass(c), c.target_approach, rule_of(c),
                           c.law);
         CHECK(batch.has(lane, c.b, c.a));
       }
@@ -358,7 +358,7 @@ PlainNode<Dim> asked_node(int fields, double orders, double friction, Draw& draw
     const auto odds = [&](double share) { return uniform(draw, 0, 1) < share; };
     c.acts = !odds(0.1);
     c.bilateral = odds(0.2);
-    c.holds_slip = c.bilateral && odds(0.6);
+    c.must_stick = c.bilateral && odds(0.6);
     c.friction = friction > 0;
     c.target_approach = odds(0.4) ? uniform(draw, 0, 0.4) : 0;
     c.law = {uniform(draw, 0, friction), odds(0.3) ? uniform(draw, friction, 1.5 * friction) : 0};
@@ -528,7 +528,7 @@ TEST_CASE_TEMPLATE("pairs that are all held whichever way they go need one leap,
     if (node.contacts.size() < 2) continue;
     for (auto& c : node.contacts) {
       c.bilateral = true;
-      c.holds_slip = sticks;
+      c.must_stick = sticks;
       c.target_approach = uniform(draw, -0.5, 0.5);
       c.friction = false;
     }
@@ -607,7 +607,7 @@ TEST_CASE_TEMPLATE("jams conserve momentum, and give no more energy than there w
   NodeSolver<Dim> solver;
   for (int trial = 0; trial < 60; ++trial) {
     PlainNode<Dim> node = jam<Dim>(3 + trial % 6, 0.5, draw);
-    for (auto& c : node.contacts) c.target_approach = 0, c.holds_slip = false;
+    for (auto& c : node.contacts) c.target_approach = 0, c.must_stick = false;
     solve_one(node, solver);
     const auto after = node.after();
     double energy = 0, before = 0, taken = 0;
@@ -642,14 +642,15 @@ TEST_CASE("a node of one contact asks its law once, also where it closes a gap b
     CHECK(found.settled);
     CHECK(found.asked == 1);
     CHECK(node.missing() <= 1e-12 * node.largest());
-    CHECK(node.contacts[0].impulse.dot(c.normal) == doctest::Approx(node.reduced(c) * c.target_approach));
+    CHECK(node.contacts[0].impulse.dot(c.normal) ==
+          doctest::Approx(node.reduced_mass(c) * c.target_approach));
   }
 }
 
 // Two pairs.
 
 /// The tangential impulse that a law carries, from its formula.
-double plain_limit(const AnyLaw& law, double normal, double stick, double reduced, double area_time) {
+double plain_limit(const AnyLaw& law, double normal, double stick, double reduced_mass, double area_time) {
   constexpr double kAll = std::numeric_limits<double>::infinity();
   if (const auto* one = std::get_if<Coulomb>(&law))
     return stick <= one->static_friction * normal ? kAll : one->friction * normal;
@@ -657,19 +658,19 @@ double plain_limit(const AnyLaw& law, double normal, double stick, double reduce
   if (const auto* one = std::get_if<Viscous>(&law)) {
     // reduced v = stick − S, S = (η/h) v A Δt
     const double drag = one->viscosity * area_time / one->film;
-    return drag * (stick / (reduced + drag));
+    return drag * (stick / (reduced_mass + drag));
   }
   if (const auto* one = std::get_if<VelocityFriction>(&law)) {
     const double rest = std::max(one->friction, one->static_friction);
     if (stick <= rest * normal) return kAll;
-    double low = 0, high = stick / reduced;  // halved until nothing is left between
+    double low = 0, high = stick / reduced_mass;  // halved until nothing is left between
     for (int k = 0; k < 100; ++k) {
       const double speed = 0.5 * (low + high);
       const double carried =
           (one->friction + (rest - one->friction) * std::exp(-speed / one->decay_speed)) * normal;
-      (reduced * speed + carried < stick ? low : high) = speed;
+      (reduced_mass * speed + carried < stick ? low : high) = speed;
     }
-    return stick - reduced * low;
+    return stick - reduced_mass * low;
   }
   return std::holds_alternative<Frictionless>(law) ? 0 : kAll;
 }
@@ -677,7 +678,7 @@ double plain_limit(const AnyLaw& law, double normal, double stick, double reduce
 /// What a law makes of one pair.
 template <int Dim>
 Vec<Dim> plain_pair(const AnyLaw& law, const Vec<Dim>& stick, const Vec<Dim>& normal, double separation,
-                    double reduced, double area_time) {
+                    double reduced_mass, double area_time) {
   if (std::holds_alternative<Perfect>(law)) return stick;
   if (std::holds_alternative<Ignore>(law) || has_springs(law)) return Vec<Dim>::Zero();
   const double along = stick.dot(normal), needed = (stick - along * normal).norm();
@@ -689,7 +690,7 @@ Vec<Dim> plain_pair(const AnyLaw& law, const Vec<Dim>& stick, const Vec<Dim>& no
     if (holds) return stick;
   }
   if (separation >= 0 || along >= 0) return Vec<Dim>::Zero();
-  const double limit = plain_limit(law, -along, needed, reduced, area_time);
+  const double limit = plain_limit(law, -along, needed, reduced_mass, area_time);
   const Vec<Dim> tangential = stick - along * normal;
   return along * normal + (needed <= limit ? 1 : limit / needed) * tangential;
 }
@@ -734,14 +735,14 @@ TEST_CASE_TEMPLATE("each law makes of a pair what its formula says, in contact, 
     const AnyLaw law = drawn_law(trial % 12, draw);
     const Vec<Dim> stick = uniform(draw, 0, 3) * random_direction<Dim>(draw),
                    normal = random_direction<Dim>(draw);
-    const double separation = uniform(draw, -0.2, 0.2), reduced = uniform(draw, 0.2, 2),
+    const double separation = uniform(draw, -0.2, 0.2), reduced_mass = uniform(draw, 0.2, 2),
                  area_time = uniform(draw, 0.1, 1);
     const Vec<Dim> found = std::visit(
         [&](const auto& one) {
-          return resolve_pair<Dim>(stick, normal, separation, one, reduced, area_time);
+          return resolve_pair<Dim>(stick, normal, separation, one, reduced_mass, area_time);
         },
         law);
-    const Vec<Dim> expected = plain_pair<Dim>(law, stick, normal, separation, reduced, area_time);
+    const Vec<Dim> expected = plain_pair<Dim>(law, stick, normal, separation, reduced_mass, area_time);
     CAPTURE(law.index());
     CHECK((found - expected).norm() < 1e-12 * (1 + stick.norm()));
   }
@@ -782,10 +783,10 @@ TEST_CASE_TEMPLATE("two pairs that share a field on any side, or none, obey any 
       CAPTURE(law[k].index());
       const Vec<Dim> slip = velocity[b[k]] - velocity[a[k]];
       CHECK((slip - pair[k].slip).norm() < 1e-10);
-      const double reduced = 1 / pair[k].inverse_mass;
-      const Vec<Dim> demand = pair[k].impulse + reduced * slip;
+      const double reduced_mass = 1 / pair[k].inverse_mass;
+      const Vec<Dim> demand = pair[k].impulse + reduced_mass * slip;
       const Vec<Dim> expected =
-          plain_pair<Dim>(law[k], demand, pair[k].normal, -1, reduced, pair[k].area_time);
+          plain_pair<Dim>(law[k], demand, pair[k].normal, -1, reduced_mass, pair[k].area_time);
       CHECK((pair[k].impulse - expected).norm() < 1e-8 * (1 + pair[k].impulse.norm()));
     }
   }

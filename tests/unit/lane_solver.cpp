@@ -18,7 +18,7 @@ using namespace mpmfast;
 template <int Dim>
 struct Posed : CompressedNode<Dim> {
   using CompressedNode<Dim>::CompressedNode;
-  std::vector<SetRule<Dim>> rules;  ///< of the contacts, as are the laws
+  std::vector<ActiveSetRule<Dim>> rules;  ///< of the contacts, as are the laws
   std::vector<Coulomb> laws;
 };
 
@@ -34,12 +34,12 @@ Posed<Dim> pose(int fields, bool friction, bool holds, std::mt19937_64& draw) {
     if (odds(0.15)) continue;
     // A rigid field is the second.
     if (c.a == rigid) std::swap(c.a, c.b), c.normal = -c.normal;
-    c.reduced = 1 / (node.fields[static_cast<std::size_t>(c.a)].inverse_mass +
-                     node.fields[static_cast<std::size_t>(c.b)].inverse_mass);
-    SetRule<Dim> rule;
+    c.reduced_mass = 1 / (node.fields[static_cast<std::size_t>(c.a)].inverse_mass +
+                          node.fields[static_cast<std::size_t>(c.b)].inverse_mass);
+    ActiveSetRule<Dim> rule;
     rule.acts = !odds(0.1);
     rule.bilateral = c.bilateral = odds(0.3);
-    rule.holds_slip = holds && odds(0.3);
+    rule.must_stick = holds && odds(0.3);
     rule.friction = friction;
     c.target_approach = odds(0.3) ? 0.3 * from_0_to_1(draw) : 0;
     node.contacts.push_back(c);
@@ -57,7 +57,7 @@ bool solve_alone(Posed<Dim>& node) {
   solver.contacts = node.contacts;
   const bool settled = solver.solve([&](std::size_t k, const Vec<Dim>& stick) {
     const auto& c = solver.contacts[k];
-    return node.rules[k].response(c.normal, c.target_approach, stick, c.reduced, node.laws[k], 0,
+    return node.rules[k].response(c.normal, c.target_approach, stick, c.reduced_mass, node.laws[k], 0,
                                   [](double normal) { return normal; });
   });
   node.contacts = solver.contacts;
@@ -73,7 +73,8 @@ void put(LaneSolver<Dim, kFields>& batch, const Posed<Dim>& node) {
   }
   for (std::size_t k = 0; k < node.contacts.size(); ++k) {
     const FieldContact<Dim>& c = node.contacts[k];
-    batch.add_contact(lane, c.a, c.b, c.normal, c.reduced, c.target_approach, node.rules[k], node.laws[k]);
+    batch.add_contact(lane, c.a, c.b, c.normal, c.reduced_mass, c.target_approach, node.rules[k],
+                      node.laws[k]);
   }
 }
 
@@ -104,7 +105,7 @@ bool obeys(const LaneSolver<Dim, kFields>& batch, int lane, const Posed<Dim>& no
                           fields[static_cast<std::size_t>(c.a)].velocity,
                    impulse = batch.impulse(lane, c.a, c.b);
     const Response<Dim> response =
-        node.rules[k].response(c.normal, c.target_approach, impulse + c.reduced * slip, c.reduced,
+        node.rules[k].response(c.normal, c.target_approach, impulse + c.reduced_mass * slip, c.reduced_mass,
                                node.laws[k], 0, [](double normal) { return normal; });
     all &= (response.impulse - impulse).norm() <= 1e-7 * largest;
   }
@@ -141,8 +142,8 @@ void check_as_alone(bool friction, bool holds, double share) {
       for (const FieldContact<Dim>& c : node.contacts) {
         const double least = 1e-7 * largest_of(node);
         equal &= (batch.impulse(at, c.a, c.b) - c.impulse).norm() <= least;
-        equal &=
-            batch.sticks(at, c.a, c.b) == (c.status == ContactStatus::stick) || c.impulse.norm() <= least;
+        equal &= (batch.status(at, c.a, c.b) == ContactStatus::stick) == (c.status == ContactStatus::stick) ||
+                 c.impulse.norm() <= least;
       }
       same += equal;
     }
@@ -209,7 +210,7 @@ Posed<Dim> with_friction(const std::vector<MovingField<Dim>>& fields,
   for (const auto& [c, law] : contacts) {
     node.add_contact(c.a, c.b, c.normal);
     node.contacts.back().bilateral = c.bilateral;
-    SetRule<Dim> rule;
+    ActiveSetRule<Dim> rule;
     rule.acts = rule.friction = true;
     rule.bilateral = c.bilateral;
     node.rules.push_back(rule);
@@ -286,7 +287,7 @@ Posed<2> faint_and_strong(double faint) {
   node.fields = {{{1, faint}, 1}, {{0, 0}, 1}, {{0, 0}, 1}};
   node.add_contact(0, 1, {1, 0});
   node.add_contact(0, 2, {0, 1});
-  SetRule<2> rule;
+  ActiveSetRule<2> rule;
   rule.acts = rule.friction = true;
   node.rules.assign(2, rule);
   node.laws.assign(2, {0.3, 0});

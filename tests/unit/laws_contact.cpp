@@ -29,7 +29,7 @@ struct Pair {
   }
   /// Δp_a(0): what gives both one velocity.
   Vec<Dim> stick() const { return mass_a / (mass_a + mass_b) * (momentum_a + momentum_b) - momentum_a; }
-  double reduced() const { return mass_a * mass_b / (mass_a + mass_b); }
+  double reduced_mass() const { return mass_a * mass_b / (mass_a + mass_b); }
   double kinetic(const Vec<Dim>& change) const {
     return 0.5 * (momentum_a + change).squaredNorm() / mass_a +
            0.5 * (momentum_b - change).squaredNorm() / mass_b;
@@ -45,7 +45,7 @@ void check_dissipation_and_detection(const Law& law) {
   for (int k = 0; k < 500; ++k) {
     const Pair<Dim> pair(draw);
     const Vec<Dim> n = random_direction<Dim>(draw), stick = pair.stick();
-    const Vec<Dim> change = resolve_pair<Dim>(stick, n, -0.1, law, pair.reduced(), 0.3);
+    const Vec<Dim> change = resolve_pair<Dim>(stick, n, -0.1, law, pair.reduced_mass(), 0.3);
     CHECK(pair.kinetic(change) <= pair.kinetic(Vec<Dim>::Zero()) * (1 + 1e-13));
     if (Law::scope != LawScope::contact) continue;
     CHECK(resolve_pair<Dim>(stick, n, 0.0, law) == Vec<Dim>::Zero());
@@ -55,7 +55,7 @@ void check_dissipation_and_detection(const Law& law) {
     if (stick.dot(n) < 0)
       CHECK(std::abs(pair.velocity_jump(change).dot(n)) < 1e-10 * (1 + stick.norm() / pair.mass_a));
     // b sees the same pair from its side: opposite stick momentum and opposite normal.
-    CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law, pair.reduced(), 0.3) + change).norm() <=
+    CHECK((resolve_pair<Dim>(-stick, -n, -0.1, law, pair.reduced_mass(), 0.3) + change).norm() <=
           1e-15 * stick.norm());
   }
 }
@@ -134,10 +134,10 @@ TEST_CASE("velocity-dependent friction satisfies its law at the speed that remai
   const VelocityFriction law{0.1, 0.6, 0.5};
   Draw draw(4);
   for (int k = 0; k < 300; ++k) {
-    const double normal = uniform(draw, 0.1, 3), reduced = uniform(draw, 0.01, 2);
+    const double normal = uniform(draw, 0.1, 3), reduced_mass = uniform(draw, 0.01, 2);
     const double stick = normal * uniform(draw, 0.6001, 4);
-    const double shear = law({normal, stick, reduced});
-    const double speed = (stick - shear) / reduced;  // N20 Eq. 8: Δp = Δp(0) − m_red k t
+    const double shear = law({normal, stick, reduced_mass});
+    const double speed = (stick - shear) / reduced_mass;  // N20 Eq. 8: Δp = Δp(0) − m_red k t
     CHECK(speed > 0);
     CHECK(shear == doctest::Approx((0.1 + 0.5 * std::exp(-speed / 0.5)) * normal).epsilon(1e-10));
   }
@@ -145,11 +145,11 @@ TEST_CASE("velocity-dependent friction satisfies its law at the speed that remai
 }
 
 TEST_CASE("a viscous film carries its viscosity times the speed that remains, and never reverses it") {
-  const double resistance = 7, reduced = 0.4, area_time = 0.02, stick = 3;
-  const double shear = Viscous{resistance, 1}({1, stick, reduced, area_time});
-  CHECK(shear == doctest::Approx(resistance * area_time * (stick - shear) / reduced).epsilon(1e-14));
-  CHECK(Viscous{1e30, 1}({1, stick, reduced, area_time}) == doctest::Approx(stick));
-  CHECK(Viscous{resistance, 1}({1, stick, reduced, 0}) == 0);
+  const double resistance = 7, reduced_mass = 0.4, area_time = 0.02, stick = 3;
+  const double shear = Viscous{resistance, 1}({1, stick, reduced_mass, area_time});
+  CHECK(shear == doctest::Approx(resistance * area_time * (stick - shear) / reduced_mass).epsilon(1e-14));
+  CHECK(Viscous{1e30, 1}({1, stick, reduced_mass, area_time}) == doctest::Approx(stick));
+  CHECK(Viscous{resistance, 1}({1, stick, reduced_mass, 0}) == 0);
 }
 
 TEST_CASE("a bond holds up to its ellipse of tension and shear, within reach, and friction follows") {
@@ -174,7 +174,7 @@ TEST_CASE("a bond holds up to its ellipse of tension and shear, within reach, an
 
 TEST_CASE("what is not said of a node is nothing: no mass, and no area for a film or a bond") {
   const Sliding bare{1, 2};
-  CHECK(bare.reduced == 0);
+  CHECK(bare.reduced_mass == 0);
   CHECK(bare.area_time == 0);
   const Vec<2> n = Vec<2>::Unit(0), t = Vec<2>::Unit(1), stick = -n + 3 * t;
   CHECK(resolve_pair<2>(stick, n, -0.1, Viscous{7, 1}, 0.4) == -n);

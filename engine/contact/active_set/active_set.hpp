@@ -10,90 +10,92 @@
 #include "engine/contact/impulses/node_motion.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/contact/pairs/node_fields.hpp"
-#include "kernels/contact/set_rule.hpp"
+#include "kernels/contact/active_set_rule.hpp"
 
 namespace mpmfast {
 
-/// What sticking would need of a pair.
+/// The trial state of a pair, without contact.
 template <int Dim>
 struct Trial {
-  Vec<Dim> impulse;  ///< Δp_a(0), N s
-  double reduced;    ///< m_red, kg
+  Vec<Dim> impulse;     ///< Δp_a(0) = m_red (v_b − v_a): with it, both fields have one velocity, N s
+  double reduced_mass;  ///< m_red = 1/(1/m_a + 1/m_b), kg
 };
 
-/// What a correction asks of a pair.
+/// How a correction treats one pair.
 template <int Dim>
 struct PairRule {
-  SetRule<Dim> set;            ///< where the active set of the step is one
-  bool holds_parting = false;  ///< else: an overlapping pair that parts is held along the normal
+  ActiveSetRule<Dim> set;      ///< with CorrectionMethod::one_set
+  bool holds_overlap = false;  ///< without: an overlapping pair that parts is constrained along the normal
 };
 
-/// A correction's rule, from what is known of a pair. @param gap  predicted, m
+/// Makes the rule of a correction for one pair. @param gap  predicted, m
 template <int Dim>
-using RuleOf = PairRule<Dim> (*)(const CorrectionMethod& method, const PairStatus& status,
-                                 const PairHistory& before, double gap);
+using RuleFunction = PairRule<Dim> (*)(const CorrectionMethod& method, const PairStatus& status,
+                                       const PairHistory& before, double gap);
 
-/// The first correction acts on gaps that close by the end of the step and on persistent pairs, whose normal
-/// velocities are held in both directions. A pair that stuck is held along the surface too: otherwise the
-/// friction of a pair at rest works on the slips that the strains see, and makes energy.
+/// The first correction acts on gaps that close by the end of the step and on persistent pairs. The normal
+/// velocities of persistent pairs are constrained in both directions. A pair that stuck is also constrained
+/// along the surface. Otherwise friction would do work on the relative velocities in the strains, and add
+/// energy.
 template <int Dim>
 PairRule<Dim> first_rule(const CorrectionMethod& method, const PairStatus& status, const PairHistory& before,
                          double gap) {
   PairRule<Dim> rule;
   rule.set.acts = gap < 0 || status.persistent;
   rule.set.bilateral = status.persistent;
-  rule.set.holds_slip = method.holds_sticking && status.persistent && before.stuck;
+  rule.set.must_stick = method.holds_sticking && status.persistent && before.stuck;
   rule.set.friction = method.first_stays;
-  rule.holds_parting = method.overlap_is_contact || (method.persistent && before.touched);
+  rule.holds_overlap = method.overlap_is_contact || (method.persistent && before.touched);
   return rule;
 }
 
-/// The second correction adds the pairs that forces close. Forces are held where they press, and end the
-/// contact where they pull.
+/// The second correction also acts on pairs that forces bring together. It only presses: a pulling impulse
+/// ends the contact.
 template <int Dim>
 PairRule<Dim> second_rule(const CorrectionMethod& method, const PairStatus& status, const PairHistory&,
                           double gap) {
   PairRule<Dim> rule;
   rule.set.acts = gap < 0 || status.persistent || status.active_in_first;
   rule.set.friction = true;
-  rule.holds_parting = method.overlap_is_contact;
+  rule.holds_overlap = method.overlap_is_contact;
   return rule;
 }
 
-/// Re-extrapolated momenta are held where the second correction left pairs in contact.
+/// The correction of re-extrapolated momenta acts on pairs that the second correction left in contact.
 template <int Dim>
 PairRule<Dim> re_extrapolated_rule(const CorrectionMethod& method, const PairStatus& status,
                                    const PairHistory&, double) {
   PairRule<Dim> rule;
   rule.set.acts = status.touching;
   rule.set.bilateral = status.persistent;
-  rule.set.holds_slip = method.holds_sticking && status.stuck;
+  rule.set.must_stick = method.holds_sticking && status.stuck;
   rule.set.friction = method.first_stays;
-  rule.holds_parting = method.overlap_is_contact;
+  rule.holds_overlap = method.overlap_is_contact;
   return rule;
 }
 
-/// The separation by which a correction decides, m: where the free velocities take the surfaces by the end of
-/// the step (NN Eq. 3.56). Positions that follow the end velocity close a gap up to a touch and no further,
-/// so a correction that asked for an overlap now would hardly ever act.
+/// The gap at the end of the step if no contact impulse acted, m (NN Eq. 3.56). Corrections decide by it.
+/// (The present gap cannot decide: positions follow corrected velocities, so surfaces hardly ever overlap.)
+/// For a pair that was in contact, the hysteresis of the scene is subtracted.
 template <int Dim>
 double predicted_gap(const CorrectionMethod& method, const PairGeometry<Dim>& geometry,
                      const PairHistory& before, const Trial<Dim>& trial, double dt) {
   double gap = geometry.separation;
   if (before.touched) gap -= method.hysteresis;
-  if (method.predicts_gap) gap += trial.impulse.dot(geometry.normal) * dt / trial.reduced;
+  if (method.predicts_gap) gap += trial.impulse.dot(geometry.normal) * dt / trial.reduced_mass;
   return gap;
 }
 
-/// Which pairs of a node persist, and the approach velocities that close the gaps of the others.
+/// Decides which pairs of a node persist, and sets the approach velocities that close the gaps of the others.
 ///
-/// A pair stays in contact until a force pulls it apart. A surface that is held by its velocities drifts from
-/// where the particles' domains say that it is; closing such a gap δ against a normal impulse N would lose N
-/// δ time and again. A gap that elastic recovery would not close is none of this kind: there the pair carries
-/// a load where the bodies do not touch (beside a round contact, at the ends of a sliding block).
+/// A persistent pair stays in contact until a force pulls it apart, and its gap δ is not closed. The gap of a
+/// surface drifts from the particles' domains while its velocities are constrained; closing it against a
+/// normal force F would take the energy F δ in every step. A pair whose gap exceeds its elastic recovery
+/// length does not persist: the bodies do not touch there (beside a round contact, at the ends of a sliding
+/// block).
 template <int Dim>
-void find_persistent(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
-                     PairColumns<Dim>& pairs) {
+void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
+                        PairColumns<Dim>& pairs) {
   constexpr double kLeast = 0.05, kMost = 0.3;  // bounds of the recovery length, cells
   for (int e = node.pair_begin; e < node.pair_end; ++e) {
     PairStatus& status = pairs.status[e];
@@ -105,52 +107,55 @@ void find_persistent(const CorrectionMethod& method, const ContactNode<Dim>& nod
   }
 }
 
-/// Does the second correction leave the pair in contact? It does if the pair presses, or if the first
-/// correction acted and no force pulls. Velocities of kNoise cells a step are round-off, which must not
-/// decide.
+/// Is the pair in contact after the second correction? True if that correction presses, or if the first one
+/// acted and the surfaces still approach as fast as the gap needs. Velocities below kNoise cells a step are
+/// round-off.
 /// @param mass  of field a, kg
-/// @param slip  v_a − v_b after the correction, m/s
+/// @param relative  v_b − v_a after the correction, m/s
 template <int Dim>
 bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairStatus& status,
-                   double mass, const Vec<Dim>& slip, double cell, double dt) {
+                   double mass, const Vec<Dim>& relative, double cell, double dt) {
   constexpr double kNoise = 1e-10;
   const double least = kNoise * cell / dt;
   if (impulse.now.dot(normal) < -least * mass) return true;
   if (!(std::abs(impulse.first.dot(normal)) > least * mass)) return false;
-  return status.target_approach - slip.dot(normal) <= least;
+  return status.target_approach + relative.dot(normal) <= least;
 }
 
-/// How far the surfaces would approach each other if the contact force F were gone, m: F T²/(2 m_red), T the
-/// time in which the fastest wave crosses a cell. That is 2 h ε between bodies strained by ε, a layer of h on
-/// each side. A mean over some 1/kNew steps.
+/// The elastic recovery length of a pair, m: how far its surfaces would approach each other without the
+/// contact force F. It is F T²/(2 m_red) with the time T in which the fastest wave crosses a cell. Between
+/// bodies that F strains by ε, with a layer of half a cell on each side, it is h ε. The result is a moving
+/// mean in which the new value has the weight kNew; a new contact begins with its own value.
 /// @param crossing      T, s
 /// @param inverse_mass  1/m_red, 1/kg
 template <int Dim>
-double recovery_length(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairHistory& before,
-                       double inverse_mass, double crossing, double dt) {
+double updated_recovery_length(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal,
+                               const PairHistory& before, double inverse_mass, double crossing, double dt) {
   constexpr double kNew = 0.1;
   const double normal_impulse = std::max(0.0, -impulse.second.dot(normal));
   const double now = 0.5 * normal_impulse * crossing * crossing * inverse_mass / dt;
   return before.touched ? before.recovery_length + kNew * (now - before.recovery_length) : now;
 }
 
-/// The part of a normal impulse of the second correction that counts as a force, N s: all of it, except where
-/// a gap closes within the step. The approach v' that particles keep then is such that contact makes no
-/// energy, v'² = v² + a (v^c + v'^c): a is the change by forces, v^c the approach after the first correction,
-/// v'^c = −δ/Δt the approach after the last. On nodes of more fields the other impulses depend on it, and all
-/// counts.
+/// The part of a normal impulse of the second correction that counts as a force, N s (theory, "The energy of
+/// a contact"). The rest only closes the gap.
+///
+/// Opening rates (v_b − v_a)·n, m/s: r_0 at the start, r_1 after the first correction, a the change by
+/// forces, r_3 = −δ/Δt at the end. Contact adds no energy if particles keep the rate r_2 ≤ 0 with r_2² = r_0²
+/// + a (r_1 + r_3). The force part is m_red (r_0 + a − r_2). All of the impulse counts where there is no gap
+/// to close. It also does on nodes of more than two fields, where the other impulses depend on it.
 /// @param normal_impulse  N s
 template <int Dim>
 double force_part(const CorrectionMethod& method, const ContactPair& pair, const PairStatus& status,
-                  const PairSlips<Dim>& slip, const Vec<Dim>& normal, const Trial<Dim>& trial,
+                  const RelativeVelocities<Dim>& relative, const Vec<Dim>& normal, const Trial<Dim>& trial,
                   double normal_impulse) {
   const double target = status.target_approach;
   if (!method.one_set || method.first_stays || !pair.sole || !(normal_impulse < 0) || !(target > 0))
     return normal_impulse;
-  const double before = -slip.start.dot(normal), held = -slip.after_first.dot(normal);
-  const double forces = trial.impulse.dot(normal) / trial.reduced - held;
-  const double after = -std::sqrt(std::max(0.0, before * before + forces * (held - target)));
-  return trial.reduced * (before + forces - after);
+  const double r_0 = relative.start.dot(normal), r_1 = relative.after_first.dot(normal);
+  const double a = trial.impulse.dot(normal) / trial.reduced_mass - r_1;
+  const double r_2 = -std::sqrt(std::max(0.0, r_0 * r_0 + a * (r_1 - target)));
+  return trial.reduced_mass * (r_0 + a - r_2);
 }
 
 }  // namespace mpmfast

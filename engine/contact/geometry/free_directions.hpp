@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file What velocity conditions leave of a node to contact.
+/// @file The directions of a contact node that velocity conditions leave free.
 
 #include <cstdint>
 #include <limits>
@@ -11,22 +11,22 @@
 
 namespace mpmfast {
 
-/// The part of a vector along the directions in which conditions leave a node free.
+/// Projects vectors onto the directions in which velocity conditions leave a node free.
 template <int Dim>
 struct FreeDirections {
   const Conditions<Dim>* conditions = nullptr;
 
-  Vec<Dim> operator()(const ContactNode<Dim>& node, const Vec<Dim>& x) const {
+  Vec<Dim> part(const ContactNode<Dim>& node, const Vec<Dim>& x) const {
     return node.constrained ? conditions->free_part({node.constrained_combination, node.constrained_axes}, x)
                             : x;
   }
 };
 
-/// Yields the directions that conditions prescribe on a node to them; contact acts in the others.
+/// Yields the prescribed directions of each node to the velocity conditions; contact acts in the others.
 ///
-/// A wall and a contact that correct each other in turn are no projection. They hold different velocities in
-/// the strain, the force and v′, which makes energy without end where grains jam at a wall. With this, both
-/// are one projection. A gap d along n is closed by moving d/|n_free| along n_free.
+/// Conditions and contact together are then one projection. If each corrected the other in turn, the
+/// velocities in the strain, the force and v′ would differ, and grains that jam at a wall would gain energy
+/// without bound. A gap d along n is closed by moving d/|n_free| along n_free.
 template <int Dim>
 void yield_constrained_directions(const FreeDirections<Dim>& free, int threads, ContactList<Dim>& list) {
   constexpr double kLeast =
@@ -43,7 +43,7 @@ void yield_constrained_directions(const FreeDirections<Dim>& free, int threads, 
     if (!node.constrained) return;
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
       PairGeometry<Dim>& geometry = list.pairs.geometry[e];
-      const Vec<Dim> along = free(node, geometry.normal);
+      const Vec<Dim> along = free.part(node, geometry.normal);
       const double length = along.norm();
       geometry.normal = length > kLeast ? Vec<Dim>(along / length) : Vec<Dim>::Zero();
       geometry.separation =

@@ -5,17 +5,18 @@
 #include <atomic>
 
 #include "engine/contact/published/explicit_pairs.hpp"
-#include "engine/contact/solver/solve_nodes.hpp"
+#include "engine/contact/solver/solve_node.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-/// Adds the impulses of a node's pairs to its fields. @param with_forces  also what counts as a force beside
-/// them
+/// Sums the impulses of a node's pairs into its fields. Field b takes the opposite of field a; a rigid field
+/// and the rest of a lumped pair take nothing.
+/// @param include_as_force  also sum PairImpulses::as_force
 template <int Dim>
-void sum_impulses(const ContactNode<Dim>& node, const PairColumns<Dim>& pairs, bool with_forces,
+void sum_impulses(const ContactNode<Dim>& node, const PairColumns<Dim>& pairs, bool include_as_force,
                   NodeMotion<Dim>& motion) {
   for (int e = node.pair_begin; e < node.pair_end; ++e) {
     const ContactPair& pair = pairs.pair[e];
@@ -23,12 +24,13 @@ void sum_impulses(const ContactNode<Dim>& node, const PairColumns<Dim>& pairs, b
     const bool moves_other = !pair.is_lumped() && pair.b != node.rigid;
     motion[pair.a].impulse += impulse.now;
     if (moves_other) motion[pair.b].impulse -= impulse.now;
-    if (!with_forces) continue;
+    if (!include_as_force) continue;
     motion[pair.a].as_force += impulse.as_force;
     if (moves_other) motion[pair.b].as_force -= impulse.as_force;
   }
 }
 
+/// Adds the impulses to the momenta of the fields, here and on the grid.
 template <int Dim>
 void change_momenta(State<Dim>& state, NodeMotion<Dim>& motion) {
   for (auto& field : motion) {
@@ -38,6 +40,7 @@ void change_momenta(State<Dim>& state, NodeMotion<Dim>& motion) {
   }
 }
 
+/// Adds (impulse + as_force)/Δt to the nodal forces, N.
 template <int Dim>
 void change_forces(State<Dim>& state, double dt, NodeMotion<Dim>& motion) {
   for (const auto& field : motion) {
@@ -47,7 +50,7 @@ void change_forces(State<Dim>& state, double dt, NodeMotion<Dim>& motion) {
   }
 }
 
-/// For contact-aware XPIC: Δv of the first correction beside v*.
+/// Adds Δv = impulse/m of the first correction to the second half of Nodal::star, m/s (contact-aware XPIC).
 template <int Dim>
 void store_velocity_changes(State<Dim>& state, NodeMotion<Dim>& motion) {
   for (const auto& field : motion)
@@ -55,11 +58,12 @@ void store_velocity_changes(State<Dim>& state, NodeMotion<Dim>& motion) {
       state.nodes.column(Nodal::star, Dim + d)[field.slot] += field.impulse[d] * field.inverse_mass;
 }
 
-/// The part of the second impulse of a sole pair that is no force is taken off what counts as one
-/// (force_part).
+/// Subtracts from `as_force` the part of the second impulse that only closes the gap (force_part), on nodes
+/// of two fields.
+/// @pre solve_each_pair has left the trial states in the workspace
 template <int Dim>
-void take_off_approach(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
-                       const NodeWorkspace<Dim>& work) {
+void remove_closing_part(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
+                         const NodeWorkspace<Dim>& work) {
   if (!pass.method.one_set) return;
   PairColumns<Dim>& pairs = pass.list.pairs;
   for (int e = node.pair_begin; e < node.explicit_begin; ++e) {
@@ -67,18 +71,23 @@ void take_off_approach(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& 
     if (!pair.sole || !pairs.status[e].separable) continue;
     const Vec<Dim>& normal = pairs.geometry[e].normal;
     PairImpulses<Dim>& impulse = pairs.impulse[e];
-    const double along = impulse.now.dot(normal);
+    const double normal_impulse = impulse.now.dot(normal);
     const Trial<Dim>& trial = work.trials[static_cast<std::size_t>(e - node.pair_begin)];
-    impulse.as_force -=
-        (along - force_part(pass.method, pair, pairs.status[e], pairs.slip[e], normal, trial, along)) *
-        normal;
+    const double as_force =
+        force_part(pass.method, pair, pairs.status[e], pairs.relative[e], normal, trial, normal_impulse);
+    impulse.as_force -= (normal_impulse - as_force) * normal;
   }
 }
 
 /// 1/m_red of a pair, 1/kg.
 template <int Dim>
-double inverse_reduced(const ContactNode<Dim>& node, const ContactPair& pair, const NodeMotion<Dim>& motion) {
+double inverse_reduced_mass(const ContactNode<Dim>& node, const ContactPair& pair,
+                            const NodeMotion<Dim>& motion) {
   return motion[pair.a].inverse_mass + (meets_rigid(node, pair) ? 0 : motion.inverse_mass_of(pair.a, pair.b));
+}
+
+bool is_lane_law(const AnyLaw& law) {
+  return std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
 }
 
 }  // namespace
@@ -88,30 +97,29 @@ Corrections<Dim>::Corrections(const Scene& scene, const Plan& plan, const PairLa
     : spec_(scene.contact),
       laws_(laws),
       method_(scene, plan),
-      solves_in_lanes_(
-          plan.one_set && !plan.interface_springs && scene.cracks.empty() && !laws.any([](const AnyLaw& law) {
-            return !std::visit([](const auto& l) { return kDryFriction<std::decay_t<decltype(l)>>; }, law);
-          })),
+      solves_in_lanes_(plan.one_set && !plan.interface_springs && scene.cracks.empty() &&
+                       laws.all(is_lane_law)),
       workspaces_(static_cast<std::size_t>(omp_get_max_threads())) {}
 
 template <int Dim>
-CorrectionPass<Dim> Corrections<Dim>::pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt,
-                                           RuleOf<Dim> rule, bool may_stick, ContactList<Dim>& list) const {
+CorrectionPass<Dim> Corrections<Dim>::make_pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt,
+                                                RuleFunction<Dim> rule, bool may_stick,
+                                                ContactList<Dim>& list) const {
   return {state, list, spec_, laws_, method_, free, rule, may_stick, dt};
 }
 
-/// FLIP's particles take a share of what the first correction changes on surfaces that touch. They get forces
-/// only, and the first correction is none (N20 Eq. 33): an approach that it takes from the grid in every step
-/// stays in the particles for good. Forces then act on velocities that the bodies do not have, and noise
-/// grows. A small share ends it within as many steps as its inverse.
+/// FLIP moves particles by forces only. An approach that this correction removes from the grid in every step
+/// would stay in the particles (N20 Eq. 33), and forces would act on velocities that the bodies do not have.
+/// Therefore `first_share` of the impulse also counts as a force. The approach then decays within about
+/// 1/first_share steps.
 template <int Dim>
 void Corrections<Dim>::correct_first(State<Dim>& state, const FreeDirections<Dim>& free,
                                      const StepTimes& times, ContactList<Dim>& list) {
-  const bool may_stick = method_.holds_sticking || method_.first_stays;
-  const CorrectionPass<Dim> all = pass(state, free, times.dt, first_rule<Dim>, may_stick, list);
+  const CorrectionPass<Dim> pass =
+      make_pass(state, free, times.dt, first_rule<Dim>, method_.strain_may_stick(), list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
-    work.motion.read(all.fields(node));
-    begin_set(all, node, work.motion);
+    work.motion.read(pass.fields(node));
+    begin_active_set(pass, node, work.motion);
   };
   const auto finish = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     PairColumns<Dim>& pairs = list.pairs;
@@ -123,29 +131,28 @@ void Corrections<Dim>::correct_first(State<Dim>& state, const FreeDirections<Dim
       impulse.first = impulse.now;
       if (pairs.status[e].separable) impulse.as_force = method_.first_share * impulse.now;
       pairs.status[e].active_in_first = !impulse.now.isZero(0);
-      if (method_.one_set || method_.first_stays)
-        pairs.slip[e].after_first = free(node, work.motion.slip_of(node, pairs.pair[e]));
+      if (method_.keeps_relative)
+        pairs.relative[e].after_first = free.part(node, work.motion.relative_velocity(node, pairs.pair[e]));
     }
   };
-  solve_nodes(all, begin, finish);
+  solve_nodes(pass, begin, finish);
 }
 
 template <int Dim>
 void Corrections<Dim>::correct_second(State<Dim>& state, const FreeDirections<Dim>& free,
                                       const StepTimes& times, Interfaces<Dim>& interfaces,
                                       ContactList<Dim>& list) {
-  const CorrectionPass<Dim> all = pass(state, free, times.dt, second_rule<Dim>, true, list);
+  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, second_rule<Dim>, true, list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     if (interfaces.active()) interfaces.apply(state, node, free, times.dt, list);
-    work.motion.read(all.fields(node));
-    if (!method_.has_first) begin_set(all, node, work.motion);
+    work.motion.read(pass.fields(node));
+    if (!method_.has_first) begin_active_set(pass, node, work.motion);
   };
-  const bool shares_first = method_.first_share > 0 || method_.one_set;
-  const bool ends_here = !method_.one_set || method_.first_stays;
+  const bool include_as_force = method_.first_share > 0 || method_.one_set;
   const auto finish = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     PairColumns<Dim>& pairs = list.pairs;
-    take_off_approach(all, node, work);
-    sum_impulses(node, pairs, shares_first, work.motion);
+    remove_closing_part(pass, node, work);
+    sum_impulses(node, pairs, include_as_force, work.motion);
     change_momenta(state, work.motion);
     change_forces(state, times.dt, work.motion);
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
@@ -154,21 +161,22 @@ void Corrections<Dim>::correct_second(State<Dim>& state, const FreeDirections<Di
       PairStatus& status = pairs.status[e];
       impulse.second = impulse.now + impulse.as_force;
       status.stuck = status.now == ContactStatus::stick;
-      status.touching = !impulse.now.isZero(0);
-      if (!method_.one_set && !ends_here) continue;
-      const Vec<Dim> slip = free(node, work.motion.slip_of(node, pair));
-      if (ends_here) pairs.slip[e].end = slip;
-      if (!method_.one_set) continue;
+      const Vec<Dim> relative = free.part(node, work.motion.relative_velocity(node, pair));
+      if (!method_.third_ends_strain) pairs.relative[e].end = relative;
+      if (!method_.one_set) {
+        status.touching = !impulse.now.isZero(0);
+        continue;
+      }
       const Vec<Dim>& normal = pairs.geometry[e].normal;
-      pairs.slip[e].after_second = slip;
-      status.touching =
-          still_touches(impulse, normal, status, work.motion[pair.a].mass, slip, state.grid.cell, times.dt);
+      pairs.relative[e].after_second = relative;
+      status.touching = still_touches(impulse, normal, status, work.motion[pair.a].mass, relative,
+                                      state.grid.cell, times.dt);
       status.recovery_length =
-          recovery_length(impulse, normal, pairs.before[e], inverse_reduced(node, pair, work.motion),
-                          times.crossing, times.dt);
+          updated_recovery_length(impulse, normal, pairs.before[e],
+                                  inverse_reduced_mass(node, pair, work.motion), times.crossing, times.dt);
     }
   };
-  const Counts counts = solve_nodes(all, begin, finish);
+  const Counts counts = solve_nodes(pass, begin, finish);
   list.counters.pair_nodes += counts.converged;
   list.counters.pair_fallbacks += counts.unconverged;
 }
@@ -176,39 +184,135 @@ void Corrections<Dim>::correct_second(State<Dim>& state, const FreeDirections<Di
 template <int Dim>
 void Corrections<Dim>::correct_re_extrapolated(State<Dim>& state, const FreeDirections<Dim>& free,
                                                const StepTimes& times, ContactList<Dim>& list) {
-  const bool may_stick = method_.holds_sticking || method_.first_stays;
-  const CorrectionPass<Dim> all = pass(state, free, times.dt, re_extrapolated_rule<Dim>, may_stick, list);
+  const CorrectionPass<Dim> pass =
+      make_pass(state, free, times.dt, re_extrapolated_rule<Dim>, method_.strain_may_stick(), list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
-    work.motion.read(all.fields(node));
+    work.motion.read(pass.fields(node));
   };
-  const bool ends_here = method_.one_set && !method_.first_stays;
   const auto finish = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     PairColumns<Dim>& pairs = list.pairs;
     sum_impulses(node, pairs, false, work.motion);
     change_momenta(state, work.motion);
-    if (!ends_here) return;
+    if (!method_.third_ends_strain) return;
     for (int e = node.pair_begin; e < node.pair_end; ++e)
-      pairs.slip[e].end = free(node, work.motion.slip_of(node, pairs.pair[e]));
+      pairs.relative[e].end = free.part(node, work.motion.relative_velocity(node, pairs.pair[e]));
   };
-  solve_nodes(all, begin, finish);
+  solve_nodes(pass, begin, finish);
 }
 
-/// The slips before any correction, and the persistent pairs.
+/// Stores the relative velocities before any correction, and decides which pairs persist.
 template <int Dim>
-void Corrections<Dim>::begin_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
-                                 const NodeMotion<Dim>& motion) const {
+void Corrections<Dim>::begin_active_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
+                                        const NodeMotion<Dim>& motion) const {
   PairColumns<Dim>& pairs = pass.list.pairs;
-  if (method_.one_set || method_.first_stays)
+  if (method_.keeps_relative)
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
-      PairSlips<Dim>& slip = pairs.slip[e];
-      slip.start = slip.after_first = pass.free(node, motion.slip_of(node, pairs.pair[e]));
+      RelativeVelocities<Dim>& relative = pairs.relative[e];
+      relative.start = relative.after_first =
+          pass.free.part(node, motion.relative_velocity(node, pairs.pair[e]));
     }
-  find_persistent(method_, node, pass.cell(), pass.dt, pairs);
+  decide_persistence(method_, node, pass.cell(), pass.dt, pairs);
 }
 
-/// Solves all contact nodes, in parallel. Nodes of three and four fields may wait to be solved in lanes.
+namespace {
+
+/// One thread's share of the nodes of a correction. Nodes of three and four fields are queued until a batch
+/// of lanes is full.
+template <int Dim, class Begin, class Finish>
+class NodeLoop {
+ public:
+  NodeLoop(const CorrectionPass<Dim>& pass, bool in_lanes, const Begin& begin, const Finish& finish,
+           NodeWorkspace<Dim>& work)
+      : pass_(pass), in_lanes_(in_lanes), begin_(begin), finish_(finish), work_(work) {}
+
+  std::uint64_t converged() const { return converged_; }
+  std::uint64_t unconverged() const { return unconverged_; }
+
+  void solve(const ContactNode<Dim>& node) {
+    const int fields = node.field_end - node.field_begin;
+    begin_(node, work_);
+    if (pass_.spec.fields == ManyFields::simultaneous && fields > 2)
+      solve_many_fields(node, fields);
+    else
+      solve_pair_by_pair(node);
+  }
+
+  /// Solves the nodes that are still queued.
+  void finish() {
+    flush(work_.three_fields);
+    flush(work_.four_fields);
+  }
+
+ private:
+  void solve_many_fields(const ContactNode<Dim>& node, int fields) {
+    prepare_simultaneous(pass_, node, work_);
+    const bool queued = in_lanes_ && work_.responding.size() > 1;
+    if (queued && fields == 3)
+      add_to(node, work_.three_fields);
+    else if (queued && fields == 4)
+      add_to(node, work_.four_fields);
+    else
+      solve_alone(node);
+  }
+
+  void solve_pair_by_pair(const ContactNode<Dim>& node) {
+    bool lumped = true;
+    if (node.explicit_begin < node.pair_end) {
+      const ExplicitOutcome outcome = solve_explicit_pairs(pass_, node, work_.motion);
+      lumped = outcome == ExplicitOutcome::lumped;
+      converged_ += outcome == ExplicitOutcome::solved;
+      unconverged_ += lumped;
+    }
+    if (lumped) solve_each_pair(pass_, node, work_);
+    finish_(node, work_);
+  }
+
+  void solve_alone(const ContactNode<Dim>& node) {
+    const bool converged = solve_simultaneously(pass_, node, work_);
+    converged_ += converged;
+    unconverged_ += !converged;
+    finish_(node, work_);
+  }
+
+  template <class Batch>
+  void add_to(const ContactNode<Dim>& node, Batch& batch) {
+    enqueue(pass_, node, work_, batch);
+    if (batch.solver.is_full()) flush(batch);
+  }
+
+  /// Solves the nodes of a batch. The workspace holds the motion of another node by now, so it is read again;
+  /// `begin` has acted already.
+  template <class Batch>
+  void flush(Batch& batch) {
+    const int count = batch.solver.count();
+    const unsigned solved = batch.solver.solve(pass_.may_stick);
+    for (int lane = 0; lane < count; ++lane) {
+      const ContactNode<Dim>& node = *batch.nodes[static_cast<std::size_t>(lane)];
+      work_.motion.read(pass_.fields(node));
+      if (!(solved >> lane & 1)) {
+        prepare_simultaneous(pass_, node, work_);
+        solve_alone(node);
+        continue;
+      }
+      ++converged_;
+      store_lane(node, batch.solver, lane, pass_.list.pairs);
+      finish_(node, work_);
+    }
+  }
+
+  const CorrectionPass<Dim>& pass_;
+  bool in_lanes_;
+  const Begin& begin_;
+  const Finish& finish_;
+  NodeWorkspace<Dim>& work_;
+  std::uint64_t converged_ = 0, unconverged_ = 0;
+};
+
+}  // namespace
+
+/// Solves all contact nodes of a correction, in parallel.
 /// @param begin   begin(node, workspace): reads the motion of a node
-/// @param finish  finish(node, workspace): gives the impulses of its pairs to its fields
+/// @param finish  finish(node, workspace): adds the impulses of its pairs to its fields
 template <int Dim>
 template <class Begin, class Finish>
 auto Corrections<Dim>::solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish)
@@ -216,66 +320,18 @@ auto Corrections<Dim>::solve_nodes(const CorrectionPass<Dim>& pass, const Begin&
   constexpr std::int64_t kAtOnce = 32, kFew = 64;  // nodes
   const ContactList<Dim>& list = pass.list;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  const int asked = n <= kFew ? 1 : pass.state.threads;
-  std::atomic<std::uint64_t> all_converged{0}, all_unconverged{0};
-  shares_.cut(asked, n, kAtOnce);
-  on_threads(asked, [&](const TeamThread& me) {
-    std::uint64_t converged = 0, unconverged = 0;
-    NodeWorkspace<Dim>& work = workspaces_[static_cast<std::size_t>(thread_index())];
-    const auto solve_alone = [&](const ContactNode<Dim>& node) {
-      ++(solve_together(pass, node, work) ? converged : unconverged);
-      finish(node, work);
-    };
-    const auto solve_waiting = [&](auto& waiting) {
-      const int count = waiting.solver.count();
-      const unsigned solved = waiting.solver.solve(pass.may_stick);
-      for (int lane = 0; lane < count; ++lane) {
-        const ContactNode<Dim>& node = *waiting.nodes[static_cast<std::size_t>(lane)];
-        work.motion.read(pass.fields(node));
-        if (!(solved >> lane & 1)) {
-          find_responding(pass, node, work);
-          solve_alone(node);
-          continue;
-        }
-        ++converged;
-        take_from_lane(node, waiting.solver, lane, pass.list.pairs);
-        finish(node, work);
-      }
-    };
-    const auto wait = [&](const ContactNode<Dim>& node, auto& waiting) {
-      wait_in_lane(pass, node, work, waiting);
-      if (waiting.solver.is_full()) solve_waiting(waiting);
-    };
-    shares_.for_each(me.thread, [&](std::int64_t k) {
-      const ContactNode<Dim>& node = list.nodes[k];
-      const int fields = node.field_end - node.field_begin;
-      begin(node, work);
-      if (spec_.fields == ManyFields::simultaneous && fields > 2) {
-        find_responding(pass, node, work);
-        const bool waits = solves_in_lanes_ && work.responding.size() > 1;
-        if (waits && fields == 3)
-          wait(node, work.of_three);
-        else if (waits && fields == 4)
-          wait(node, work.of_four);
-        else
-          solve_alone(node);
-        return;
-      }
-      auto outcome = ExplicitOutcome::lumped;
-      if (node.explicit_begin < node.pair_end) {
-        outcome = solve_explicit_pairs(pass, node, work.motion);
-        converged += outcome == ExplicitOutcome::solved;
-        unconverged += outcome == ExplicitOutcome::lumped;
-      }
-      if (outcome == ExplicitOutcome::lumped) solve_pairs(pass, node, work);
-      finish(node, work);
-    });
-    solve_waiting(work.of_three);
-    solve_waiting(work.of_four);
-    all_converged += converged;
-    all_unconverged += unconverged;
+  const int threads = n <= kFew ? 1 : pass.state.threads;
+  std::atomic<std::uint64_t> converged{0}, unconverged{0};
+  shares_.cut(threads, n, kAtOnce);
+  on_threads(threads, [&](const TeamThread& me) {
+    NodeLoop<Dim, Begin, Finish> loop(pass, solves_in_lanes_, begin, finish,
+                                      workspaces_[static_cast<std::size_t>(me.thread)]);
+    shares_.for_each(me.thread, [&](std::int64_t k) { loop.solve(list.nodes[k]); });
+    loop.finish();
+    converged += loop.converged();
+    unconverged += loop.unconverged();
   });
-  return {all_converged, all_unconverged};
+  return {converged, unconverged};
 }
 
 template class Corrections<2>;

@@ -26,12 +26,12 @@ class Corrections {
 
   const CorrectionMethod& method() const { return method_; }
 
-  /// Decides the active set, and corrects momenta before the strain update (N20 Eq. 26). The velocity changes
-  /// are kept in the second half of Nodal::star where contact-aware XPIC wants them.
+  /// Decides the active set, and corrects momenta before the strain update (N20 Eq. 26). Contact-aware XPIC
+  /// finds the velocity changes in the second half of Nodal::star.
   void correct_first(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
                      ContactList<Dim>& list);
-  /// Corrects momenta and forces after the momentum update (N20 Eq. 31, 33), behind the springs of
-  /// interfaces.
+  /// Corrects momenta and forces after the momentum update (N20 Eq. 31, 33). The springs of interfaces act
+  /// first.
   void correct_second(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
                       Interfaces<Dim>& interfaces, ContactList<Dim>& list);
   /// Corrects re-extrapolated momenta, for the strain alone (NN §2.8).
@@ -40,14 +40,14 @@ class Corrections {
 
  private:
   struct Counts {
-    std::uint64_t converged = 0, unconverged = 0;  ///< nodes whose pairs are solved together, or explicitly
+    std::uint64_t converged = 0, unconverged = 0;  ///< nodes of simultaneous or explicit pairs
   };
-  CorrectionPass<Dim> pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt, RuleOf<Dim> rule,
-                           bool may_stick, ContactList<Dim>& list) const;
+  CorrectionPass<Dim> make_pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt,
+                                RuleFunction<Dim> rule, bool may_stick, ContactList<Dim>& list) const;
   template <class Begin, class Finish>
   Counts solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish);
-  void begin_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
-                 const NodeMotion<Dim>& motion) const;
+  void begin_active_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
+                        const NodeMotion<Dim>& motion) const;
 
   const ContactSpec& spec_;
   const PairLaws& laws_;

@@ -9,15 +9,16 @@
 
 namespace mpmfast {
 
-/// Read from the grid once for a correction.
+/// The masses and momenta of the fields of one node, and what a correction adds to them.
 template <int Dim>
 class NodeMotion {
  public:
   struct Field {
     int slot;
-    double mass, inverse_mass;   ///< kg, 1/kg
-    Vec<Dim> momentum;           ///< N s
-    Vec<Dim> impulse, as_force;  ///< of the correction, and what counts as a force beside it, N s
+    double mass, inverse_mass;  ///< kg, 1/kg
+    Vec<Dim> momentum;          ///< N s
+    Vec<Dim> impulse;           ///< of the correction, N s
+    Vec<Dim> as_force;          ///< what counts as a force beside it, N s
   };
 
   void clear() { fields_.clear(); }
@@ -61,15 +62,15 @@ class NodeMotion {
     }
     return sum;
   }
-  /// v_a − v_b, m/s. @param b  −1: all others, lumped
-  Vec<Dim> slip_of(int a, int b) const {
-    if (b >= 0) return velocity(a) - velocity(b);
+  /// v_b − v_a, m/s. @param b  −1: all others, lumped
+  Vec<Dim> relative_velocity(int a, int b) const {
+    if (b >= 0) return velocity(b) - velocity(a);
     const Total others = others_than(a);
-    return velocity(a) - others.momentum / others.mass;
+    return others.momentum / others.mass - velocity(a);
   }
-  /// v_a − v_b of a pair, m/s; b of a lumped one is the rigid body where the node has one.
-  Vec<Dim> slip_of(const ContactNode<Dim>& node, const ContactPair& pair) const {
-    return slip_of(pair.a, pair.is_lumped() ? node.rigid : pair.b);
+  /// v_b − v_a of a pair, m/s; b of a lumped one is the rigid body where the node has one.
+  Vec<Dim> relative_velocity(const ContactNode<Dim>& node, const ContactPair& pair) const {
+    return relative_velocity(pair.a, pair.is_lumped() ? node.rigid : pair.b);
   }
   /// Of b, or of all but a, 1/kg.
   double inverse_mass_of(int a, int b) const {

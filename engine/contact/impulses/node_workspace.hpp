@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file What one thread solves the contact pairs of a node in.
+/// @file The workspace in which one thread solves the contact pairs of a node.
 
 #include <array>
 #include <vector>
@@ -12,20 +12,21 @@
 
 namespace mpmfast {
 
-/// A pair of a node that may have an impulse while all pairs are solved together.
+/// A pair that may have an impulse in a simultaneous solve of its node.
 template <int Dim>
 struct RespondingPair {
-  int pair;             ///< into ContactList::pairs
-  double reduced;       ///< m_red, kg
-  double area_time{};   ///< A_c Δt, m² s, for laws that use the area
-  bool in_set = false;  ///< the rule of the active set holds
+  int pair;                    ///< into ContactList::pairs
+  double reduced_mass;         ///< m_red, kg
+  double area_time{};          ///< A_c Δt, m² s, for laws that use the area
+  bool by_active_set = false;  ///< the active set of the step decides, else the law alone (own_response)
+  bool separable = false;      ///< as PairStatus::separable
   PairRule<Dim> rule;
   Coulomb friction;  ///< where that is its law
 };
 
-/// Nodes of so many fields that wait to be solved in lanes.
+/// Nodes of kFields fields that are solved at once, one in each lane.
 template <int Dim, int kFields>
-struct WaitingNodes {
+struct LaneBatch {
   LaneSolver<Dim, kFields> solver;
   std::array<const ContactNode<Dim>*, kLanes> nodes;
 };
@@ -34,11 +35,11 @@ template <int Dim>
 struct alignas(64) NodeWorkspace {
   NodeMotion<Dim> motion;
   std::vector<Trial<Dim>> trials;    ///< by pair of the node, where pairs are solved one by one
-  std::vector<Vec<Dim>> velocities;  ///< of its fields, along what conditions leave free, m/s
+  std::vector<Vec<Dim>> velocities;  ///< of its fields, in the free directions, m/s
   std::vector<RespondingPair<Dim>> responding;
   NodeSolver<Dim> solver;  ///< its contacts are `responding`
-  WaitingNodes<Dim, 3> of_three;
-  WaitingNodes<Dim, 4> of_four;
+  LaneBatch<Dim, 3> three_fields;
+  LaneBatch<Dim, 4> four_fields;
 };
 
 }  // namespace mpmfast

@@ -16,19 +16,21 @@ namespace mpmfast {
 
 namespace {
 
-/// Friction of surfaces that springs press together; none where contact holds them apart.
-/// @param joint  the two fields at the start of the step
-/// @param end    rate of the jump at the end of the step without friction; changed by it, m/s
+/// Adds Coulomb friction to springs in compression (NN §5.7). Where the compression model is `contact`, the
+/// contact corrections have friction instead.
+/// @param joint     the two fields at the start of the step
+/// @param end_rate  rate of the jump at the end of the step, m/s: without friction, then with it
 template <int Dim>
-void apply_compressed_friction(const AnyLaw& law, const PairStart<Dim>& joint, double dt, bool alone,
-                               InterfaceSpring<Dim>& spring, Vec<Dim>& end) {
+void add_friction(const AnyLaw& law, const PairStart<Dim>& joint, double dt, bool alone,
+                  InterfaceSpring<Dim>& spring, Vec<Dim>& end_rate) {
   spring.friction.setZero();
-  const auto slide_with = [&](const Coulomb& friction, const auto& along) {
-    const double normal_impulse =
-        joint.mass * (end - joint.rate).dot(joint.normal) - dt * joint.along().opening;
+  const auto slide_with = [&](const Coulomb& friction, const auto& tangential_spring) {
+    const double normal_impulse =  // of the normal spring, positive in compression
+        joint.mass * (end_rate - joint.rate).dot(joint.normal) - dt * joint.along().opening;
     if (friction.friction == 0 || !(normal_impulse > 0)) return;
-    const FrictionResult<Dim> after = apply_friction(friction, normal_impulse, along, joint, dt, alone);
-    end = end.dot(joint.normal) * joint.normal + after.rate;
+    const FrictionResult<Dim> after =
+        apply_friction(friction, normal_impulse, tangential_spring, joint, dt, alone);
+    end_rate = end_rate.dot(joint.normal) * joint.normal + after.rate;
     spring.friction = after.impulse;
   };
   const auto springs_press = [](const auto& springs) {
@@ -45,13 +47,14 @@ void apply_compressed_friction(const AnyLaw& law, const PairStart<Dim>& joint, d
 template <int Dim>
 double stored_energy(const AnyLaw& law, const Bond<Dim>* bond, const InterfaceSpring<Dim>& spring) {
   const double gap = spring.jump.value.dot(spring.normal);
-  const double slip = (spring.jump.value - gap * spring.normal).squaredNorm();
+  const double slip_squared = (spring.jump.value - gap * spring.normal).squaredNorm();
   if (const auto* curves = std::get_if<NonlinearInterface>(&law))
-    return spring.area * (curves->normal_curve.energy(gap) + curves->shear_curve.energy(std::sqrt(slip)));
+    return spring.area *
+           (curves->normal_curve.energy(gap) + curves->shear_curve.energy(std::sqrt(slip_squared)));
   const auto* cohesive = std::get_if<Cohesive>(&law);
   const double integrity = cohesive ? cohesive->integrity_of(bond->damage) : 1;
   return 0.5 * ((gap > 0 ? integrity * spring.stiffness.tension : spring.stiffness.compression) * gap * gap +
-                integrity * spring.stiffness.shear * slip);
+                integrity * spring.stiffness.shear * slip_squared);
 }
 
 }  // namespace
@@ -80,11 +83,12 @@ void Interfaces<Dim>::find(const State<Dim>& state, ContactList<Dim>& list) cons
   if (bonds_active_) bonds_.find_followers(state, list);
 }
 
-/// The jump and the surface of a pair that springs may join.
+/// Finds the jump and the surface of a pair whose law has springs.
 ///
-/// The node's share of the surface is that of the lighter side, whose stress ends on it (N20's area, g·n),
-/// mixed as (m_b g_a − m_a g_b)·n/(m_a + m_b). A field of hardly any mass whose springs carry more or less
-/// than its stress is thrown, or loses that stress.
+/// The node's share of the surface is (m_b A_a + m_a A_b)/(m_a + m_b) with A_a = g_a·n and A_b = −g_b·n,
+/// where g is Σ_p V_p ∇S_ip (N20's area). The lighter field counts most, since its stress ends on the
+/// surface. On a nearly massless field, springs that carry another force than its stress would accelerate it
+/// without bound.
 template <int Dim>
 void Interfaces<Dim>::find_pair(const State<Dim>& state, const ContactNode<Dim>& node, int e,
                                 ContactList<Dim>& list) const {
@@ -97,18 +101,19 @@ void Interfaces<Dim>::find_pair(const State<Dim>& state, const ContactNode<Dim>&
   if (!has_springs(law)) return;
   const int other = partner(fields, node, pair);
   const double m_a = fields.mass(pair.a), m_b = fields.mass(other);
-  const bool broken = pairs.is_broken(e), joined = !(std::holds_alternative<Cohesive>(law) && broken),
-             touches = scope_of(law, broken) == LawScope::contact;
-  const double a = fields.vector(Nodal::volume_gradient, pair.a).dot(geometry.normal),
-               b = -fields.vector(Nodal::volume_gradient, other).dot(geometry.normal);
-  const double area = std::max(0.0, (m_b * a + m_a * b) / (m_a + m_b));
+  const bool broken = pairs.is_broken(e),
+             has_springs_left = !(std::holds_alternative<Cohesive>(law) && broken),
+             in_contact = scope_of(law, broken) == LawScope::contact;
+  const double area_a = fields.vector(Nodal::volume_gradient, pair.a).dot(geometry.normal),
+               area_b = -fields.vector(Nodal::volume_gradient, other).dot(geometry.normal);
+  const double area = std::max(0.0, (m_b * area_a + m_a * area_b) / (m_a + m_b));
   if (bonds_active_) pairs.bond[e].area = area;
   InterfaceSpring<Dim>& spring = pairs.spring[e];
   DisplacementJump<Dim>& jump = spring.jump;
-  if (joined) {
+  if (has_springs_left) {
     spring.normal = geometry.normal;
-    // Fitted normals vary by some degrees from step to step. Turning the jump with them keeps what springs of
-    // two stiffnesses hold of it.
+    // Fitted normals vary by some degrees from step to step. The jump turns with them, which keeps its normal
+    // and tangential parts.
     if (jump.known) jump.value = turned<Dim>(jump.normal, spring.normal, jump.value);
     jump.normal = spring.normal;
     const bool integrates =
@@ -116,26 +121,25 @@ void Interfaces<Dim>::find_pair(const State<Dim>& state, const ContactNode<Dim>&
     jump.integrated = jump.known && integrates;
     jump.extrapolated = jump.integrated ? jump.value : extrapolated_jump(state, fields, node, pair.a, other);
     spring.own_area = area;
-    spring.mean_area = 0.5 * (std::max(0.0, a) + std::max(0.0, b));
+    spring.mean_area = 0.5 * (std::max(0.0, area_a) + std::max(0.0, area_b));
   }
-  if (joined && touches)  // the gap is the normal part of the jump
+  // The gap is the normal part of the jump. Surfaces touch at the start of the run.
+  if (has_springs_left && in_contact)
     geometry.separation = jump.known       ? jump.value.dot(geometry.normal)
                           : state.step > 0 ? jump.extrapolated.dot(geometry.normal)
                                            : 0.0;
-  // Springs act on fields of any mass, but contact would throw a field of hardly any (mass_screen).
-  if (touches && other != node.rigid && std::min(m_a, m_b) < spec_.mass_screen * (m_a + m_b))
+  // Springs act on fields of any mass. Contact would accelerate a nearly massless field without bound.
+  if (in_contact && other != node.rigid && std::min(m_a, m_b) < spec_.mass_screen * (m_a + m_b))
     geometry.normal.setZero();
 }
 
-/// Velocities integrate the jump from step to step: then springs are of one kind with what strains the
-/// bodies, and no stiffness is too large. (Displacements of particles follow nodes through S and return
-/// through S⁺; springs on these alone make energy from D h = 0.15 ρ c² on.) The extrapolated jump replaces
-/// the integrated one as the bodies move through the cells, as a mean over the nodes around. Positions lead
-/// strains by half a step: particles move with v′ Δt, which F follows by halves (theory, "The energy of a
-/// contact").
+/// The jump is integrated from nodal velocities, as the strains are, so that any stiffness is stable.
+/// (Springs on extrapolated displacements of particles alone add energy from D h = 0.15 ρ c² on, since
+/// particles follow nodes through S and return through S⁺.) The extrapolated jump, a mean over the nodes
+/// around, slowly replaces the integrated one as the bodies move through the cells.
 ///
-/// Where several pairs are joined on a node, they are solved together by Gauss–Seidel: solved one by one and
-/// added, stiff springs make energy.
+/// Several springs of a node are solved together by Gauss–Seidel: the sum of separate solutions of stiff
+/// springs adds energy.
 template <int Dim>
 void Interfaces<Dim>::apply(State<Dim>& state, const ContactNode<Dim>& node, const FreeDirections<Dim>& free,
                             double dt, ContactList<Dim>& list) {
@@ -169,15 +173,15 @@ void Interfaces<Dim>::solve_node(const NodeFields<Dim>& fields, const ContactNod
       InterfaceSpring<Dim>& spring = pairs.spring[e];
       if (!spring.acts) continue;
       const SpringEnds<Dim>& ends = spring.ends;
-      Vec<Dim>&on_a = impulses[static_cast<std::size_t>(ends.a)],
-      &on_b = impulses[static_cast<std::size_t>(ends.b)];
+      Vec<Dim>& on_a = impulses[static_cast<std::size_t>(ends.a)];
+      Vec<Dim>& on_b = impulses[static_cast<std::size_t>(ends.b)];
       on_a -= spring.impulse;
       on_b += spring.impulse;
       const Vec<Dim> others = (ends.inverse_b * on_b - ends.inverse_a * on_a) / dt;
       const AnyLaw& law = laws_.law_of(fields, node, pairs.pair[e]);
       const Bond<Dim>* bond = bonds_active_ ? &pairs.bond[e] : nullptr;
       const Vec<Dim> impulse =
-          free(node, impulse_of(law, bond, ends.external + others, dt, acting == 1, spring));
+          free.part(node, impulse_of(law, bond, ends.external + others, dt, acting == 1, spring));
       change = std::max(change, (impulse - spring.impulse).squaredNorm());
       largest = std::max(largest, impulse.squaredNorm());
       spring.impulse = impulse;
@@ -188,13 +192,13 @@ void Interfaces<Dim>::solve_node(const NodeFields<Dim>& fields, const ContactNod
   }
 }
 
-/// The state of a pair's springs at the start of the step. Surfaces that are a cell apart, or have come from
-/// farther, are joined no more. @return whether they are joined
+/// Sets the state of a pair's springs at the start of the step. A spring whose jump exceeds a cell is
+/// dropped; a bond breaks. @return whether the springs act
 template <int Dim>
 bool Interfaces<Dim>::start(const State<Dim>& state, const ContactNode<Dim>& node, int e,
                             const FreeDirections<Dim>& free, double dt, ContactList<Dim>& list) const {
   InterfaceSpring<Dim>& spring = list.pairs.spring[e];
-  if (spring.normal.isZero(0)) return false;  // no springs, or they do not join the two here
+  if (spring.normal.isZero(0)) return false;  // no springs, or none left
   const NodeFields<Dim> fields(state, list, node);
   const ContactPair& pair = list.pairs.pair[e];
   SpringEnds<Dim>& ends = spring.ends;
@@ -203,20 +207,21 @@ bool Interfaces<Dim>::start(const State<Dim>& state, const ContactNode<Dim>& nod
   const double m_a = fields.mass(ends.a), m_b = fields.mass(ends.b);
   ends.inverse_a = 1 / m_a;
   ends.inverse_b = ends.b == node.rigid ? 0 : 1 / m_b;
-  ends.external = free(node, fields.vector(Nodal::force, ends.b) * ends.inverse_b -
-                                 fields.vector(Nodal::force, ends.a) * ends.inverse_a);
+  ends.external = free.part(node, fields.vector(Nodal::force, ends.b) * ends.inverse_b -
+                                      fields.vector(Nodal::force, ends.a) * ends.inverse_a);
   const Vec<Dim> p_a = fields.vector(Nodal::momentum, ends.a), p_b = fields.vector(Nodal::momentum, ends.b);
-  ends.rate = free(node, p_b / m_b - p_a / m_a) - dt * ends.external;
+  ends.rate = free.part(node, p_b / m_b - p_a / m_a) - dt * ends.external;
   const InterfaceAround<Dim> around = sum_around(state, node, e, list);
   DisplacementJump<Dim>& jump = spring.jump;
-  const Vec<Dim> extrapolated = free(node, around.jump) - (around.integrated ? 0 : 0.5 * dt) * ends.rate;
-  const double moved = (p_a + p_b).norm() / (m_a + m_b) * dt / state.grid.cell;  // cells
-  jump.value =
-      jump.known ? Vec<Dim>(jump.value + std::min(1.0, moved) * (extrapolated - jump.value)) : extrapolated;
+  // Positions lead strains by half a step, so the extrapolated jump is reduced by ½ Δt v.
+  const Vec<Dim> extrapolated = free.part(node, around.jump) - (around.integrated ? 0 : 0.5 * dt) * ends.rate;
+  const double moved_cells = (p_a + p_b).norm() / (m_a + m_b) * dt / state.grid.cell;
+  jump.value = jump.known ? Vec<Dim>(jump.value + std::min(1.0, moved_cells) * (extrapolated - jump.value))
+                          : extrapolated;
   spring.acts = jump.value.norm() < state.grid.cell;
-  const double gap = std::abs(jump.value.dot(spring.normal)) / state.grid.cell;
+  const double gap_cells = std::abs(jump.value.dot(spring.normal)) / state.grid.cell;
   const double area =
-      spring.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap), 1 + gap);
+      spring.own_area * std::clamp(around.mean_area / around.own_area, 1 / (1 + gap_cells), 1 + gap_cells);
   spring.area = area;
   const AnyLaw& law = laws_.law_of(fields, node, pair);
   if (const auto* straight = std::get_if<Interface>(&law)) {
@@ -230,26 +235,27 @@ bool Interfaces<Dim>::start(const State<Dim>& state, const ContactNode<Dim>& nod
   return spring.acts;
 }
 
-/// The impulse of the springs or the bond of a pair on its field a, N s.
+/// The impulse of the springs or the bond of a pair on its field a, N s. Sets the friction of the springs.
 /// @param external  change of v_b − v_a by all other forces, m/s²
 template <int Dim>
 Vec<Dim> Interfaces<Dim>::impulse_of(const AnyLaw& law, const Bond<Dim>* bond, const Vec<Dim>& external,
                                      double dt, bool alone, InterfaceSpring<Dim>& spring) const {
   const SpringEnds<Dim>& ends = spring.ends;
-  const double reduced = 1 / (ends.inverse_a + ends.inverse_b);
-  const PairStart<Dim> joint{reduced, spring.normal, spring.jump.value, ends.rate, reduced * external};
-  Vec<Dim> end;
+  const double reduced_mass = 1 / (ends.inverse_a + ends.inverse_b);
+  const PairStart<Dim> joint{reduced_mass, spring.normal, spring.jump.value, ends.rate,
+                             reduced_mass * external};
+  Vec<Dim> end_rate;
   if (const auto* curves = std::get_if<NonlinearInterface>(&law)) {
-    end = rate_after_curves(curves->normal_curve, curves->shear_curve, spring.area, joint, dt, alone);
+    end_rate = rate_after_curves(curves->normal_curve, curves->shear_curve, spring.area, joint, dt, alone);
   } else if (const auto* cohesive = std::get_if<Cohesive>(&law)) {
     const BondStart<Dim> start{*cohesive, cohesive->integrity_of(bond->damage), spring.stiffness.tension,
                                spring.stiffness.compression, joint};
-    end = bond->follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
+    end_rate = bond->follows() ? rate_with(start, start.integrity, dt) : rate_after_bond(start, dt);
   } else {
-    end = rate_after(spring.stiffness, joint, dt, alone);
+    end_rate = rate_after(spring.stiffness, joint, dt, alone);
   }
-  apply_compressed_friction(law, joint, dt, alone, spring, end);
-  return reduced * (ends.rate + dt * external - end);
+  add_friction(law, joint, dt, alone, spring, end_rate);
+  return reduced_mass * (ends.rate + dt * external - end_rate);
 }
 
 template <int Dim>
@@ -272,7 +278,8 @@ void Interfaces<Dim>::end(const State<Dim>& state, const FreeDirections<Dim>& fr
   }
 }
 
-/// The jumps at the end of the step, with the velocities that its strains end with, and the damage by them.
+/// Integrates the jumps to the end of the step, with the velocities with which its strains end, and the
+/// damage.
 template <int Dim>
 void Interfaces<Dim>::end_jumps(const State<Dim>& state, const FreeDirections<Dim>& free, double dt,
                                 ContactList<Dim>& list) {
@@ -286,7 +293,7 @@ void Interfaces<Dim>::end_jumps(const State<Dim>& state, const FreeDirections<Di
       if (!spring.acts) continue;
       const ContactPair& pair = pairs.pair[e];
       const Vec<Dim> from = spring.jump.value,
-                     mean = 0.5 * (spring.ends.rate - free(node, motion_.slip_of(node, pair)));
+                     mean = 0.5 * (spring.ends.rate + free.part(node, motion_.relative_velocity(node, pair)));
       spring.jump.value += dt * mean;
       spring.friction_work = spring.friction.dot(mean);
       if (!bonds_active_ || pairs.bond[e].follows()) continue;
@@ -296,12 +303,12 @@ void Interfaces<Dim>::end_jumps(const State<Dim>& state, const FreeDirections<Di
   }
 }
 
-/// Sums over the nodes around one, itself included, of those with integrated jumps alone where there are
-/// such.
+/// Sums the areas over a node and its neighbours, and finds their mean jump, weighted by area. If one of them
+/// has an integrated jump, only integrated jumps count.
 ///
-/// Where a gap δ lies between the sides, or they overlap, each side has its surface at a position of its own,
-/// and the nodes around share up to |δ|/h more or less than their mean. That much is evened out and no more,
-/// so that a body which ends before the other gets no surface for it.
+/// Where a gap δ lies between the sides, or they overlap, each side has its surface at a position of its own.
+/// The nodes around then share up to |δ|/h more or less than their mean. So much is evened out and no more:
+/// a body that ends before the other gets no surface beyond its end.
 template <int Dim>
 InterfaceAround<Dim> Interfaces<Dim>::sum_around(const State<Dim>& state, const ContactNode<Dim>& node, int e,
                                                  const ContactList<Dim>& list) const {
@@ -320,7 +327,7 @@ InterfaceAround<Dim> Interfaces<Dim>::sum_around(const State<Dim>& state, const 
     integrated += spring.own_area * spring.jump.extrapolated;
   }
   const DisplacementJump<Dim>& own = list.pairs.spring[e].jump;
-  if (!(sum.own_area > 0)) return {own.extrapolated, 1, 1, own.integrated};  // no surface, no springs
+  if (!(sum.own_area > 0)) return {own.extrapolated, 1, 1, own.integrated};  // no surface: any finite ratio
   sum.integrated = integrated_area > 0;
   sum.jump = sum.integrated ? Vec<Dim>(integrated / integrated_area) : Vec<Dim>(sum.jump / sum.own_area);
   return sum;

@@ -3,18 +3,19 @@
 #include <Eigen/Geometry>
 
 #include "engine/state/slots.hpp"
+#include "kernels/contact/friction_cone.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-/// In lumped pairs, each touching pair is seen from both sides.
+/// Share of a pair in sums over a node: lumped pairs count each contact from both sides.
 template <int Dim>
 double share_of(const ContactNode<Dim>& node, const ContactPair& pair) {
   return !pair.is_lumped() || node.rigid >= 0 ? 1.0 : 0.5;
 }
 
-/// Δp_a that the particles keep, of contact and of springs, N s.
+/// The part of Δp_a by contact and springs that the particles keep, N s.
 template <int Dim>
 Vec<Dim> kept_impulse(const PairColumns<Dim>& pairs, int e) {
   const Vec<Dim> kept = pairs.impulse[e].now + pairs.impulse[e].as_force;
@@ -35,32 +36,36 @@ void record_rigid(const State<Dim>& state, const NodeFields<Dim>& fields, const 
   ledger.rigid_moment[f] -= arm.cross(impulse);
 }
 
-/// What the particles lose by the friction of a pair, J: the tangential impulse on the mean of the slips that
-/// the strains of the step see, and the work of forces on slips that strains do not see because the pair
-/// sticks. (Normal parts do no work: theory, "The energy of a contact".) Where each correction finds its
-/// pairs by itself, on the slip that remains: impulses of many fields that jam and do not converge take
-/// energy with both parts. Particles that keep the first correction lose by that too.
+/// The energy that the particles lose by the friction of a pair, J (theory, "The energy of a contact").
+///
+/// With one active set it is the tangential impulse times the mean relative velocity in the strains of the
+/// step. Where the pair sticks, the work of forces on the relative velocity that the strains lack is added.
+/// Normal parts do no work. Without one active set it is the whole impulse times the remaining relative
+/// velocity, since impulses that do not converge dissipate with both parts. If particles keep the first
+/// correction, its work is added.
 template <int Dim>
 double friction_work_of(const CorrectionMethod& method, const PairColumns<Dim>& pairs, int e,
                         bool tangential) {
   const PairImpulses<Dim>& impulse = pairs.impulse[e];
-  const PairSlips<Dim>& slip = pairs.slip[e];
+  const RelativeVelocities<Dim>& relative = pairs.relative[e];
   const Vec<Dim>& normal = pairs.geometry[e].normal;
   const auto sliding_part = [&](const Vec<Dim>& x) -> Vec<Dim> {
-    return tangential || method.one_set ? Vec<Dim>(x - x.dot(normal) * normal) : x;
+    return tangential || method.one_set ? split(x, normal).tangential : x;
   };
   const Vec<Dim> second =
       sliding_part(impulse.second - (method.one_set ? Vec<Dim>::Zero() : impulse.as_force));
-  double gain = method.one_set ? 0.5 * second.dot(slip.after_first + slip.end) : second.dot(slip.end);
+  double lost =
+      method.one_set ? 0.5 * second.dot(relative.after_first + relative.end) : second.dot(relative.end);
   if (method.first_stays)
-    gain += sliding_part(impulse.first)
-                .dot(method.one_set ? Vec<Dim>(0.5 * (slip.start + slip.after_first)) : slip.after_first);
+    lost += sliding_part(impulse.first)
+                .dot(method.one_set ? Vec<Dim>(0.5 * (relative.start + relative.after_first))
+                                    : relative.after_first);
   else if (method.holds_sticking) {
-    const Vec<Dim> unseen = slip.after_second - slip.after_first;
-    if (pairs.before[e].stuck) gain -= 0.5 * sliding_part(impulse.first).dot(unseen);
-    if (pairs.status[e].stuck) gain -= 0.5 * sliding_part(impulse.now).dot(unseen);
+    const Vec<Dim> unseen = relative.after_second - relative.after_first;
+    if (pairs.before[e].stuck) lost -= 0.5 * sliding_part(impulse.first).dot(unseen);
+    if (pairs.status[e].stuck) lost -= 0.5 * sliding_part(impulse.now).dot(unseen);
   }
-  return -gain;
+  return lost;
 }
 
 }  // namespace

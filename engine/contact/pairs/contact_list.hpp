@@ -51,10 +51,10 @@ struct PairStatus {
   bool persistent = false;                  ///< it stays in contact until a force pulls it apart
   bool active_in_first = false;             ///< the first correction gave it an impulse
   bool touching = false;                    ///< in contact after the second correction
-  bool stuck = false;                       ///< the second correction left no slip
-  bool separable = false;                   ///< its law acts by touch alone: nothing ties the surfaces
+  bool stuck = false;                       ///< the second correction left no slip rate
+  bool separable = false;                   ///< its law is a contact law: no bond, no spring
   double target_approach{};  ///< approach velocity that closes the gap by the end of the step, m/s
-  double predicted_gap{};    ///< separation by which a correction decides, m
+  double predicted_gap{};    ///< gap by which a simultaneous solve decides, m (active_set.hpp)
   /// m: how far the surfaces would approach each other elastically without the contact force (active_set.hpp)
   double recovery_length{};
 };
@@ -69,13 +69,14 @@ struct PairImpulses {
   double friction_work{};                ///< J, of this step
 };
 
-/// Relative velocities v_a − v_b, m/s, along what conditions leave free.
+/// v_b − v_a, m/s, in the directions that boundary conditions leave free. (Its normal part is the opening
+/// rate, its tangential part the slip rate.)
 template <int Dim>
-struct PairSlips {
+struct RelativeVelocities {
   Vec<Dim> start = Vec<Dim>::Zero();         ///< as extrapolated from the particles
   Vec<Dim> after_first = Vec<Dim>::Zero();   ///< after the first correction
   Vec<Dim> after_second = Vec<Dim>::Zero();  ///< after the second
-  Vec<Dim> end = Vec<Dim>::Zero();           ///< that the strains of the step end with
+  Vec<Dim> end = Vec<Dim>::Zero();           ///< with which the strains of the step end
 };
 
 template <int Dim>
@@ -85,7 +86,7 @@ struct PairColumns {
   Indexed<PairHistory> before;
   Indexed<PairStatus> status;
   Indexed<PairImpulses<Dim>> impulse;
-  Indexed<PairSlips<Dim>> slip;
+  Indexed<RelativeVelocities<Dim>> relative;
   Indexed<InterfaceSpring<Dim>> spring;  ///< empty where no law has springs
   Indexed<Bond<Dim>> bond;               ///< empty where no law has bonds that break
   Indexed<KeptFit<Dim>> fit;             ///< empty where every step fits its normals anew
@@ -97,7 +98,8 @@ struct PairColumns {
 /// Memory of a pair in the columns that every scene has.
 template <int Dim>
 constexpr std::size_t kPairBytes = sizeof(ContactPair) + sizeof(PairGeometry<Dim>) + sizeof(PairHistory) +
-                                   sizeof(PairStatus) + sizeof(PairImpulses<Dim>) + sizeof(PairSlips<Dim>);
+                                   sizeof(PairStatus) + sizeof(PairImpulses<Dim>) +
+                                   sizeof(RelativeVelocities<Dim>);
 
 template <int Dim>
 struct ContactNode {

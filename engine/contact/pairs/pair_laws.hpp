@@ -11,8 +11,8 @@
 
 namespace mpmfast {
 
-/// Calls f with the law that acts at present: of a broken bond, and of springs that contact holds apart in
-/// compression, that is their contact law.
+/// Calls f with the law that acts at present. A broken bond acts by its contact law; so do springs with the
+/// compression model `contact`.
 template <class Law, class F>
 void with_acting_law(const Law& law, bool broken, const F& f) {
   if constexpr (requires { law.contact(); }) {
@@ -43,19 +43,25 @@ struct LawsByPair {
   }
 };
 
-/// The laws of a scene: the default (number −1), those of ContactSpec::pairs, then those of cracks.
+/// The laws of a scene: the default (kDefault), those of ContactSpec::pairs, then those of cracks.
 class PairLaws {
  public:
+  static constexpr int kDefault = -1;  ///< number of the default law
+
   PairLaws(const Scene& scene, const Plan& plan);
 
   /// Laws without the default.
   std::size_t count() const { return laws_.size() - 1; }
   bool none_by_fields() const { return table_.empty(); }
   const AnyLaw& law(int number) const { return laws_[static_cast<std::size_t>(number + 1)]; }
-  /// Does this hold of any law?
+  /// Does this hold of any law? Of all?
   template <class F>
   bool any(const F& holds) const {
     return std::any_of(laws_.begin(), laws_.end(), holds);
+  }
+  template <class F>
+  bool all(const F& holds) const {
+    return std::all_of(laws_.begin(), laws_.end(), holds);
   }
   /// Calls f with the laws in the form that costs least: OneLaw or LawsByPair.
   template <class F>

@@ -92,7 +92,7 @@ void PairMemory<Dim>::resize(std::size_t count, ContactList<Dim>& list) {
   pairs.before.resize(count);
   pairs.status.resize(count);
   pairs.impulse.resize(count);
-  pairs.slip.resize(count);
+  pairs.relative.resize(count);
   const auto start_anew = [&](bool kept, auto& column, auto& last) {
     if (!kept) return;
     column.swap(last);

@@ -40,8 +40,8 @@ bool find_touching(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node
     out.law[k] = &law;
     out.trial[k] = trial.impulse;
     out.contact[k].normal = geometry.normal;
-    out.contact[k].jump = trial.impulse / trial.reduced;
-    out.contact[k].inverse_mass = 1 / trial.reduced;
+    out.contact[k].jump = trial.impulse / trial.reduced_mass;
+    out.contact[k].inverse_mass = 1 / trial.reduced_mass;
     if (std::visit([](const auto& l) { return l.uses_area; }, law))
       out.contact[k].area_time =
           contact_area(pass.spec.area, pass.cell(), fields, pair, geometry.normal) * pass.dt;
