@@ -38,6 +38,15 @@ struct ParticleView {
   PlaneKind plane_kind;
 };
 
+/// The columns of particles that tell where their domains lie, to be read; null as in ParticleView.
+template <int Dim>
+struct DomainView {
+  const double* position[Dim];
+  const double* deformation[Dim * Dim];
+  const double* edges[Dim * Dim];
+  const double* domain_share[Dim];
+};
+
 /// Consecutive particles of one body in one tile, sorted by cell.
 template <int Dim>
 struct ParticleRun {
@@ -88,9 +97,10 @@ struct BodyView {
 };
 
 /// Everything that the transfers of one tile read beside the nodal columns.
-template <int Dim>
+/// @tparam View  ParticleView, or DomainView where particles are read only
+template <int Dim, class View = ParticleView<Dim>>
 struct TileContext {
-  const ParticleView<Dim>* particles;
+  const View* particles;
   const ParticleTile<Dim>* tile;
   const ParticleRun<Dim>* runs;
   const BodyView<Dim>* bodies;
@@ -100,8 +110,8 @@ struct TileContext {
   bool goes_on_from = false, goes_on_to = false;
 };
 
-template <int Dim>
-inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
+template <int Dim, class View>
+inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim, View>& c, const ParticleRun<Dim>& run,
                                          std::uint32_t begin, int count) {
   ChunkGeometry<Dim> g;
   for (int d = 0; d < Dim; ++d) {

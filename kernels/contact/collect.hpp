@@ -136,8 +136,9 @@ struct Candidates {
 
 /// Appends one run of particles [begin, end) as a piece.
 template <int Dim, class Basis>
-inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& run, std::uint32_t begin,
-                           std::uint32_t end, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+inline void add_candidates(const TileContext<Dim, DomainView<Dim>>& c, const ParticleRun<Dim>& run,
+                           std::uint32_t begin, std::uint32_t end, const NodeBox<Dim>& box,
+                           Candidates<Dim>& out) {
   const int particles = static_cast<int>(end - begin);
   out.reserve(particles);
   CandidatePiece<Dim> piece{c.tile->field, out.count, 0, {}};
@@ -193,7 +194,8 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
 /// it drifts further), so only cells o with low − kMaxSupport ≤ o ≤ high + 1 need a look (nodes and o within
 /// the window). Cells are kept by the last axis: what lies between is consecutive.
 template <int Dim, class Basis>
-inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+inline void add_candidates(const TileContext<Dim, DomainView<Dim>>& c, const NodeBox<Dim>& box,
+                           Candidates<Dim>& out) {
   constexpr int last = Dim - 1, stride = kTileNodes<Dim> / kTileSide;
   const int start = c.tile->window[last] + kSortedOffset<Basis>;  // where cell numbers start
   const int low = box.low[last] - start - Basis::kMaxSupport, high = box.high[last] - start + 1;
