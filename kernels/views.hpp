@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/basis/weights.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
@@ -213,8 +214,7 @@ inline auto fetch_ahead(const ParticleView<Dim>& p) {
 /// The same in a loop over vectors of particles, where it takes an instruction a line and nothing else.
 template <int N>
 [[gnu::always_inline]] inline void fetch_further(double* const (&columns)[N], std::uint32_t at) {
-  constexpr std::uint32_t kFurther = 128;  // particles: in the plane two tiles
-  for (const double* column : columns) __builtin_prefetch(column + at + kFurther);
+  for (const double* column : columns) __builtin_prefetch(column + at + constants::kFetchAhead);
 }
 
 /// Asks for the tile after the next one, and the runs of the next.

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cloud.hpp"
 #include "kernels/contact/separation.hpp"
 #include "kernels/simd/compress.hpp"
@@ -17,8 +18,6 @@ namespace mpmfast {
 /// Workspace for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudWorkspace {
-  static constexpr std::size_t kFewest = 256;  ///< particles of capacity beyond those needed
-
   std::vector<double> xi[Dim];           ///< relative to the node, cells
   std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
   std::vector<double> number;            ///< of the particles, if asked for
@@ -31,7 +30,7 @@ struct CloudWorkspace {
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
     if (xi[0].size() >= needed) return;
-    const std::size_t capacity = needed + needed / 4 + kFewest;
+    const std::size_t capacity = needed + needed / 4 + constants::kCloudReserve;
     for (auto& c : xi) c.resize(capacity);
     for (int e = 0; e < shapes; ++e) shape[e].resize(capacity);
     if (numbered) number.resize(capacity);
