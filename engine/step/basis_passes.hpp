@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/geometry/crossing.hpp"
 #include "engine/state/thread_team.hpp"
 #include "engine/step/moves.hpp"
@@ -53,7 +54,7 @@ class BasisPasses final : public Passes<Dim> {
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
       return first;
     };
-    for_each_of(n, state.threads, 4096, [&](std::int64_t p) {
+    for_each_of(n, state.threads, constants::threads::kFewParticles, [&](std::int64_t p) {
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
       state.tiling.set_key(at, sorted_node(at), state.body_field[static_cast<std::size_t>(body)], body,
@@ -85,7 +86,7 @@ class BasisPasses final : public Passes<Dim> {
     };
     const auto tiles = static_cast<std::int64_t>(state.tiling.tiles.size());
     std::atomic<bool> strayed{false};
-    for_each_of(tiles, state.threads, 64, [&](std::int64_t t) {
+    for_each_of(tiles, state.threads, constants::threads::kFewBlocks, [&](std::int64_t t) {
       const ParticleTile<Dim>& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
       for (int r = tile.run_begin; r < tile.run_end && !strayed.load(std::memory_order_relaxed); ++r) {
         const ParticleRun<Dim>& run = state.tiling.runs[static_cast<std::size_t>(r)];

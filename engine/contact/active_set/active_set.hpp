@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/constants.hpp"
 #include "engine/contact/active_set/correction_method.hpp"
 #include "engine/contact/impulses/node_motion.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
@@ -94,27 +95,27 @@ double predicted_gap(const CorrectionMethod& method, const PairGeometry<Dim>& ge
 template <int Dim>
 void find_persistent(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
                      PairColumns<Dim>& pairs) {
-  constexpr double kLeast = 0.05, kMost = 0.3;  // bounds of the recovery length, cells
+  using constants::contact::kLeastRecovery, constants::contact::kMostRecovery;
   for (int e = node.pair_begin; e < node.pair_end; ++e) {
     PairStatus& status = pairs.status[e];
     const PairHistory& before = pairs.before[e];
     const double separation = pairs.geometry[e].separation;
-    status.persistent = method.one_set && before.touched &&
-                        separation < std::clamp(before.recovery_length, kLeast * cell, kMost * cell);
+    status.persistent =
+        method.one_set && before.touched &&
+        separation < std::clamp(before.recovery_length, kLeastRecovery * cell, kMostRecovery * cell);
     status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
   }
 }
 
 /// Does the second correction leave the pair in contact? It does if the pair presses, or if the first
-/// correction acted and no force pulls. Velocities of kNoise cells a step are round-off, which must not
-/// decide.
+/// correction acted and no force pulls. Velocities of kVelocityRoundOff cells a step are round-off, which
+/// must not decide.
 /// @param mass  of field a, kg
 /// @param slip  v_a − v_b after the correction, m/s
 template <int Dim>
 bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairStatus& status,
                    double mass, const Vec<Dim>& slip, double cell, double dt) {
-  constexpr double kNoise = 1e-10;
-  const double least = kNoise * cell / dt;
+  const double least = constants::contact::kVelocityRoundOff * cell / dt;
   if (impulse.now.dot(normal) < -least * mass) return true;
   if (!(std::abs(impulse.first.dot(normal)) > least * mass)) return false;
   return status.target_approach - slip.dot(normal) <= least;
@@ -122,16 +123,16 @@ bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, con
 
 /// How far the surfaces would approach each other if the contact force F were gone, m: F T²/(2 m_red), T the
 /// time in which the fastest wave crosses a cell. That is 2 h ε between bodies strained by ε, a layer of h on
-/// each side. A mean over some 1/kNew steps.
+/// each side. A mean over some 1/kRecoveryShare steps.
 /// @param crossing      T, s
 /// @param inverse_mass  1/m_red, 1/kg
 template <int Dim>
 double recovery_length(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairHistory& before,
                        double inverse_mass, double crossing, double dt) {
-  constexpr double kNew = 0.1;
+  using constants::contact::kRecoveryShare;
   const double normal_impulse = std::max(0.0, -impulse.second.dot(normal));
   const double now = 0.5 * normal_impulse * crossing * crossing * inverse_mass / dt;
-  return before.touched ? before.recovery_length + kNew * (now - before.recovery_length) : now;
+  return before.touched ? before.recovery_length + kRecoveryShare * (now - before.recovery_length) : now;
 }
 
 /// The part of a normal impulse of the second correction that counts as a force, N s: all of it, except where

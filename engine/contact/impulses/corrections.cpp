@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "engine/constants.hpp"
 #include "engine/contact/published/explicit_pairs.hpp"
 #include "engine/contact/solver/solve_nodes.hpp"
 #include "engine/state/thread_team.hpp"
@@ -213,12 +214,11 @@ template <int Dim>
 template <class Begin, class Finish>
 auto Corrections<Dim>::solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish)
     -> Counts {
-  constexpr std::int64_t kAtOnce = 32, kFew = 64;  // nodes
   const ContactList<Dim>& list = pass.list;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  const int asked = n <= kFew ? 1 : pass.state.threads;
+  const int asked = n <= constants::threads::kFewSolved ? 1 : pass.state.threads;
   std::atomic<std::uint64_t> all_converged{0}, all_unconverged{0};
-  shares_.cut(asked, n, kAtOnce);
+  shares_.cut(asked, n, constants::threads::kSolvedAtOnce);
   on_threads(asked, [&](const TeamThread& me) {
     std::uint64_t converged = 0, unconverged = 0;
     NodeWorkspace<Dim>& work = workspaces_[static_cast<std::size_t>(thread_index())];
