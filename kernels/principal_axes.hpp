@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "kernels/constants.hpp"
+
 namespace mpmfast {
 
 /// Turns the columns of a matrix into each other until they are orthogonal, A ← A V = U Σ, by one-sided
@@ -12,11 +14,9 @@ namespace mpmfast {
 /// @param a row-major; @param v row-major result, a rotation
 template <int Dim>
 inline void turn_to_principal_axes(double (&a)[Dim * Dim], double (&v)[Dim * Dim]) {
-  constexpr int kMostSweeps = 20;  // three or four reach round-off
-  constexpr double kRoundOff = 1e-15;
   for (int e = 0; e < Dim * Dim; ++e) v[e] = e % (Dim + 1) == 0 ? 1 : 0;
   bool turned = true;
-  for (int sweep = 0; sweep < kMostSweeps && turned; ++sweep) {
+  for (int sweep = 0; sweep < constants::kJacobiSweeps && turned; ++sweep) {
     turned = false;
     for (int j = 0; j < Dim; ++j)
       for (int k = j + 1; k < Dim; ++k) {
@@ -26,7 +26,7 @@ inline void turn_to_principal_axes(double (&a)[Dim * Dim], double (&v)[Dim * Dim
           second += a[i + k] * a[i + k];
           dot += a[i + j] * a[i + k];
         }
-        if (!(std::abs(dot) > kRoundOff * std::sqrt(first * second))) continue;
+        if (!(std::abs(dot) > constants::kJacobiRoundOff * std::sqrt(first * second))) continue;
         turned = true;
         const double ratio = (second - first) / (2 * dot);
         const double tangent = std::copysign(1 / (std::abs(ratio) + std::sqrt(1 + ratio * ratio)), ratio);

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "kernels/basis/weights.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
@@ -36,6 +37,15 @@ struct ParticleView {
   double* temperature_slope[Dim];  ///< ∇T, K/m
   StateView<Dim> state;
   PlaneKind plane_kind;
+};
+
+/// The columns of particles that tell where their domains lie, to be read; null as in ParticleView.
+template <int Dim>
+struct DomainView {
+  const double* position[Dim];
+  const double* deformation[Dim * Dim];
+  const double* edges[Dim * Dim];
+  const double* domain_share[Dim];
 };
 
 /// Consecutive particles of one body in one tile, sorted by cell.
@@ -88,9 +98,10 @@ struct BodyView {
 };
 
 /// Everything that the transfers of one tile read beside the nodal columns.
-template <int Dim>
+/// @tparam View  ParticleView, or DomainView where particles are read only
+template <int Dim, class View = ParticleView<Dim>>
 struct TileContext {
-  const ParticleView<Dim>* particles;
+  const View* particles;
   const ParticleTile<Dim>* tile;
   const ParticleRun<Dim>* runs;
   const BodyView<Dim>* bodies;
@@ -100,8 +111,8 @@ struct TileContext {
   bool goes_on_from = false, goes_on_to = false;
 };
 
-template <int Dim>
-inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim>& c, const ParticleRun<Dim>& run,
+template <int Dim, class View>
+inline ChunkGeometry<Dim> chunk_geometry(const TileContext<Dim, View>& c, const ParticleRun<Dim>& run,
                                          std::uint32_t begin, int count) {
   ChunkGeometry<Dim> g;
   for (int d = 0; d < Dim; ++d) {
@@ -203,8 +214,7 @@ inline auto fetch_ahead(const ParticleView<Dim>& p) {
 /// The same in a loop over vectors of particles, where it takes an instruction a line and nothing else.
 template <int N>
 [[gnu::always_inline]] inline void fetch_further(double* const (&columns)[N], std::uint32_t at) {
-  constexpr std::uint32_t kFurther = 128;  // particles: in the plane two tiles
-  for (const double* column : columns) __builtin_prefetch(column + at + kFurther);
+  for (const double* column : columns) __builtin_prefetch(column + at + constants::kFetchAhead);
 }
 
 /// Asks for the tile after the next one, and the runs of the next.

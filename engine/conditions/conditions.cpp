@@ -4,14 +4,13 @@
 #include <cmath>
 
 #include "engine/conditions/wall_row.hpp"
+#include "engine/constants.hpp"
 #include "engine/quantities/time_table.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-constexpr std::int64_t kFew = 128;  ///< nodes below which threads would wait more than work
 
 template <int Dim>
 Vec<Dim> axis_vector(int axis) {
@@ -93,7 +92,7 @@ bool Conditions<Dim>::covers(std::size_t b, const NodeIndex<Dim>& node) const {
   const auto& grid = scene_->grid;
   for (std::size_t d = 0; d < Dim; ++d) {
     const double x = grid.origin[d] + node[static_cast<int>(d)] * grid.cell,
-                 slack = kRowTolerance * grid.cell;
+                 slack = constants::conditions::kRowTolerance * grid.cell;
     if (x < box.lower[d] - slack || x > box.upper[d] + slack) return false;
   }
   return true;
@@ -217,7 +216,7 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
     const double speed = component.moving ? speed_[b] : 0.0;
     const bool moves = component.moving && moves_[b];
     const auto parallel = [&](const Prescribed& p) {
-      return std::abs(p.direction.dot(component.direction)) > 1 - 1e-12;
+      return std::abs(p.direction.dot(component.direction)) > 1 - constants::conditions::kParallel;
     };
     const auto twin = std::find_if(distinct.begin(), distinct.end(), parallel);
     if (twin == distinct.end())
@@ -242,7 +241,7 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
       moves |= along != 0 && c.moves[k];
     }
     const double length = rest.norm();
-    if (length < 1e-9) continue;
+    if (length < constants::conditions::kDependent) continue;
     c.share(c.count, c.count) = length;
     c.pushing[c.count] = p.direction;
     c.direction[c.count] = rest / length;
@@ -254,10 +253,11 @@ void Conditions<Dim>::orthonormalise(Combination& c) const {
 
 template <int Dim>
 void Conditions<Dim>::impose_velocity(State<Dim>& state, Nodal velocities) {
+  using constants::threads::kFewConstrained;
   if (velocities == Nodal::re_extrapolated)
     ledger_.settle(
         [&](const auto& taken) { return state.nodes.vector(velocities, taken.slot).dot(taken.direction); });
-  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
+  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFewConstrained, [&](std::int64_t n) {
     const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     if (!(state.nodes.column(Nodal::mass)[slot] > 0)) return;
@@ -328,9 +328,10 @@ void Conditions<Dim>::record_impulse(int component, double impulse, double dt) {
 template <int Dim>
 template <class Change>
 void Conditions<Dim>::apply(State<Dim>& state, double dt, Change change) {
+  using constants::threads::kFewConstrained;
   const auto at = [](int k) { return static_cast<std::size_t>(k); };
   reactions_.resize(nodes_.size());
-  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFew, [&](std::int64_t n) {
+  for_each_of(static_cast<std::int64_t>(nodes_.size()), state.threads, kFewConstrained, [&](std::int64_t n) {
     const auto [slot, combination] = nodes_[static_cast<std::size_t>(n)];
     const Combination& c = combinations_[static_cast<std::size_t>(combination)];
     const double mass = state.nodes.column(Nodal::mass)[slot];

@@ -5,30 +5,15 @@
 #include <limits>
 
 #include "engine/conditions/wall_row.hpp"
+#include "engine/constants.hpp"
 #include "engine/quantities/time_table.hpp"
 
 namespace mpmfast {
 
-namespace {
-
-/// Cells: so near to the plane, what touches is held until the forces pull. Any more makes no difference.
-constexpr double kTouch = 1e-3;
-
-/// What has come further through than kDeep cells is brought back by this part of it in a step. All of it is
-/// to be brought back slowly: pushed hard, a column makes energy out of the noise of its particles' extents.
-constexpr double kDeep = 0.05, kBack = 0.02;
-
-/// Share of −P v_s that FLIP's particles take. The energy of a bar that rebounds (strain first; uGIMP, lCPDI,
-/// quadratic splines) changes by 0.8, 1.1 and 0.2 % with 0, by 0.2, 0.3 and 0.2 % with 0.03, by 0.0, 0.2 and
-/// −0.2 % with 0.1 and by 0.5, 0.1 and −0.3 % with 1, where the first force is a seventh too low.
-constexpr double kShare = 0.1;
-
-}  // namespace
-
 template <int Dim>
 SurfaceWalls<Dim>::SurfaceWalls(const Scene& scene)
     : scene_(&scene),
-      share_(scene.method.update == UpdateKind::flip ? kShare : 1),
+      share_(scene.method.update == UpdateKind::flip ? constants::conditions::kFlipShare : 1),
       whole_(scene.method.strain == StrainKind::average_re_extrapolated ||
              scene.method.strain == StrainKind::last_re_extrapolated),
       holds_(scene.method.update == UpdateKind::flip) {
@@ -52,8 +37,9 @@ void SurfaceWalls<Dim>::prepare(const State<Dim>& state, double t, double dt, co
     wall.plane = (spec.position + integral_to(spec.speed, t) -
                   scene_->grid.origin[static_cast<std::size_t>(wall.axis)]) /
                  scene_->grid.cell;
+    using constants::conditions::kThinLayer;
     const WallRow at = wall_row(wall.plane, spec.upper);
-    stale_ |= at.row != wall.row || (at.cut < kThin) != (wall.cut < kThin);
+    stale_ |= at.row != wall.row || (at.cut < kThinLayer) != (wall.cut < kThinLayer);
     wall.row = at.row;
     wall.cut = at.cut;
   }
@@ -107,11 +93,13 @@ void SurfaceWalls<Dim>::add(State<Dim>& state, Nodal q, const Column& column, in
 /// The velocity that closes the gap by the end of the step, and the wall's where it is closed.
 template <int Dim>
 double SurfaceWalls<Dim>::target_approach(const Column& column) const {
+  using constants::conditions::kDepthShare, constants::conditions::kKeptDepth;
   const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-  return wall.speed +
-         wall.out *
-             (column.gap > 0 ? column.gap : kBack * std::min(0.0, column.gap + kDeep * scene_->grid.cell)) /
-             dt_;
+  return wall.speed + wall.out *
+                          (column.gap > 0
+                               ? column.gap
+                               : kDepthShare * std::min(0.0, column.gap + kKeptDepth * scene_->grid.cell)) /
+                          dt_;
 }
 
 /// A column touches where it would otherwise end the step beyond the plane. One that is at the plane and
@@ -120,12 +108,12 @@ template <int Dim>
 void SurfaceWalls<Dim>::decide(const State<Dim>& state) {
   if (walls_.empty()) return;
   constrained_.assign(static_cast<std::size_t>(state.tiling.slots()), 0);
-  const double near = kTouch * state.grid.cell;
+  const double near = constants::conditions::kTouchingGap * state.grid.cell;
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
     column.pushed = 0;
     column.touches = false;
-    if (!(column.gap < kFar * state.grid.cell)) {
+    if (!(column.gap < constants::conditions::kFarGap * state.grid.cell)) {
       column.stuck = false;
       continue;
     }
@@ -212,7 +200,7 @@ template <int Dim>
 void SurfaceWalls<Dim>::react(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger) {
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-    if (!(column.gap < kFar * state.grid.cell)) continue;
+    if (!(column.gap < constants::conditions::kFarGap * state.grid.cell)) continue;
     const double *force = state.nodes.column(Nodal::force, wall.axis),
                  *momentum = state.nodes.column(Nodal::momentum, wall.axis);
     if (!column.touches) {
@@ -250,7 +238,7 @@ template <int Dim>
 void SurfaceWalls<Dim>::enforce(State<Dim>& state, double dt, BoundaryLedger<Dim>& ledger) {
   for (Column& column : columns_) {
     const Wall& wall = walls_[static_cast<std::size_t>(column.wall)];
-    if (!(column.gap < kFar * state.grid.cell)) continue;
+    if (!(column.gap < constants::conditions::kFarGap * state.grid.cell)) continue;
     const Change change = of_momentum(state, column, column.target, wall.axis);
     const double inwards = -wall.out * change.sum;
     if (!column.touches && !(inwards > 0)) continue;

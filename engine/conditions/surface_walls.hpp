@@ -42,10 +42,6 @@ class SurfaceWalls {
   static constexpr int kInside = 2;      ///< rows of a column on the inner side of the plane, at most
   static constexpr int kRowsBeyond = 3;  ///< and at or beyond it: as far out as a basis reaches
   static constexpr int kRows = kInside + kRowsBeyond;
-  static constexpr double kFar = 1;  ///< cells: what is further away cannot reach a plane in a step
-  /// Cells from the last row inside to the plane: with less, the next row inside shares the line. A thin
-  /// sliver of a cell by itself would need a small time step.
-  static constexpr double kThin = 0.5;
 
   explicit SurfaceWalls(const Scene& scene);
   bool empty() const { return walls_.empty(); }

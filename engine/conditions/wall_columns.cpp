@@ -5,18 +5,12 @@
 #include <limits>
 
 #include "engine/conditions/surface_walls.hpp"
+#include "engine/constants.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
 
 namespace {
-
-/// Domains of particles on rings leave gaps: each counts as so much wider.
-constexpr double kOver = 1.25;
-
-/// Cells that a particle may come through between two columns. With 0, Hertz's cylinders are 37 % too stiff
-/// at first and not 12; with 0.1, particles stay beyond a piston.
-constexpr double kSlack = 0.02;
 
 /// Of a wall, a line of nodes across it and a field: the same while the wall moves.
 template <int Dim>
@@ -69,6 +63,7 @@ void SurfaceWalls<Dim>::list(const State<Dim>& state, const Prescribed& prescrib
 template <int Dim>
 void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIndex<Dim>& node, int field,
                                     const Prescribed& prescribed) {
+  using constants::conditions::kThinLayer;
   const Wall& wall = walls_[static_cast<std::size_t>(w)];
   const auto at_other = [&](const NodeIndex<Dim>& n, int axis, int margin) {
     return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
@@ -85,14 +80,15 @@ void SurfaceWalls<Dim>::list_column(const State<Dim>& state, int w, const NodeIn
   NodeIndex<Dim> row = node;
   for (int k = 0; k < kRows; ++k) {
     row[wall.axis] = wall.row + wall.out * (k - kInside);
-    const bool free = k >= kInside - (wall.cut < kThin ? 2 : 1) && !prescribed(row, wall.axis) &&
+    const bool free = k >= kInside - (wall.cut < kThinLayer ? 2 : 1) && !prescribed(row, wall.axis) &&
                       !(k < kInside && at_other(row, wall.axis, 1));
     column.slot[static_cast<std::size_t>(k)] = free ? state.tiling.slot(row, field) : -1;
   }
   if (!(wall.friction > 0)) return;
   const auto on_line_of_other = [&](int axis) {
     return at_other(node, axis, 1) || std::any_of(walls_.begin(), walls_.end(), [&](const Wall& other) {
-             return other.axis == axis && other.cut < kThin && other.out * (node[axis] - other.row) >= -2;
+             return other.axis == axis && other.cut < kThinLayer &&
+                    other.out * (node[axis] - other.row) >= -2;
            });
   };
   column.friction = static_cast<int>(frictions_.size());
@@ -160,7 +156,7 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
     for (std::uint32_t p = run.begin; p < run.end; ++p) {
       const double inside =
           wall.out * (wall.plane - (position[wall.axis][p] - state.grid.origin[wall.axis]) * inverse);
-      if (inside > 2 * kFar || inside < -kRowsBeyond) continue;
+      if (inside > 2 * constants::conditions::kFarGap || inside < -kRowsBeyond) continue;
       const auto extent = [&](int axis) {
         double sum = 0;
         for (int d = 0; d < Dim; ++d)
@@ -168,13 +164,13 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
         return sum * inverse;
       };
       const double gap = inside - extent(wall.axis);
-      if (!(gap < kFar)) continue;
+      if (!(gap < constants::conditions::kFarGap)) continue;
       int low[Dim], high[Dim];
       double xi[Dim], width[Dim];
       for (int d = 0; d < Dim; ++d) {
         if (d == wall.axis) continue;
         xi[d] = (position[d][p] - state.grid.origin[d]) * inverse - tile.window[d];
-        width[d] = kOver * extent(d);
+        width[d] = constants::conditions::kDomainWidening * extent(d);
         low[d] = std::max(0, static_cast<int>(std::floor(xi[d] - kReach)) + 1);
         high[d] = std::min(kWindowSide - 1, static_cast<int>(std::ceil(xi[d] + kReach)) - 1);
       }
@@ -201,7 +197,7 @@ void SurfaceWalls<Dim>::measure(const State<Dim>& state, Near& near) const {
 template <int Dim>
 void SurfaceWalls<Dim>::find_gaps(const State<Dim>& state) {
   const auto n = static_cast<std::int64_t>(near_.size());
-  for_each_of(n, state.threads, 16,
+  for_each_of(n, state.threads, constants::threads::kFewBusyBlocks,
               [&](std::int64_t k) { measure(state, near_[static_cast<std::size_t>(k)]); });
   for (Column& column : columns_) column.gaps = {};
   for (const Near& near : near_)
@@ -210,7 +206,8 @@ void SurfaceWalls<Dim>::find_gaps(const State<Dim>& state) {
       Column& column = columns_[static_cast<std::size_t>(near.column[k])];
       column.gaps.take(near.gap[k]);
     }
-  for (Column& column : columns_) column.gap = state.grid.cell * column.gaps.least(kSlack);
+  for (Column& column : columns_)
+    column.gap = state.grid.cell * column.gaps.least(constants::conditions::kColumnSlack);
 }
 
 // Here: the members that this file defines.

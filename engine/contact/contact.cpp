@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "engine/constants.hpp"
 #include "engine/contact/geometry/free_directions.hpp"
 #include "engine/contact/geometry/kept_fits.hpp"
 #include "engine/contact/geometry/normal_fit.hpp"
@@ -18,8 +19,6 @@
 namespace mpmfast {
 
 namespace {
-
-constexpr std::int64_t kFewNodes = 256;  // below which one thread does all
 
 /// The separations of the sides of cracks: the normal parts of their extrapolated displacement jumps.
 template <int Dim>
@@ -154,6 +153,7 @@ void Contact<Dim>::end_step(State<Dim>& state) {
 
 template <int Dim>
 void Contact<Dim>::list_separable_slots(int threads, std::vector<int>& slots) const {
+  using constants::threads::kFewNodes;
   slots.assign(list_.fields.size(), -1);  // some fields belong to no listed node
   for_each_of(static_cast<std::int64_t>(list_.nodes.size()), threads, kFewNodes, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list_.nodes[k];
@@ -165,6 +165,7 @@ void Contact<Dim>::list_separable_slots(int threads, std::vector<int>& slots) co
 
 template <int Dim>
 void Contact<Dim>::average_compression(State<Dim>& state) const {
+  using constants::threads::kFewNodes;
   const double* mass = state.nodes.column(Nodal::mass);
   double* weight = state.nodes.column(Nodal::compression_weight);
   for_each_of(static_cast<std::int64_t>(list_.nodes.size()), state.threads, kFewNodes, [&](std::int64_t k) {

@@ -7,8 +7,6 @@
 namespace mpmfast {
 
 template <int Dim>
-struct TileContext;  // kernels/views.hpp
-template <int Dim>
 struct NodeBox;  // kernels/contact/collect.hpp
 template <int Dim>
 struct Candidates;
@@ -23,7 +21,7 @@ class ContactBasis {
   virtual ~ContactBasis() = default;
 
   /// Appends the particles of one tile whose supports may reach a node of the box.
-  virtual void add_candidates(const TileContext<Dim>& tile, const NodeBox<Dim>& box,
+  virtual void add_candidates(const TileContext<Dim, DomainView<Dim>>& tile, const NodeBox<Dim>& box,
                               Candidates<Dim>& out) const = 0;
   /// Appends the candidates of one piece whose basis functions cover the node to the cloud in hand.
   virtual void append_covering(const Candidates<Dim>& from, const CandidatePiece<Dim>& piece,

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/element.hpp"
 #include "engine/errors.hpp"
 #include "engine/scene/crack_tips.hpp"

@@ -1,6 +1,6 @@
 #include "engine/cracks/crack_sides.hpp"
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 
 namespace mpmfast {
 

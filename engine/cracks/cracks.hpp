@@ -10,7 +10,7 @@
 #include <functional>
 #include <vector>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/crack_line.hpp"
 #include "engine/cracks/crack_sides.hpp"
 #include "engine/cracks/cracked_nodes.hpp"

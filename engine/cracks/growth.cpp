@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <variant>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/element.hpp"
 #include "kernels/fracture/kink.hpp"
 #include "kernels/materials/at_rest.hpp"

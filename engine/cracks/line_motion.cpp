@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/element.hpp"
 #include "engine/state/nodes.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "kernels/measure.hpp"
 #include "kernels/simd/lanes.hpp"
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <functional>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/views.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "kernels/fracture/tip_path.hpp"
 
 namespace mpmfast {

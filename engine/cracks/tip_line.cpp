@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 
 namespace mpmfast {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <variant>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/tip_contact.hpp"
 #include "engine/cracks/tip_line.hpp"
 #include "kernels/fracture/tip_integrals.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "engine/cracks/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/cracks/supports.hpp"
 #include "engine/plan/seed.hpp"
 

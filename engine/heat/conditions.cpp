@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/conditions/wall_row.hpp"
+#include "engine/constants.hpp"
 #include "engine/heat/heat.hpp"
 
 namespace mpmfast {
@@ -47,7 +48,7 @@ void Heat<Dim>::list_nodes(const State<Dim>& state) {
         } else {
           for (std::size_t d = 0; d < Dim; ++d) {
             const double x = grid.origin[d] + node[static_cast<int>(d)] * grid.cell,
-                         slack = kRowTolerance * grid.cell;
+                         slack = constants::conditions::kRowTolerance * grid.cell;
             in &= x >= condition.lower[d] - slack && x <= condition.corner[d] + slack;
           }
         }
@@ -81,11 +82,11 @@ void Heat<Dim>::mirror(const State<Dim>& state, Fed& fed) const {
   fed.by_face = 1;
   fed.by_inner = {};
   const double at = 2 * plane_[c] - fed.node[axis];
-  if (std::abs(at - fed.node[axis]) < 2 * kRowTolerance) return;  // on the face
+  if (std::abs(at - fed.node[axis]) < 2 * constants::conditions::kRowTolerance) return;  // on the face
   NodeIndex<Dim> row = fed.node;
-  row[axis] = static_cast<int>(std::floor(at + kRowTolerance));
+  row[axis] = static_cast<int>(std::floor(at + constants::conditions::kRowTolerance));
   const double second = std::max(0.0, at - row[axis]);
-  std::array<double, 2> share{1 - second, second > kRowTolerance ? second : 0};
+  std::array<double, 2> share{1 - second, second > constants::conditions::kRowTolerance ? second : 0};
   std::array<int, 2> slot{};
   double own = 0;  // what of it is the node itself
   for (std::size_t k = 0; k < 2; ++k, ++row[axis]) {
@@ -150,8 +151,8 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
     double flow = mean_over(condition.value, t, dt) * area;
     if (condition.kind == HeatConditionSpec::Kind::ambient) {
       // As across a surface whose other side keeps its temperature (Heat::cross).
-      const double colder =
-          flow / std::max(area, 1e-300) - scale_.reference - nodes.column(Nodal::temperature)[fed.slot];
+      const double colder = flow / std::max(area, constants::heat::kLeastArea) - scale_.reference -
+                            nodes.column(Nodal::temperature)[fed.slot];
       flow =
           capacity[fed.slot] / dt * shared(condition.coefficient * area / capacity[fed.slot] * dt) * colder;
     }

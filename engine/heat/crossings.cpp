@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
 #include "engine/heat/heat.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
-
-namespace {
-
-/// Cells: surfaces this near touch as heat sees it, whether anything presses them or not.
-constexpr double kTouches = 0.02;
-
-}  // namespace
 
 /// What touches, on how much of a surface, and how much the temperatures there differ by. The area of a node
 /// is that of the side of less mass, as interfaces have it (Interfaces::find_pair).
@@ -26,7 +20,7 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
   const auto& nodes = state.nodes;
   const double *mass = nodes.column(Nodal::mass), *temperature = nodes.column(Nodal::temperature);
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
+  for_each_of(n, state.threads, constants::threads::kFewSolved, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     const NodeFields<Dim> fields(state, list, node);
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
@@ -46,8 +40,8 @@ void Heat<Dim>::find_crossings(const State<Dim>& state, const Contact<Dim>& cont
       if (share == 0) continue;
       const ConductanceSpec& surface = contact.conductance_of(fields, node, pair);
       const bool springs_act = !pairs.spring.empty() && pairs.spring[e].acts;
-      const bool touches =
-          springs_act || pairs.status[e].touching || geometry.separation < kTouches * state.grid.cell;
+      const bool touches = springs_act || pairs.status[e].touching ||
+                           geometry.separation < constants::heat::kTouchingGap * state.grid.cell;
       const double gap = std::max(0.0, geometry.separation);
       if (touches) {
         crossing.conductance = capped(surface.touching);
@@ -119,7 +113,7 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
   double* value = state.nodes.column(quantity);
   const bool flow = quantity == Nodal::heat_flow;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
+  for_each_of(n, state.threads, constants::threads::kFewSolved, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     // Of each group, its slots are found from its first one: nodes have few fields.
     const auto tied = [&](int s, int t) {
@@ -195,7 +189,7 @@ void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt)
   for (Crossing& c : crossings_)
     if (c.conducts()) c.drive = inverse(c.b, c.field_b) * flow[c.b] - inverse(c.a, c.field_a) * flow[c.a];
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  for_each_of(n, state.threads, 64, [&](std::int64_t k) {
+  for_each_of(n, state.threads, constants::threads::kFewSolved, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
       Crossing& c = crossings_[static_cast<std::size_t>(e)];

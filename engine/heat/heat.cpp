@@ -6,18 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/constants.hpp"
 #include "engine/plan/materials.hpp"
 #include "engine/state/slots.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
-
-namespace {
-
-/// Surfaces that conduct better than this many cells of the best conductor are taken to conduct so well.
-constexpr double kStiffest = 100;
-
-}  // namespace
 
 /// The largest eigenvalue of C⁻¹K is 4κ/h², whatever the dimension. With slopes of the step before steps are
 /// stable while Δt times that is below 1 (theory.md, "Heat"); here it is at most a half.
@@ -43,10 +37,11 @@ Heat<Dim>::Heat(const Scene& scene, const Plan& plan)
       diffusivity = std::max(diffusivity, material.conductivity / capacity);
   }
   const double h = scene.grid.cell;
-  stiffest_ = kStiffest * conductivity / h;
+  stiffest_ = constants::heat::kMostConductance * conductivity / h;
   filter_time_ = diffusivity > 0 ? scene.heat.filter_every * h * h / diffusivity
                                  : std::numeric_limits<double>::infinity();
-  stable_dt_ = diffusivity > 0 ? std::min(scene.time.cfl, 0.5) * 0.25 * h * h / diffusivity
+  stable_dt_ = diffusivity > 0 ? std::min(scene.time.cfl, constants::heat::kMostCfl) *
+                                     constants::heat::kFourierNumber * h * h / diffusivity
                                : std::numeric_limits<double>::infinity();
 }
 
@@ -93,7 +88,7 @@ void Heat<Dim>::find_temperatures(State<Dim>& state, Nodal out) const {
   const auto n = static_cast<std::int64_t>(blocks.size());
   const double *capacity = nodes.column(Nodal::heat_capacity), *content = nodes.column(Nodal::heat_content);
   double* temperature = nodes.column(out);
-  for_each_of(n, state.threads, 64, [&](std::int64_t s) {
+  for_each_of(n, state.threads, constants::threads::kFewBlocks, [&](std::int64_t s) {
     const auto& block = blocks[static_cast<std::size_t>(s)];
     for (int local = 0; local < kTileNodes<Dim>; ++local) {
       const NodeIndex<Dim> node = state.tiling.node(block, local);

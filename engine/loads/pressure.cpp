@@ -20,6 +20,7 @@
 
 #include <cmath>
 
+#include "engine/constants.hpp"
 #include "engine/loads/loads.hpp"
 #include "engine/state/slots.hpp"
 
@@ -56,7 +57,7 @@ class Pressure final : public Load<Dim> {
     if (pressure_ == 0) return;
     if (spec_.where) weight_.resize(static_cast<std::size_t>(state.tiling.slots()));
     const auto blocks = static_cast<std::int64_t>(state.tiling.node_blocks.size());
-    for_each_of(blocks, state.threads, 16, [&](std::int64_t s) {
+    for_each_of(blocks, state.threads, constants::threads::kFewBusyBlocks, [&](std::int64_t s) {
       for_each_loaded(state, static_cast<std::size_t>(s), [&](int slot, const Vec<Dim>& position) {
         if (spec_.where) weight_[static_cast<std::size_t>(slot)] = weight_at(state, slot, position);
         const Vec<Dim> force = force_on(state, slot, position);

@@ -7,11 +7,12 @@
 #include "engine/scene/scene.hpp"
 #include "engine/state/particles.hpp"
 #include "kernels/basis/domain_limit.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
 /// Cells: half-diagonals of domains are drawn no longer, as shape functions take them.
-inline constexpr double kLargestHalfDiagonal = kMostHalfDiagonal;
+inline constexpr double kLargestHalfDiagonal = constants::kMostHalfDiagonal;
 
 /// Longest half-diagonal of a domain that is drawn, m.
 double largest_half_diagonal(const Scene& scene);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "engine/constants.hpp"
 #include "engine/output/output.hpp"
 #include "engine/state/splitting.hpp"
 
@@ -94,7 +95,7 @@ std::vector<RunWarning> run_warnings(const RunSummary& summary) {
          fmt::format(
              "{} edges of domains are longer than method.split allows, and stay so: they were halved {} "
              "times, or lie across an axis; a body is drawn out there to a thread, or parts",
-             summary.splits->held, kMostHalvings)});
+             summary.splits->held, constants::splitting::kMostHalvings)});
   if (std::abs(summary.energy_error) > kMostDrift)
     out.push_back({"energy", fmt::format("the energy balance drifted by {}{} % (history.csv shows when): {}",
                                          summary.energy_error > 0 ? "+" : "", percent(summary.energy_error),

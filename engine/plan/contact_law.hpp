@@ -5,19 +5,11 @@
 #include <algorithm>
 #include <variant>
 
+#include "engine/constants.hpp"
 #include "engine/scene/scene.hpp"
 #include "kernels/contact/laws.hpp"
 
 namespace mpmfast {
-
-/// Springs of an interface that are stiffer than so many times the stiffest body's modulus over a cell: one
-/// is taken to be no stiffer than the first, and gives way by a hundredth of what a cell does; surfaces of
-/// which all are stiffer than the second are tied. (Springs that are 500 times as stiff where surfaces press,
-/// and none where they part, make energy.)
-inline constexpr double kStiffest = 100, kTied = 1000;
-/// The initial stiffness of bonds in the same unit, where a scene has none; and in that with which they break
-/// at once at their strength, the least.
-inline constexpr double kBonded = 10, kBrittle = 1.01;
 
 /// The largest modulus of longitudinal waves in the bodies of a scene, at rest, Pa.
 inline double stiffest_modulus(const Scene& scene) {
@@ -31,27 +23,28 @@ inline double stiffest_modulus(const Scene& scene) {
 
 /// The law on a grid.
 inline AnyLaw law_on(const SurfaceLaw& surface, const Scene& scene) {
+  using namespace constants::plan;
   const double cell = scene.grid.cell;
   AnyLaw law = surface.acts;
   if (auto* springs = std::get_if<Interface>(&law)) {
     const double unit = stiffest_modulus(scene) / cell;
     springs->compression_stiffness = springs->overlap_stiffness();
     const auto all = {&springs->normal_stiffness, &springs->shear_stiffness, &springs->compression_stiffness};
-    if (std::all_of(all.begin(), all.end(), [&](const double* one) { return *one >= kTied * unit; }))
+    if (std::all_of(all.begin(), all.end(), [&](const double* one) { return *one >= kTiedStiffness * unit; }))
       return Perfect{};
-    for (double* one : all) *one = std::min(*one, kStiffest * unit);
+    for (double* one : all) *one = std::min(*one, kMostStiffness * unit);
   }
   if (auto* curves = std::get_if<NonlinearInterface>(&law)) {
-    const double most = kStiffest * stiffest_modulus(scene) / cell;
+    const double most = kMostStiffness * stiffest_modulus(scene) / cell;
     curves->normal_curve = curves->curve_with_overlap(cell).widened(most);
     curves->shear_curve = curves->shear_curve.widened(most);
   }
   if (auto* bond = std::get_if<Cohesive>(&law)) {
     const double unit = stiffest_modulus(scene) / cell;
     double& stiffness = bond->initial_stiffness;
-    stiffness = stiffness > 0 ? std::min(stiffness, kStiffest * unit) : kBonded * unit;
-    stiffness = std::max(stiffness, kBrittle * bond->least_stiffness());
-    bond->compression_stiffness = std::min(bond->overlap_stiffness(), kStiffest * unit);
+    stiffness = stiffness > 0 ? std::min(stiffness, kMostStiffness * unit) : kBondStiffness * unit;
+    stiffness = std::max(stiffness, kBrittleStiffness * bond->least_stiffness());
+    bond->compression_stiffness = std::min(bond->overlap_stiffness(), kMostStiffness * unit);
   }
   std::visit(
       [&](auto& one) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/constants.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 #include "engine/state/nodes.hpp"
@@ -82,8 +83,7 @@ double particles_in_boxes(const Scene& scene, bool filled) {
 /// The share of the particles that the search for overlaps lists at the start (output/overlap.cpp): those in
 /// the box around another body; of many bodies all.
 double share_near_others(const Scene& scene) {
-  constexpr std::size_t kMany = 32;
-  if (scene.bodies.size() > kMany) return 1;
+  if (scene.bodies.size() > constants::plan::kManyBodies) return 1;
   const auto dimension = static_cast<std::size_t>(scene.dimension());
   double all = 0, near = 0;
   for (const BodySpec& body : scene.bodies) {
@@ -159,7 +159,7 @@ PassingNeed passing_need(const Scene& scene, double particles, double later) {
 double estimated_particles(const Scene& scene) { return particles_in_boxes(scene, true); }
 
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles) {
-  if (plan.split_edge > 0) particles *= 1 + kSplitAllowance;
+  if (plan.split_edge > 0) particles *= 1 + constants::plan::kSplitAllowance;
   const Bytes lasting =
       scene.dimension() == 3 ? bytes_of<3>(scene, plan, particles) : bytes_of<2>(scene, plan, particles);
   return lasting.columns + lasting.later + passing_need(scene, particles, lasting.later).bytes;

@@ -25,10 +25,6 @@ struct PassingNeed {
 /// tiles, the sort and contact
 PassingNeed passing_need(const Scene& scene, double particles, double later);
 
-/// Of the particles as they were seeded, those that a run with method.split makes space for in its estimates:
-/// each one halved once. A stretch of 2 of all particles beyond the longest edge takes as much.
-inline constexpr double kSplitAllowance = 1;
-
 /// Bytes that a run of that many particles takes at most, without the program itself and contact: particles,
 /// nodes, tiles and the sort within a third, and what passes.
 double estimated_bytes(const Scene& scene, const Plan& plan, double particles);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <variant>
 
+#include "engine/constants.hpp"
 #include "engine/plan/contact_law.hpp"
 #include "engine/plan/materials.hpp"
 #include "engine/plan/step_table.hpp"
@@ -12,11 +13,6 @@
 namespace mpmfast {
 
 namespace {
-
-/// With less, FLIP keeps more energy (none: all but 0.02 % of a bar's), and more noise under pistons: the
-/// stress of the uniaxial case errs by 0.12 % with none, 0.10 with this, 0.08 with 0.02
-/// (tools/manual/theory.md).
-constexpr double kWallShare = 0.009;
 
 void plan_method(const MethodSpec& method, Plan& plan) {
   if (method.extended) plan.occupation = method.occupation;
@@ -34,7 +30,7 @@ void plan_method(const MethodSpec& method, Plan& plan) {
   plan.re_extrapolate = method.strain == StrainKind::last_re_extrapolated ||
                         method.strain == StrainKind::average_re_extrapolated;
   // The strains that come last from v⁺ lose the same with any share: what they lose is their own.
-  if (plan.re_extrapolate) plan.wall_share = kWallShare;
+  if (plan.re_extrapolate) plan.wall_share = constants::plan::kWallShare;
   plan.strain_first = method.strain == StrainKind::first ? 1
                       : method.strain == StrainKind::last || method.strain == StrainKind::last_re_extrapolated
                           ? 0

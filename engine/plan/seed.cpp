@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/constants.hpp"
 #include "engine/geometry/clip.hpp"
 #include "engine/geometry/shapes.hpp"
 #include "engine/plan/materials.hpp"
@@ -152,11 +153,6 @@ void turn_domain(Particles<Dim>& particles, std::size_t p, double angle) {
   f(0, 1) = -sine;
 }
 
-/// On boundary points: of the layer of cells along a surface that is followed, in mass and volume, at most of
-/// the body. K24 §3.5 has it of the body: a disk of 80 cells across then has 2.4 % too much material in the
-/// cells at its surface, most of it where splines are steepest, and the stress there is 5 % too low.
-constexpr double kOnSurface = 1e-3;
-
 [[noreturn]] void refuse_outside(const Scene& scene, std::size_t b, const Vec3& x) {
   refuse(scene, b,
          fmt::format("a particle at ({:.6g}, {:.6g}, {:.6g}) m lies outside the grid", x[0], x[1], x[2]));
@@ -166,7 +162,7 @@ constexpr double kOnSurface = 1e-3;
 /// by as much). @return whether it is inside then
 template <int Dim>
 bool move_inside(const GridSpec& grid, Vec3& x) {
-  const double slack = 1e-6 * grid.cell;
+  const double slack = constants::plan::kOutsideTolerance * grid.cell;
   for (std::size_t d = 0; d < Dim; ++d) {
     const double inside = std::clamp(x[d], grid.origin[d], grid.origin[d] + grid.size[d]);
     if (!(std::abs(x[d] - inside) <= slack)) return false;
@@ -288,11 +284,12 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
       double filled = 0;
       for (std::size_t k = 0; k < seeds[b].position.size(); ++k) filled += share_of(k);
       const double of_body = filled * domain.volume, layer = std::min(of_body, area * scene.grid.cell);
-      inside -= kOnSurface * layer / of_body;
+      inside -= constants::plan::kBoundaryShare * layer / of_body;
       std::size_t at = p + seeds[b].position.size();
       for (int k = 0; k < surface.count; ++k)
         seed_particle(scene.bodies[b], b, surfaces[b].points[static_cast<std::size_t>(k)],
-                      kOnSurface * layer / domain.volume * first[k] / area, domain, at++, particles);
+                      constants::plan::kBoundaryShare * layer / domain.volume * first[k] / area, domain, at++,
+                      particles);
     }
     for (std::size_t k = 0; k < seeds[b].position.size(); ++k, ++p) {
       seed_particle(scene.bodies[b], b, seeds[b].position[k], inside * share_of(k), domain, p, particles);

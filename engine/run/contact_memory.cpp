@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/contact/geometry/fit_choice.hpp"
 #include "engine/contact/geometry/fit_slabs.hpp"
 #include "engine/contact/geometry/mean_normals.hpp"
@@ -96,7 +97,8 @@ ContactNeed contact_need(const Step<Dim>& step, const Scene& scene) {
   constexpr double kGrowth = 1.25;  // lists grow by doubling
   double of_node =
       sizeof(ContactNode<Dim>) + 2 * sizeof(ContactField) + kPairBytes<Dim> + PairMemory<Dim>::kPairBytes;
-  const double ahead = static_cast<double>(FitSlabs<Dim>::kNodesAThread) * static_cast<double>(state.threads);
+  const double ahead =
+      static_cast<double>(constants::threads::kSlabNodesPerThread) * static_cast<double>(state.threads);
   if (scene.contact.refit > 0) of_node += 2 * sizeof(KeptFit<Dim>);
   if (choice.smooth) {
     of_node += sizeof(RawNormal<Dim>) + 4 * sizeof(double);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/errors.hpp"
 #include "engine/output/paint.hpp"
 #include "engine/plan/memory.hpp"
@@ -108,7 +109,7 @@ std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const ContactNeed contact = contact_need(step, scene);
   const double later =
       static_cast<double>(state.nodes.bytes() + state.tiling.bytes() + surfaces + extension) + contact.bytes;
-  const double made = step.plan().split_edge > 0 ? kSplitAllowance : 0,
+  const double made = step.plan().split_edge > 0 ? constants::plan::kSplitAllowance : 0,
                made_bytes = made * static_cast<double>(particles.bytes() + state.tiling.bytes());
   const PassingNeed passing = passing_need(scene, (1 + made) * static_cast<double>(particles.size()), later);
   const double program = kProgramBytes + static_cast<double>(step.workspace_bytes()) +

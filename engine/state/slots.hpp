@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "engine/constants.hpp"
 #include "engine/state/state.hpp"
 #include "engine/state/thread_team.hpp"
 
@@ -13,15 +14,16 @@ namespace mpmfast {
 /// Calls f(first, last) for blocks of [0, n), in parallel where there are more than a few.
 template <class F>
 void for_each_block(std::int64_t n, std::int64_t block, int threads, F f) {
-  constexpr std::int64_t few = 4;
   const std::int64_t blocks = (n + block - 1) / block;
-  for_each_of(blocks, threads, few, [&](std::int64_t b) { f(b * block, std::min(n, (b + 1) * block)); });
+  for_each_of(blocks, threads, constants::threads::kFewStretches,
+              [&](std::int64_t b) { f(b * block, std::min(n, (b + 1) * block)); });
 }
 
 /// Calls f(first slot, last slot) over all slots, in parallel; whole tiles.
 template <int Dim, class F>
 void for_each_slot(const State<Dim>& state, F f) {
-  for_each_block(static_cast<std::int64_t>(state.tiling.slots()), 512, state.threads, f);
+  for_each_block(static_cast<std::int64_t>(state.tiling.slots()), constants::threads::kSlotsAtOnce,
+                 state.threads, f);
 }
 
 /// out = factor x/m, zero where there is no mass, of slots [begin, end): tiles, so a multiple of kLanes.

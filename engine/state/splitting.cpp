@@ -5,13 +5,15 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/state/slots.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
 namespace {
 
-constexpr double kLeastShare = 1.0 / (1 << kMostHalvings);
+constexpr double kLeastShare = 1.0 / (1 << constants::splitting::kMostHalvings);
 
 enum class Edge { good, to_halve, held };
 
@@ -33,7 +35,7 @@ class EdgeCheck {
     double squared = 0;
     for (int d = 0; d < Dim; ++d) squared += square(deformation_[Dim * d + k][p]);
     if (!(square(length) * squared > square(rule_->longest)) || !rule_->body_splits[body]) return Edge::good;
-    const bool small = share_[k][p] <= kLeastShare, sound = squared < 1e300;
+    const bool small = share_[k][p] <= kLeastShare, sound = squared < constants::kMostSound;
     const bool meets_axis = state_->plane_kind == PlaneKind::axisymmetric &&
                             !(std::abs(length * deformation_[k][p]) < 4 * from_axis_[p]);
     return small || meets_axis || !sound ? Edge::held : Edge::to_halve;
@@ -102,11 +104,10 @@ Vec<Dim> half_edge(const State<Dim>& state, std::size_t p, int k) {
 
 template <int Dim>
 SplitCounters count_long_edges(const State<Dim>& state, const SplitRule& rule) {
-  constexpr std::int64_t kBlock = 4096;
   const EdgeCheck<Dim> check(state, rule);
   std::atomic<std::uint64_t> to_halve{0}, held{0};
-  for_each_block(static_cast<std::int64_t>(state.particles.size()), kBlock, state.threads,
-                 [&](std::int64_t begin, std::int64_t end) {
+  for_each_block(static_cast<std::int64_t>(state.particles.size()), constants::threads::kEdgesAtOnce,
+                 state.threads, [&](std::int64_t begin, std::int64_t end) {
                    SplitCounters found;
                    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p)
                      for (int k = 0; k < Dim; ++k) {

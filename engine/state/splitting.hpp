@@ -15,11 +15,6 @@
 
 namespace mpmfast {
 
-/// Along one direction of the undeformed domain; then it stays as it is. A stretch of 16 times what the first
-/// split needed is a filament, and each level doubles what it costs. Range: 1 to 20 (shares are powers of
-/// two).
-inline constexpr int kMostHalvings = 4;
-
 /// What is too long, and whose.
 struct SplitRule {
   double longest;                        ///< m, of a full edge
@@ -36,7 +31,7 @@ template <int Dim>
 Vec<Dim> half_edge(const State<Dim>& state, std::size_t p, int k);
 
 /// How many edges, over all particles and directions, are too long: first those that are to be halved, then
-/// those that were halved kMostHalvings times.
+/// those that were halved constants::splitting::kMostHalvings times.
 template <int Dim>
 SplitCounters count_long_edges(const State<Dim>& state, const SplitRule& rule);
 

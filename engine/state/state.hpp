@@ -31,6 +31,18 @@ struct State {
 
   int fields() const { return static_cast<int>(field_rigid.size()); }
 
+  DomainView<Dim> domains() const {
+    DomainView<Dim> v{};
+    const auto columns = [&](Quantity q, const double** out, int n) {
+      for (int k = 0; k < n; ++k) out[k] = particles.has(q) ? particles.column(q, k) : nullptr;
+    };
+    columns(Quantity::position, v.position, Dim);
+    columns(Quantity::deformation_gradient, v.deformation, Dim * Dim);
+    columns(Quantity::domain_edges, v.edges, Dim * Dim);
+    columns(Quantity::domain_share, v.domain_share, Dim);
+    return v;
+  }
+
   ParticleView<Dim> view() {
     ParticleView<Dim> v{};
     const auto columns = [&](Quantity q, double** out, int n) {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <thread>
 
+#include "engine/constants.hpp"
+
 namespace mpmfast {
 
 namespace {
@@ -35,21 +37,18 @@ thread_local int crowded = 0, alert = 0;
 template <class Done>
 void await(Signal& signal, const Done& done) {
   using Clock = std::chrono::steady_clock;
-  constexpr int kSpins = 200, kTurns = 10000;  // some 10 µs, some 5 ms
-  constexpr int kWhile = 100;                  // waits
-  constexpr auto kLong = std::chrono::microseconds(300);
-  constexpr int kAgain = 1000;  // waits
+  using namespace constants::threads;
   for (int k = 0; k < kSpins; ++k) {
     if (done(signal.value.load(std::memory_order_acquire))) return;
     relax();
   }
   if (alert > 0) --alert;
-  for (int turn = 0; crowded == 0 && turn < kTurns; ++turn) {
+  for (int turn = 0; crowded == 0 && turn < kYields; ++turn) {
     const auto before = Clock::now();
     std::this_thread::yield();
-    if (Clock::now() - before > kLong) {
-      if (alert > 0) crowded = kWhile;
-      alert = kAgain;
+    if (Clock::now() - before > kLongTurn) {
+      if (alert > 0) crowded = kSleepingWaits;
+      alert = kAlertWaits;
     }
     if (done(signal.value.load(std::memory_order_acquire))) return;
   }

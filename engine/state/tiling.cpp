@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/errors.hpp"
 
 namespace mpmfast {
@@ -222,13 +223,13 @@ auto Tiling<Dim>::rows_of_tiles() const -> Rows {
 /// a row shares with the one before it is still near. Else they begin at multiples of their length.
 template <int Dim>
 void Tiling<Dim>::colour_strips() {
-  constexpr int kOfAColour = 32, kFewest = 16, kShortest = 4, kLongest = 64, kMany = 2048;
+  using namespace constants::tiling;
   const Rows all = rows_of_tiles();
   const int count = static_cast<int>(tiles.size()),
-            length = std::clamp(count / (kCorners<Dim> * kOfAColour), kShortest, kLongest);
-  const bool whole = all.count >= kFewest * kCorners<Dim> / 2;
+            length = std::clamp(count / (kCorners<Dim> * kStripsOfColour), kShortestStrip, kLongestStrip);
+  const bool whole = all.count >= kFewestRows * kCorners<Dim> / 2;
   // In the plane the rows of other fields lie between those of one.
-  const bool several = whole && count >= kMany && (Dim == 3 || fields_ == 1);
+  const bool several = whole && count >= kManyTiles && (Dim == 3 || fields_ == 1);
   const int rows = several ? (2 * length + all.longest - 1) / all.longest : 1;
   for (auto& colour : colours) colour.clear();
   NodeIndex<Dim> last;
@@ -374,9 +375,9 @@ void Tiling<Dim>::number_slots() {
   std::array<int, kCorners<Dim>> last;
   last.fill(-1);
   const auto find_on = [&](int c, std::int64_t at, int field) {
-    constexpr int kAhead = 4;
+    using constants::tiling::kTilesAhead;
     int& here = last[static_cast<std::size_t>(c)];
-    for (int k = here + 1; k < std::min(here + 1 + kAhead, static_cast<int>(node_tiles.size())); ++k) {
+    for (int k = here + 1; k < std::min(here + 1 + kTilesAhead, static_cast<int>(node_tiles.size())); ++k) {
       const auto& node_tile = node_tiles[static_cast<std::size_t>(k)];
       if (node_tile.tile_index == at && node_tile.field == field) return here = k;
     }

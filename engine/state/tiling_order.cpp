@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/state/thread_team.hpp"
 #include "engine/state/tiling.hpp"
 
@@ -14,7 +15,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kFewest = 4096;  ///< particles below which threads would wait more than work
+using constants::threads::kFewParticles;
 
 /// Stable radix sort of keys with their order: each thread counts the digits of its stretch, then places them
 /// behind those of the stretches before it, so that the result is the same for any number of threads. Digits
@@ -28,7 +29,7 @@ void radix_sort(SortBuffers& b, std::uint64_t largest) {
   for (int shift = 0; shift < 64 && (largest >> shift) != 0; shift += kDigit) {
     const auto digit = [&](std::size_t i) { return b.key[i] >> shift & (kValues - 1); };
     b.next.resize(static_cast<std::size_t>(omp_get_max_threads()));
-    on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
+    on_threads(n > kFewParticles ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
       const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
       auto& mine = b.next[thread];
       mine.fill(0);
@@ -62,7 +63,7 @@ void permute(T* values, SortBuffers& buffers) {
   auto* const spare = reinterpret_cast<unsigned char*>(buffers.spare.data());
   for (const auto& range : buffers.ranges) {
     const std::uint32_t begin = range[0], end = range[1];
-    on_threads(end - begin > kFewest ? omp_get_max_threads() : 1, [=](const TeamThread& me) {
+    on_threads(end - begin > kFewParticles ? omp_get_max_threads() : 1, [=](const TeamThread& me) {
       const auto threads = static_cast<std::uint64_t>(me.threads),
                  thread = static_cast<std::uint64_t>(me.thread), n = static_cast<std::uint64_t>(end - begin);
       const auto first = begin + static_cast<std::uint32_t>(n * thread / threads),
@@ -108,7 +109,7 @@ void Tiling<Dim>::sort(Particles<Dim>& particles) {
   const std::size_t n = particles.size();
   buffers_.order.resize(n);
   std::vector<std::uint64_t> largest_of(static_cast<std::size_t>(omp_get_max_threads()));
-  on_threads(n > kFewest ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
+  on_threads(n > kFewParticles ? omp_get_max_threads() : 1, [&](const TeamThread& me) {
     const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);
     std::uint64_t most = 0;
     for (std::size_t p = n * thread / threads; p < n * (thread + 1) / threads; ++p) {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/geometry/crossing.hpp"
 #include "engine/state/thread_team.hpp"
 #include "engine/step/moves.hpp"
@@ -45,16 +46,15 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   void sort(State<Dim>& state) override {
-    const ParticleView<Dim> view = state.view();
     const auto n = static_cast<std::int64_t>(state.particles.size());
     state.tiling.start_keys(static_cast<std::size_t>(n), state.body_field);
-    const ChunkGeometry<Dim> all = geometry_of(view, state);
+    const ChunkGeometry<Dim> all = geometry_of(state);
     const auto sorted_node = [&](std::size_t p) {
       NodeIndex<Dim> first = Basis::first_node(all, static_cast<int>(p));
       for (int d = 0; d < Dim; ++d) first[d] += 1 - kSortedOffset<Basis>;  // the tiling's offset is 1 … 4
       return first;
     };
-    for_each_of(n, state.threads, 4096, [&](std::int64_t p) {
+    for_each_of(n, state.threads, constants::threads::kFewParticles, [&](std::int64_t p) {
       const auto at = static_cast<std::size_t>(p);
       const int body = state.particles.body()[at];
       state.tiling.set_key(at, sorted_node(at), state.body_field[static_cast<std::size_t>(body)], body,
@@ -66,7 +66,7 @@ class BasisPasses final : public Passes<Dim> {
 
   Supports<Dim> supports(const State<Dim>& state) const override {
     static_assert(power(Basis::kMaxSupport + 1, 2) <= LineCrossings::kMost);  // of nodes_ahead
-    return {[all = geometry_of(const_cast<State<Dim>&>(state).view(), state)](std::size_t p, double way) {
+    return {[all = geometry_of(state)](std::size_t p, double way) {
               ChunkGeometry<Dim> behind = all;  // farther from an origin that lies so much behind
               for (double& x : behind.origin) x -= way;
               return Basis::first_node(behind, static_cast<int>(p));
@@ -75,8 +75,7 @@ class BasisPasses final : public Passes<Dim> {
   }
 
   bool near_home(const State<Dim>& state, double way) const override {
-    const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();  // read only here
-    ChunkGeometry<Dim> ahead = geometry_of(view, state), behind = ahead;
+    ChunkGeometry<Dim> ahead = geometry_of(state), behind = ahead;
     for (double& x : ahead.origin) x -= way;
     for (double& x : behind.origin) x += way;
     const auto is_near = [&](const NodeIndex<Dim>& home, int p) {
@@ -87,7 +86,7 @@ class BasisPasses final : public Passes<Dim> {
     };
     const auto tiles = static_cast<std::int64_t>(state.tiling.tiles.size());
     std::atomic<bool> strayed{false};
-    for_each_of(tiles, state.threads, 64, [&](std::int64_t t) {
+    for_each_of(tiles, state.threads, constants::threads::kFewBlocks, [&](std::int64_t t) {
       const ParticleTile<Dim>& tile = state.tiling.tiles[static_cast<std::size_t>(t)];
       for (int r = tile.run_begin; r < tile.run_end && !strayed.load(std::memory_order_relaxed); ++r) {
         const ParticleRun<Dim>& run = state.tiling.runs[static_cast<std::size_t>(r)];
@@ -263,7 +262,7 @@ class BasisPasses final : public Passes<Dim> {
     return all;
   }
 
-  void add_candidates(const TileContext<Dim>& tile, const NodeBox<Dim>& box,
+  void add_candidates(const TileContext<Dim, DomainView<Dim>>& tile, const NodeBox<Dim>& box,
                       Candidates<Dim>& out) const override {
     mpmfast::add_candidates<Dim, Basis>(tile, box, out);
   }
@@ -287,10 +286,11 @@ class BasisPasses final : public Passes<Dim> {
   };
 
   /// Of all particles, whatever their tile and body: what first_node() reads does not differ between these.
-  static ChunkGeometry<Dim> geometry_of(const ParticleView<Dim>& view, const State<Dim>& state) {
+  static ChunkGeometry<Dim> geometry_of(const State<Dim>& state) {
+    const DomainView<Dim> domains = state.domains();
     const ParticleTile<Dim> nowhere{};
     const ParticleRun<Dim> any{};
-    const TileContext<Dim> c{&view, &nowhere, &any, state.bodies.data(), &state.grid};
+    const TileContext<Dim, DomainView<Dim>> c{&domains, &nowhere, &any, state.bodies.data(), &state.grid};
     return chunk_geometry(c, any, 0, static_cast<int>(state.particles.size()));
   }
 

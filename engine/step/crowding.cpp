@@ -8,13 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/find_pairs.hpp"
 #include "engine/scene/text/diagnostic.hpp"
 
 namespace mpmfast {
 namespace {
-
-constexpr std::size_t kFew = 32;  ///< fields: fewer than this crowd no cell
 
 /// Cell and body of each particle, in order of the cells and of the fields in them, each field once.
 template <int Dim>
@@ -44,7 +43,7 @@ std::vector<std::pair<std::uint64_t, std::uint16_t>> bodies_by_cell(const State<
 template <int Dim>
 Crowding crowding(const State<Dim>& state, std::size_t fields) {
   Crowding out;
-  if (fields <= kFew) return out;
+  if (fields <= constants::step::kFewFields) return out;
   const auto list = bodies_by_cell(state);
   for (std::size_t begin = 0, end = 0; begin < list.size(); begin = end) {
     while (end < list.size() && list[end].first == list[begin].first) ++end;

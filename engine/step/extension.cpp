@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/constants.hpp"
 #include "engine/state/thread_team.hpp"
 #include "engine/step/bit_cube.hpp"
 #include "kernels/basis/extension.hpp"
@@ -17,7 +18,7 @@ template <std::size_t kColumns, class Shared, class Share>
 void sum_shares(const std::vector<Shared>& nodes, const std::vector<Share>& shares, bool keeps_own,
                 int threads, const std::array<double*, kColumns>& x) {
   const auto n = static_cast<std::int64_t>(nodes.size());
-  for_each_of(n, threads, 1000, [&](std::int64_t i) {
+  for_each_of(n, threads, constants::threads::kFewFollowing, [&](std::int64_t i) {
     const Shared& node = nodes[static_cast<std::size_t>(i)];
     std::array<double, kColumns> sum{};
     if (keeps_own)
@@ -116,6 +117,7 @@ void Extension<Dim>::find_space(double time) {
 /// Whether a node lies further out than the first row at or beyond a wall.
 template <int Dim>
 bool Extension<Dim>::is_beyond(int tile, int local) const {
+  using constants::conditions::kRowTolerance;
   const NodeIndex<Dim>& first = first_nodes_[static_cast<std::size_t>(tile)];
   for (int d = 0; d < Dim; ++d, local /= kTileSide) {
     const auto& space = space_[static_cast<std::size_t>(d)];
@@ -130,6 +132,7 @@ bool Extension<Dim>::is_beyond(int tile, int local) const {
 /// is I + (q − 1)/2 … I + (q + 1)/2.
 template <int Dim>
 std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) const {
+  using constants::extension::kLeastInside;
   const NodeIndex<Dim>& first = first_nodes_[static_cast<std::size_t>(tile)];
   std::array<std::array<double, kTileSide>, Dim> inside;  // of each cell's length, by axis
   for (int d = 0; d < Dim; ++d)
@@ -139,7 +142,6 @@ std::uint64_t Extension<Dim>::find_enough(const State<Dim>& state, int tile) con
       const double length = std::min(begin + 1, space.upper) - std::max(begin, space.lower);
       inside[static_cast<std::size_t>(d)][static_cast<std::size_t>(k)] = std::clamp(length, 0.0, 1.0);
     }
-  constexpr double kLeastInside = 0.25;  // of a cell: a sliver that a wall leaves tells nothing
   const double* occupied = state.nodes.column(Nodal::occupied) + tile * kTileNodes<Dim>;
   std::uint64_t enough = 0;
   for (int local = 0; local < kTileNodes<Dim>; ++local) {
@@ -199,6 +201,7 @@ int Extension<Dim>::order_of(int slot) const {
 /// @param blocks  the first nodes of blocks of that order
 template <int Dim>
 bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& blocks, Found& found) const {
+  using constants::extension::kEqualDistances;
   NodeIndex<Dim> own = cube_node<Dim>(kTileSide, local);
   for (int d = 0; d < Dim; ++d) own[d] += kTileSide;
   const auto& candidates = candidates_[static_cast<std::size_t>(order)];
@@ -211,7 +214,8 @@ bool Extension<Dim>::follow_block(int tile, int local, int order, const Around& 
   if (nearest == candidates.end()) return false;
   int ties = 0;
   auto end = nearest;
-  for (; end != candidates.end() && end->distance < nearest->distance + 1e-9; ++end) ties += is_block(*end);
+  for (; end != candidates.end() && end->distance < nearest->distance + kEqualDistances; ++end)
+    ties += is_block(*end);
   Shared node{tile * kTileNodes<Dim> + local, static_cast<int>(found.shares.size()), 0, order};
   const auto& around = neighbours_[static_cast<std::size_t>(tile)];
   const int here = cube_index<Dim>(kAround, own);
@@ -256,7 +260,7 @@ void Extension<Dim>::list_tile(const State<Dim>& state, int tile, Found& found) 
 template <int Dim>
 void Extension<Dim>::list_all(const State<Dim>& state) {
   const auto& tiles = state.tiling.node_tiles;
-  const int portions = kPortions * state.threads;
+  const int portions = constants::threads::kPortionsPerThread * state.threads;
   found_.resize(static_cast<std::size_t>(portions));
   const auto first_of = [&](int portion) {
     return static_cast<int>(tiles.size() * static_cast<std::size_t>(portion) /
@@ -319,6 +323,9 @@ void Extension<Dim>::list_followed() {
   for (const Shared& node : followed_) followed_at_[static_cast<std::size_t>(node.slot)] = -1;
 }
 
+/// Bounds what nodes pass on, by kMostThrown. Negative weights can take too much mass from a node, and far
+/// ones can spread too much (K24 is silent). Nodes of negative weight then follow with one order less, until
+/// the bound holds: with order 0 no weight is negative.
 template <int Dim>
 bool Extension<Dim>::lower_orders(const State<Dim>& state) {
   const double* mass = state.nodes.column(Nodal::mass);
@@ -330,7 +337,7 @@ bool Extension<Dim>::lower_orders(const State<Dim>& state) {
       sum += taker.weight * mass[taker.slot];
       thrown += taker.weight * taker.weight * mass[taker.slot];
     }
-    if (thrown <= kMostThrown * sum) continue;
+    if (thrown <= constants::extension::kMostThrown * sum) continue;
     for (int k = node.begin; k < node.end; ++k)
       if (takers_[static_cast<std::size_t>(k)].weight < 0)
         takers.push_back(takers_[static_cast<std::size_t>(k)].slot);
@@ -359,10 +366,10 @@ void Extension<Dim>::find(const State<Dim>& state) {
   lowered_.clear();
   find_space(state.time);
   const auto tiles = static_cast<int>(state.tiling.node_tiles.size());
-  for_each_of(tiles, state.threads, 16, [&](std::int64_t t) {
+  for_each_of(tiles, state.threads, constants::threads::kFewBusyBlocks, [&](std::int64_t t) {
     enough_[static_cast<std::size_t>(t)] = find_enough(state, static_cast<int>(t));
   });
-  for_each_of(tiles, state.threads, 16, [&](std::int64_t t) {
+  for_each_of(tiles, state.threads, constants::threads::kFewBusyBlocks, [&](std::int64_t t) {
     stable_[static_cast<std::size_t>(t)] = find_stable(static_cast<int>(t));
   });
   do {

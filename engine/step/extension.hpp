@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/conditions/wall_row.hpp"
+#include "engine/constants.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/state/state.hpp"
@@ -66,13 +67,6 @@ class Extension {
 
   /// A block that a node follows begins at most so many nodes below it and ends at most so many above.
   static constexpr int kReach = kTileSide;
-  /// Of a node that others follow, Σ_J E_IJ² m_J is at most this share of its mass m_I + Σ_J E_IJ m_J. Where
-  /// negative weights take too much mass from it, or far ones throw too much about (K24 is silent), those of
-  /// negative weight follow with one order less, until it holds: with order 0 no weight is negative. Beyond
-  /// 1, velocities that go to the particles and back grow: of 360 disks and boxes at occupations from 0.5 to
-  /// 0.75, the greatest eigenvalue of S⁺S is 1 in all with less than 0.91, and above 1 in all with more than
-  /// 1.
-  static constexpr double kMostThrown = 0.9;
 
  private:
   static constexpr int kAround = 3 * kTileSide;  ///< a tile and its neighbours, along a side
@@ -103,10 +97,9 @@ class Extension {
     std::uint64_t lowered{}, alone{};
     std::size_t nodes_before{}, shares_before{};  ///< of the portions before
   };
-  static constexpr int kPortions = 16;  ///< of tiles, a thread: where outlines lie, there is most to do
 
   /// A share that is met to round-off is not passed, m³.
-  double least() const { return occupation_ * (1 + 1e-9); }
+  double least() const { return occupation_ * (1 + constants::extension::kOccupationRoundOff); }
   void find_neighbours(const State<Dim>& state);
   void find_space(double time);
   bool is_beyond(int tile, int local) const;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/constants.hpp"
 #include "engine/errors.hpp"
 #include "engine/step/step.hpp"
 
@@ -155,7 +156,7 @@ template <int Dim>
 void Step<Dim>::fail_warmed() const {
   const auto& particles = state_.particles;
   const double* temperature = particles.column(Quantity::temperature);
-  const std::size_t p = least(particles, 1e-300, [&](std::size_t q) {
+  const std::size_t p = least(particles, constants::step::kLeastTemperature, [&](std::size_t q) {
     return std::isfinite(temperature[q]) ? temperature[q] : std::numeric_limits<double>::infinity();
   });
   if (p == particles.size()) fail("a temperature is no number");

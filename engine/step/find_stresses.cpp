@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/state/slots.hpp"
 #include "engine/step/step.hpp"
 
@@ -30,7 +31,8 @@ void Step<Dim>::find_stresses() {
           state_.materials[static_cast<std::size_t>(of.material)]);
     }
   };
-  for_each_block(static_cast<std::int64_t>(state_.particles.size()), 1024, state_.threads, find);
+  for_each_block(static_cast<std::int64_t>(state_.particles.size()), constants::threads::kStressesAtOnce,
+                 state_.threads, find);
 }
 
 template void Step<2>::find_stresses();

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "engine/constants.hpp"
 #include "engine/state/slots.hpp"
 #include "engine/step/step.hpp"
 
@@ -15,10 +16,11 @@ namespace mpmfast {
 /// to, they may go as far again.
 template <int Dim>
 void Step<Dim>::sort_if_due() {
+  using namespace constants::step;
   const bool found_by_fit =
       plan_.contact || cracks_.active() || penalty_.active() || facts(plan_.basis).convected;
-  const double cell = state_.grid.cell, near = (found_by_fit ? 0.25 : 0.5) * cell,
-               further = (found_by_fit ? 0.5 : 0.45) * cell;
+  const double cell = state_.grid.cell, near = (found_by_fit ? kNearHomeOfClouds : kNearHome) * cell,
+               further = (found_by_fit ? kCheckTravelOfClouds : kCheckTravel) * cell;
   bool due = sort_due_;
   if (!due && travelled_ >= further) {
     const auto timed = clock_.enter(Task::sort);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "engine/constants.hpp"
 #include "engine/state/slots.hpp"
 #include "engine/step/step.hpp"
 
@@ -69,7 +70,7 @@ void Step<Dim>::find_moving_velocities() {
   conditions_.list_held_slots(kept_slots_);
   const auto kept = static_cast<std::int64_t>(kept_slots_.size());
   kept_velocities_.resize(kept_slots_.size());
-  for_each_of(kept, state_.threads, 1024, [&](std::int64_t k) {
+  for_each_of(kept, state_.threads, constants::threads::kFewCopies, [&](std::int64_t k) {
     const auto at = static_cast<std::size_t>(k);
     if (kept_slots_[at] >= 0) kept_velocities_[at] = nodes.vector(Nodal::velocity, kept_slots_[at]);
   });
@@ -90,7 +91,7 @@ void Step<Dim>::find_moving_velocities() {
     const auto at = static_cast<std::size_t>(k);
     if (kept_slots_[at] >= 0) nodes.set(Nodal::velocity, kept_slots_[at], kept_velocities_[at]);
   };
-  for_each_of(meeting, state_.threads, 1024, restore);
+  for_each_of(meeting, state_.threads, constants::threads::kFewCopies, restore);
   for (std::int64_t k = meeting; k < kept; ++k) restore(k);  // some for the second time
   prolong({Nodal::velocity});
 }

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "engine/constants.hpp"
 #include "engine/step/step.hpp"
 
 namespace mpmfast {
@@ -10,9 +11,10 @@ namespace mpmfast {
 /// them, so its edge has grown by a quarter at most. Particles are made here alone, before they are sorted.
 template <int Dim>
 void Step<Dim>::split_if_due() {
-  constexpr double kCheckEvery = 0.125;  // cells
   const double cell = state_.grid.cell;
-  if (plan_.split_edge <= 0 || (state_.step > 0 && unchecked_path_ < kCheckEvery * cell)) return;
+  if (plan_.split_edge <= 0 ||
+      (state_.step > 0 && unchecked_path_ < constants::splitting::kCheckDistance * cell))
+    return;
   unchecked_path_ = 0;
   const SplitRule rule{plan_.split_edge * cell, plan_.body_splits};
   const auto timed = clock_.enter(Task::split);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/constants.hpp"
 #include "engine/plan/memory.hpp"
 #include "engine/plan/seed.hpp"
 #include "engine/state/slots.hpp"
@@ -52,7 +53,9 @@ Step<Dim>::Step(const Scene& scene)
 
 template <int Dim>
 void Step<Dim>::choose_threads() {
-  state_.threads = std::clamp(static_cast<int>(state_.particles.size() / 1000), 1, omp_get_max_threads());
+  state_.threads =
+      std::clamp(static_cast<int>(state_.particles.size() / constants::threads::kParticlesPerThread), 1,
+                 omp_get_max_threads());
 }
 
 template <int Dim>
@@ -86,7 +89,7 @@ template <int Dim>
 double Step<Dim>::dt_towards(double end, double first) const {
   const double stable = stable_dt(), left = end - state_.time;
   const double dt = left <= stable ? left : left < 2 * stable ? 0.5 * left : stable;
-  if (!(stable >= scene_->time.collapse * first) || (!(dt > 1e-12 * end) && dt < left))
+  if (!(stable >= scene_->time.collapse * first) || (!(dt > constants::step::kLeastStep * end) && dt < left))
     fail_collapsed(stable, first > 0 ? stable / first : 1);
   return dt;
 }

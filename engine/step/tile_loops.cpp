@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/state/thread_team.hpp"
 #include "kernels/transfer/window.hpp"
 
@@ -65,10 +66,10 @@ void TileLoops<Dim>::for_each_by_colour(State<Dim>& state,
 template <int Dim>
 void TileLoops<Dim>::for_each_deformable(State<Dim>& state,
                                          FunctionRef<void(const TileContext<Dim>&, int)> f) {
-  constexpr std::int64_t kAtOnce = 4;
   const ParticleView<Dim> view = state.view();
   const auto& tiles = state.tiling.tiles;
-  shares_[0].cut_at(state.threads, kAtOnce, [&](int thread) { return first_tile(state, thread); });
+  shares_[0].cut_at(state.threads, constants::threads::kTilesAtOnce,
+                    [&](int thread) { return first_tile(state, thread); });
   on_threads(state.threads, [&](const TeamThread& me) {
     shares_[0].for_each(me.thread, [&](std::int64_t t) {
       TileContext<Dim> c = context_of(state, view, t);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "engine/constants.hpp"
 #include "engine/errors.hpp"
 #include "engine/step/check_state.hpp"
 #include "engine/step/step.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 /// What splits make of a particle, at most.
 template <int Dim>
-constexpr std::uint64_t kMostOfOne = std::uint64_t{1} << (Dim * kMostHalvings);
+constexpr std::uint64_t kMostOfOne = std::uint64_t{1} << (Dim * constants::splitting::kMostHalvings);
 
 template <int Dim>
 void visit_particles(Archive& archive, Particles<Dim>& particles) {

@@ -12,6 +12,7 @@
 
 #include "kernels/basis/domain_limit.hpp"
 #include "kernels/basis/weights.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
@@ -94,7 +95,7 @@ struct CpdiBasis {
         if constexpr (kSortedOffset<CpdiBasis> == 0) {
           // There is no space for what round-off lets stick out: a weight below 1e-17 is left out instead.
           const double window = g.window[d];
-          first[d] = first[d] < window ? floor_of(lowest + 2 * kEdge) : first[d];
+          first[d] = first[d] < window ? floor_of(lowest + 2 * constants::kSupportEdge) : first[d];
         }
         r[d] -= first[d];
         if constexpr (K < kMaxSupport)
@@ -129,7 +130,7 @@ struct CpdiBasis {
       double extent = 0;
       for (int j = 0; j < Dim; ++j) extent += std::abs(g.edge[Dim * d + j][k]);
       const double lowest = (g.position[d][k] - g.origin[d] - extent) * g.inverse_cell - Corner::kLead;
-      node[d] = node_at(std::floor(lowest + kEdge));
+      node[d] = node_at(std::floor(lowest + constants::kSupportEdge));
     }
     return node;
   }
@@ -144,13 +145,13 @@ struct CpdiBasis {
   static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
     Lanes r[Dim], edge[Dim][Dim];
     centre_and_edges(g, k, r, edge);
-    Lanes best = broadcast<Lanes>(-1e300);
+    Lanes best = broadcast<Lanes>(-constants::kUnbounded);
     for (int c = 0; c < kCorners<Dim>; ++c) {
-      Lanes margin = broadcast<Lanes>(1e300);
+      Lanes margin = broadcast<Lanes>(constants::kUnbounded);
       for (int d = 0; d < Dim; ++d) {
         Lanes x = r[d] - static_cast<double>(node[d]);
         for (int j = 0; j < Dim; ++j) x = (c >> j & 1) ? x + edge[d][j] : x - edge[d][j];
-        margin = smaller(margin, Corner::kReach - kEdge - magnitude(x));
+        margin = smaller(margin, Corner::kReach - constants::kSupportEdge - magnitude(x));
       }
       best = larger(best, margin);
     }

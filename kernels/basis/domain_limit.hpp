@@ -13,18 +13,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/principal_axes.hpp"
 #include "kernels/simd/lanes.hpp"
 
 namespace mpmfast {
-
-/// l in cells: below 1, so that CpdiBasis::kMaxSupport nodes a side suffice; above √Dim/2, the half-diagonal
-/// of an undeformed domain with one particle a cell. Smaller ones leave gaps at smaller stretches.
-inline constexpr double kMostHalfDiagonal = 0.999;
-/// Least |det R|/Π |r_j| of edges that are kept: of two edges the sine between them, which simple shear
-/// by 3.2 reaches. Punched, flowing and pressed bodies do alike with 0.25 to 0.4.
-inline constexpr double kLeastSine = 0.3;
 
 namespace detail {
 
@@ -33,7 +27,8 @@ template <class V>
 inline void bound_edges(double length, V (&edge)[4]) {
   const V first = edge[0] * edge[0] + edge[2] * edge[2], second = edge[1] * edge[1] + edge[3] * edge[3];
   const V twice = 2.0 * (edge[0] * edge[1] + edge[2] * edge[3]), difference = first - second;
-  const V tiny = 1e-15 * (first + second);  // no axis is the longer one: the edges stay as they lie
+  const V tiny =
+      constants::kEqualEdges * (first + second);  // no axis is the longer one: the edges stay as they lie
   const V spread = square_root(difference * difference + twice * twice) + tiny;
   const V cosine = (difference + tiny) / spread;  // of twice the angle from r_1 to the axis
   const V along = square_root(larger(0.5 * (1.0 + cosine), broadcast<V>(0.0)));
@@ -100,7 +95,8 @@ inline void limit_domain(double length, V (&edge)[Dim * Dim]) {
       for (int i = 1; i < Dim; ++i) dot += edge[Dim * i + j] * edge[Dim * i + k];
       longest += 2.0 * magnitude(dot);
     }
-  const auto keeps = (longest <= length * length) & (det * det >= kLeastSine * kLeastSine * product);
+  const auto keeps =
+      (longest <= length * length) & (det * det >= constants::kLeastSine * constants::kLeastSine * product);
   if constexpr (std::is_same_v<V, double>) {
     if (!keeps) detail::bound_edges(length, edge);
   } else {
@@ -116,13 +112,13 @@ inline void limit_domain(double length, V (&edge)[Dim * Dim]) {
 }
 
 /// The half-edge vectors R = F diag(l), of a domain that is scaled where its half-diagonals outgrow
-/// kMostHalfDiagonal cells: CpdiBasis::kMaxSupport nodes a side then always suffice.
+/// constants::kMostHalfDiagonal cells: CpdiBasis::kMaxSupport nodes a side then always suffice.
 /// @param f row-major deformation gradient; @param edge row-major result, m
 template <int Dim, class V>
 inline void convect_domain(const V (&f)[Dim * Dim], const double (&half_size)[Dim], double inverse_cell,
                            V (&edge)[Dim * Dim]) {
   for (int e = 0; e < Dim * Dim; ++e) edge[e] = f[e] * half_size[e % Dim];
-  limit_domain<Dim>(kMostHalfDiagonal / inverse_cell, edge);
+  limit_domain<Dim>(constants::kMostHalfDiagonal / inverse_cell, edge);
 }
 
 }  // namespace mpmfast

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernels/basis/weights.hpp"
+#include "kernels/constants.hpp"
 
 namespace mpmfast {
 
@@ -150,7 +151,8 @@ struct SeparableBasis {
   static NodeIndex<Dim> first_node(const ChunkGeometry<Dim>& g, int k) {
     NodeIndex<Dim> node;
     for (int d = 0; d < Dim; ++d)
-      node[d] = node_at(Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + kEdge));
+      node[d] = node_at(
+          Function::first_node((g.position[d][k] - g.origin[d]) * g.inverse_cell + constants::kSupportEdge));
     return node;
   }
 
@@ -162,10 +164,10 @@ struct SeparableBasis {
   /// For particles k … k + kLanes − 1: is S_pi non-zero at the node with these coordinates?
   /// @return positive where it is
   static Lanes coverage(const ChunkGeometry<Dim>& g, int k, const NodeIndex<Dim>& node) {
-    Lanes margin = broadcast<Lanes>(1e300);
+    Lanes margin = broadcast<Lanes>(constants::kUnbounded);
     for (int d = 0; d < Dim; ++d) {
       const Lanes r = (load_lanes(g.position[d] + k) - g.origin[d]) * g.inverse_cell;
-      const double reach = Function::reach(g.half_size[d] * g.inverse_cell) - kEdge;
+      const double reach = Function::reach(g.half_size[d] * g.inverse_cell) - constants::kSupportEdge;
       margin = smaller(margin, reach - magnitude(r - static_cast<double>(node[d])));
     }
     return margin;

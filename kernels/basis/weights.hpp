@@ -13,9 +13,6 @@ namespace mpmfast {
 template <int Dim>
 inline constexpr int kChunk = Dim == 2 ? 80 : 16;
 
-/// Cells: nearer than this to the edge of a support, round-off decides.
-inline constexpr double kEdge = 1e-9;
-
 /// What a basis reads of a chunk of particles of one body.
 template <int Dim>
 struct ChunkGeometry {

@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cohesive.hpp"
 #include "kernels/contact/friction_cone.hpp"
 #include "kernels/contact/interface.hpp"
@@ -46,7 +47,6 @@ struct Integrity {
 
 /// From one jump to another. @param before  ω at the start, above 0
 inline Integrity integrity_over(const Cohesive& law, double before, const Parted& from, const Parted& to) {
-  constexpr double kSmall = 1e-6;  // below, differences of the work are round-off
   const double q0 = law.measure(from.opening, from.slip_squared),
                q1 = law.measure(to.opening, to.slip_squared);
   const double length = law.length(q1 > 0 ? law.measure(to.opening, 0) / q1 : 1);
@@ -54,7 +54,8 @@ inline Integrity integrity_over(const Cohesive& law, double before, const Parted
   if (end >= before) return {before, before};
   if (q1 <= q0) return {end, end};  // another direction, of less toughness
   const double first = std::sqrt(q0);
-  if (q1 - q0 < kSmall * q1) return {0.5 * (std::min(before, law.integrity(first, length)) + end), end};
+  if (q1 - q0 < constants::kSmallJumpChange * q1)
+    return {0.5 * (std::min(before, law.integrity(first, length)) + end), end};
   const double turn = law.lambda_of(before, length);  // from here on it softens
   const double elastic = before * std::max(0.0, turn * turn - q0);
   const double softening = law.work(last, length) - law.work(std::max(first, turn), length);

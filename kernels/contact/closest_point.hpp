@@ -15,6 +15,7 @@
 #include <limits>
 #include <optional>
 
+#include "kernels/constants.hpp"
 #include "kernels/dimension.hpp"
 
 namespace mpmfast {
@@ -31,21 +32,6 @@ struct ClosestPoint {
 };
 
 namespace closest_point {
-
-/// Tolerance of a weight, –. A weight down to its negative belongs to the facet, so that no point falls
-/// between two facets by round-off. Range: above 1e-15, far below 1.
-inline constexpr double kWeightTolerance = 1e-9;
-
-/// Newton iterations for a triangle, –. Two to four suffice for normals within half a radian.
-inline constexpr int kNewtonIterations = 8;
-
-/// Square of the residual at which Newton's iteration ends, over twice the area of the triangle, –. It is
-/// (1e-13)², near round-off. A larger value moves the closest point.
-inline constexpr double kSquaredResidual = 1e-26;
-
-/// Least Jacobian of the map (β, g) ↦ x(β) + g n(β), over twice the area of the triangle, –. It vanishes
-/// where the normals of a concave facet meet, beyond which the projection is not unique. Range: (0, 0.1).
-inline constexpr double kLeastJacobian = 1e-3;
 
 inline double cross(const Vec<2>& a, const Vec<2>& b) { return a[0] * b[1] - a[1] * b[0]; }
 
@@ -84,13 +70,13 @@ inline std::optional<Vec<3>> solve_on_triangle(const Vec<3>& s, const std::array
   if (!(std::abs(height) <= reach)) return std::nullopt;
   Vec<3> unknown(a.cross(v).dot(up) / squared, u.cross(a).dot(up) / squared, height);
   const Vec<3> change_u = normal[1] - normal[0], change_v = normal[2] - normal[0];
-  for (int pass = 0; pass < kNewtonIterations; ++pass) {
+  for (int pass = 0; pass < constants::kProjectionIterations; ++pass) {
     const Vec<3> n = normal[0] + unknown[0] * change_u + unknown[1] * change_v;
     const Vec<3> residual = a - unknown[0] * u - unknown[1] * v - unknown[2] * n;
-    if (residual.squaredNorm() <= kSquaredResidual * twice_area) break;
+    if (residual.squaredNorm() <= constants::kSquaredResidual * twice_area) break;
     const Vec<3> by_u = u + unknown[2] * change_u, by_v = v + unknown[2] * change_v;
     const double jacobian = by_u.cross(by_v).dot(n);
-    if (!(jacobian > kLeastJacobian * twice_area)) return std::nullopt;
+    if (!(jacobian > constants::kLeastJacobian * twice_area)) return std::nullopt;
     unknown +=
         Vec<3>(residual.cross(by_v).dot(n), by_u.cross(residual).dot(n), by_u.cross(by_v).dot(residual)) /
         jacobian;
@@ -109,7 +95,7 @@ inline std::optional<std::array<double, 3>> clip_to_creases(const Vec<3>& s,
   std::optional<std::array<double, 3>> clipped;
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!(weight[k] < -kWeightTolerance) || !patch_ends[k]) continue;
+    if (!(weight[k] < -constants::kWeightTolerance) || !patch_ends[k]) continue;
     const std::size_t b = (k + 1) % 3, c = (k + 2) % 3;
     const double on_edge = weight_on_edge(s, corner[b], corner[c]);
     const double distance = (corner[b] + on_edge * (corner[c] - corner[b]) - s).norm();
@@ -136,7 +122,7 @@ inline std::optional<ClosestPoint<2>> project_onto_facet(const Vec<2>& s, const 
                                                          const std::array<bool, 2>& patch_ends,
                                                          double reach) {
   using closest_point::cross;
-  using closest_point::kWeightTolerance;
+  using constants::kWeightTolerance;
   const Vec<2> a = s - corner[0], t = corner[1] - corner[0], m = normal[1] - normal[0];
   // (a − β t) × (n_0 + β m) = c0 + c1 β + c2 β²
   const double c0 = cross(a, normal[0]), c1 = cross(a, m) - cross(t, normal[0]), c2 = -cross(t, m);
@@ -162,7 +148,7 @@ inline std::optional<ClosestPoint<3>> project_onto_facet(const Vec<3>& s, const 
   const auto solved = closest_point::solve_on_triangle(s, corner, normal, reach);
   if (!solved) return std::nullopt;
   double weight[] = {1 - (*solved)[0] - (*solved)[1], (*solved)[0], (*solved)[1]};
-  const auto outside = [](double one) { return one < -closest_point::kWeightTolerance; };
+  const auto outside = [](double one) { return one < -constants::kWeightTolerance; };
   const bool at_crease = std::any_of(weight, weight + 3, outside);
   if (at_crease) {
     const auto clipped = closest_point::clip_to_creases(s, corner, weight, patch_ends);

@@ -17,6 +17,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/sliding.hpp"
 
 namespace mpmfast {
@@ -62,12 +63,12 @@ struct SofteningLaw {
     // S is convex, so that Newton from the left never passes the root of S − ωλ.
     const double end = std::exp(-kDecay);
     double damage = 0;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < constants::kDamageIterations; ++k) {
       const double left = std::exp(-kDecay * damage);
       const double excess = (left - end) / (1 - end) - integrity * (1 + length * damage);
       const double step = excess / (kDecay * left / (1 - end) + integrity * length);
       damage += step;
-      if (!(step > 1e-16)) break;
+      if (!(step > constants::kDamageStep)) break;
     }
     return std::min(1.0, damage);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cloud.hpp"
 #include "kernels/contact/separation.hpp"
 #include "kernels/simd/compress.hpp"
@@ -17,8 +18,6 @@ namespace mpmfast {
 /// Workspace for clouds, one after the other; one per thread, grown only by clouds larger than any before.
 template <int Dim>
 struct CloudWorkspace {
-  static constexpr std::size_t kFewest = 256;  ///< particles of capacity beyond those needed
-
   std::vector<double> xi[Dim];           ///< relative to the node, cells
   std::vector<double> shape[Dim * Dim];  ///< as CloudColumns::shape; those in use
   std::vector<double> number;            ///< of the particles, if asked for
@@ -31,7 +30,7 @@ struct CloudWorkspace {
   void reserve(int n) {
     const std::size_t needed = begin + static_cast<std::size_t>(padded_count(n) + kLanes);
     if (xi[0].size() >= needed) return;
-    const std::size_t capacity = needed + needed / 4 + kFewest;
+    const std::size_t capacity = needed + needed / 4 + constants::kCloudReserve;
     for (auto& c : xi) c.resize(capacity);
     for (int e = 0; e < shapes; ++e) shape[e].resize(capacity);
     if (numbered) number.resize(capacity);
@@ -136,8 +135,9 @@ struct Candidates {
 
 /// Appends one run of particles [begin, end) as a piece.
 template <int Dim, class Basis>
-inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& run, std::uint32_t begin,
-                           std::uint32_t end, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+inline void add_candidates(const TileContext<Dim, DomainView<Dim>>& c, const ParticleRun<Dim>& run,
+                           std::uint32_t begin, std::uint32_t end, const NodeBox<Dim>& box,
+                           Candidates<Dim>& out) {
   const int particles = static_cast<int>(end - begin);
   out.reserve(particles);
   CandidatePiece<Dim> piece{c.tile->field, out.count, 0, {}};
@@ -193,7 +193,8 @@ inline void add_candidates(const TileContext<Dim>& c, const ParticleRun<Dim>& ru
 /// it drifts further), so only cells o with low − kMaxSupport ≤ o ≤ high + 1 need a look (nodes and o within
 /// the window). Cells are kept by the last axis: what lies between is consecutive.
 template <int Dim, class Basis>
-inline void add_candidates(const TileContext<Dim>& c, const NodeBox<Dim>& box, Candidates<Dim>& out) {
+inline void add_candidates(const TileContext<Dim, DomainView<Dim>>& c, const NodeBox<Dim>& box,
+                           Candidates<Dim>& out) {
   constexpr int last = Dim - 1, stride = kTileNodes<Dim> / kTileSide;
   const int start = c.tile->window[last] + kSortedOffset<Basis>;  // where cell numbers start
   const int low = box.low[last] - start - Basis::kMaxSupport, high = box.high[last] - start + 1;

@@ -12,6 +12,7 @@
 
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/interface.hpp"
 #include "kernels/contact/largest_root.hpp"
 #include "kernels/contact/traction_curve.hpp"
@@ -59,9 +60,8 @@ inline double rate_after_curve(const TractionCurve& curve, double area, double m
 /// The stiffness by area that over a step, as ½(δ + δ₁) times it, has the work of the curve: the mean of
 /// T(s)/s over s². @param from, to  |δ| at the start and the end, m
 inline double mean_secant(const TractionCurve& curve, double from, double to) {
-  constexpr double kSmall = 1e-6;  // below, differences of the energy are round-off
   const double difference = (to - from) * (to + from);
-  if (std::abs(difference) > kSmall * std::max(from, to) * std::max(from, to))
+  if (std::abs(difference) > constants::kSmallJumpChange * std::max(from, to) * std::max(from, to))
     return 2 * (curve.energy(to) - curve.energy(from)) / difference;
   const double middle = 0.5 * (from + to);
   return middle > 0 ? curve.at(middle) / middle : curve.slope(curve.piece_of(0, true));

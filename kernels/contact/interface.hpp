@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/friction_cone.hpp"
 #include "kernels/dimension.hpp"
 
@@ -25,9 +26,8 @@ namespace mpmfast {
 
 /// m_e/m: for φ = Δt √(k/m).
 inline double oscillator_mass(double stiffness, double mass, double dt) {
-  constexpr double kMost = 1.5707963267948966, kSmall = 1e-4;
-  const double half = 0.5 * std::min(kMost, dt * std::sqrt(stiffness / mass));
-  if (half < kSmall) return 1;
+  const double half = 0.5 * std::min(constants::kMostPhase, dt * std::sqrt(stiffness / mass));
+  if (half < constants::kLeastHalfPhase) return 1;
   const double share = half / std::tan(half);
   return share * share;
 }

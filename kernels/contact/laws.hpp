@@ -14,6 +14,7 @@
 #include <limits>
 #include <variant>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cohesive.hpp"
 #include "kernels/contact/sliding.hpp"
 #include "kernels/contact/traction_curve.hpp"
@@ -137,12 +138,12 @@ struct VelocityFriction {
     const double at_rest = std::max(friction, static_friction);  // zero: as `friction`
     if (s.stick <= at_rest * s.normal) return kSticks;
     double speed = (s.stick - friction * s.normal) / s.reduced_mass;
-    for (int k = 0; k < 50; ++k) {
+    for (int k = 0; k < constants::kSlipSpeedIterations; ++k) {
       const double falling = (at_rest - friction) * s.normal * std::exp(-speed / decay_speed);
       const double excess = s.reduced_mass * speed + friction * s.normal + falling - s.stick;
       const double step = excess / (s.reduced_mass - falling / decay_speed);
       speed -= step;
-      if (!(std::abs(step) > 1e-14 * speed)) break;
+      if (!(std::abs(step) > constants::kSlipSpeedTolerance * speed)) break;
     }
     return s.stick - s.reduced_mass * std::max(0.0, speed);
   }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/simd/support.hpp"
@@ -115,7 +116,7 @@ class Simplex {
   /// Elimination without pivoting: the matrix is a Gram matrix. @return false if it is singular
   static bool solve(Mat<Dim> a, Vec<Dim> b, int n, Vec<Dim>& x) {
     for (int j = 0; j < n; ++j) {
-      if (!(a(j, j) > 1e-14 * a.diagonal().maxCoeff())) return false;
+      if (!(a(j, j) > constants::kLeastGramPivot * a.diagonal().maxCoeff())) return false;
       for (int i = j + 1; i < n; ++i) {
         const double factor = a(i, j) / a(j, j);
         for (int k = j; k < n; ++k) a(i, k) -= factor * a(j, k);
@@ -141,8 +142,8 @@ class Simplex {
 /// difference
 /// @param smallest  hulls nearer than this count as meeting, cells: their direction would be noise
 template <int Dim>
-inline Margin<Dim> widest_margin(const CloudView<Dim>& cloud, const Vec<Dim>& guess, double smallest = 0.05) {
-  constexpr int kPasses = 30;
+inline Margin<Dim> widest_margin(const CloudView<Dim>& cloud, const Vec<Dim>& guess,
+                                 double smallest = constants::kLeastHullDistance) {
   const auto entry = [&](int k) {
     Vec<Dim> x;
     for (int d = 0; d < Dim; ++d) x[d] = cloud.xi[d][k];
@@ -151,13 +152,14 @@ inline Margin<Dim> widest_margin(const CloudView<Dim>& cloud, const Vec<Dim>& gu
   Margin<Dim> result;
   detail::Simplex<Dim> simplex;
   Vec<Dim> v = -guess;  // from the hull of b to that of a
-  while (result.iterations < kPasses) {
+  while (result.iterations < constants::kHullPasses) {
     const detail::Support<Dim> support(cloud, v);
     ++result.iterations;
     if (support.a < 0 || support.b < 0) return result;
     const Vec<Dim> w = entry(support.a) - entry(support.b);
-    // |v|² − v·w bounds the square of the distance to the solution: 1e-10 is an angle below 1e-5.
-    if (simplex.size() > 0 && v.squaredNorm() - v.dot(w) <= 1e-10 * v.squaredNorm()) break;
+    // |v|² − v·w bounds the square of the distance to the solution.
+    if (simplex.size() > 0 && v.squaredNorm() - v.dot(w) <= constants::kHullTolerance * v.squaredNorm())
+      break;
     if (simplex.size() > Dim || !simplex.add(w)) break;
     v = simplex.nearest();
     if (!(v.squaredNorm() > smallest * smallest) || simplex.size() > Dim) return result;

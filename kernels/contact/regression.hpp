@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/cloud.hpp"
 #include "kernels/dimension.hpp"
 #include "kernels/simd/math.hpp"
@@ -49,8 +50,8 @@ constexpr int packed_size(int n) { return n * (n + 1) / 2; }
 constexpr int packed(int row, int column) { return row * (row + 1) / 2 + column; }
 
 /// Solves A x = b by LDLᵀ for a symmetric positive A, packed; A is overwritten, b becomes x.
-/// @return false if a pivot falls below 1e-12 of its diagonal entry (a test that no scaling of the unknowns
-/// changes)
+/// @return false if a pivot falls below kLeastFitPivot of its diagonal entry (a test that no scaling of the
+/// unknowns changes)
 template <int N>
 inline bool solve_symmetric(double (&a)[packed_size(N)], double (&b)[N]) {
   double inverse_pivot[N];
@@ -65,7 +66,7 @@ inline bool solve_symmetric(double (&a)[packed_size(N)], double (&b)[N]) {
       a[packed(j, k)] *= inverse_pivot[k];
       pivot -= scaled[k] * a[packed(j, k)];
     }
-    if (!(pivot > 1e-12 * diagonal)) return false;  // also for NaN
+    if (!(pivot > constants::kLeastFitPivot * diagonal)) return false;  // also for NaN
     inverse_pivot[j] = 1.0 / pivot;
 #pragma GCC unroll 16
     for (int i = j + 1; i < N; ++i)
@@ -201,7 +202,9 @@ inline bool agree(const double (&a)[Dim + 1], const double (&b)[Dim + 1], double
 }
 
 /// Squared lengths between which a vector has a direction (false for NaN).
-inline bool has_direction(double squared) { return squared > 1e-200 && squared < 1e200; }
+inline bool has_direction(double squared) {
+  return squared > constants::kLeastSquaredLength && squared < constants::kMostSquaredLength;
+}
 
 /// From the centroid of a to that of b. The sums of the linear start hold the classes' sizes and first
 /// moments: Σ c² = n_b + n_a, Σ c = n_b − n_a, Σ c² ξ and Σ c ξ.
@@ -223,7 +226,7 @@ struct Centroids {
       spread += linear.matrix[packed(d, d)];
     }
     const double squared = squared_length<Dim>(difference);
-    apart = has_direction(squared) && squared > 1e-18 * spread / total;
+    apart = has_direction(squared) && squared > constants::kCoincidentCentroids * spread / total;
   }
 };
 

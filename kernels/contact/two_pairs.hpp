@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/contact/friction_cone.hpp"
 #include "kernels/contact/resolve_pair.hpp"
 
@@ -107,20 +108,19 @@ template <int Dim>
 bool solve_two_pairs(PairContact<Dim> (&pair)[2], double coupling, const AnyLaw& law_one,
                      const AnyLaw& law_two) {
   using namespace detail;
-  constexpr int kMost = 60;
   Status<Dim> status[2];
-  for (int k = 0; k < kMost; ++k) {
+  for (int k = 0; k < constants::kTwoPairRounds; ++k) {
     solve_statuses(pair, status, coupling);
     double scale = 0;  // a light field between heavy ones passes on far more than it can take
     for (const auto& p : pair) scale = std::max({scale, p.jump.norm() / p.inverse_mass, p.impulse.norm()});
-    const double noise = 1e-13 * scale;
+    const double noise = constants::kTwoPairRoundOff * scale;
     const Status<Dim> next[2] = {status_by_law(pair[0], status[0], {law_one}, noise),
                                  status_by_law(pair[1], status[1], {law_two}, noise)};
     bool changed[2], same = true;
     for (int i = 0; i < 2; ++i) {
       changed[i] = next[i].surfaces != status[i].surfaces;
       const double shift = (next[i].slope - status[i].slope).norm() * -pair[i].impulse.dot(pair[i].normal);
-      same &= !changed[i] && !(std::abs(shift) > 1e-12 * scale);
+      same &= !changed[i] && !(std::abs(shift) > constants::kTwoPairTolerance * scale);
     }
     if (same) return pair[0].impulse.allFinite() && pair[1].impulse.allFinite();
     // Of two changes of kind, one at a time and in turn: both at once can chase each other.

@@ -21,8 +21,8 @@
 
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/dimension.hpp"
-#include "kernels/fracture/constants.hpp"
 #include "kernels/fracture/tip_path.hpp"
 #include "kernels/fracture/tip_sample.hpp"
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "kernels/constants.hpp"
 #include "kernels/dimension.hpp"
-#include "kernels/fracture/constants.hpp"
 
 namespace mpmfast {
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/materials/radial_return.hpp"
@@ -59,7 +60,7 @@ struct DruckerPrager {
   }
   /// Of a longitudinal wave at rest, Pa.
   double modulus() const { return bulk + 4 * shear / 3; }
-  static constexpr double shape_limit() { return kShapeOfSoils; }
+  static constexpr double shape_limit() { return constants::kShapeOfSoils; }
 
   /// M of an angle of friction, η of one of dilation.
   double slope(double angle) const {
@@ -135,15 +136,14 @@ struct DruckerPrager {
     const V zero = broadcast<V>(0.0);
     const auto strength = [&](V p) { return larger(m * p + k, zero); };
     const V rest = measure - strength(pressure(volume));
-    const auto yields = rest > 1e-14 * measure;
+    const auto yields = rest > constants::kSoilTolerance * measure;
     V low = zero, high = measure / stiffness, x = yields ? rest / stiffness : zero;
     if (eta == 0) return x;
-    const double round_off = 1e-15 * m * bulk;  // of p, which is the small rest of 1 − J²
-    constexpr int kMost = 60;                   // bisection alone would need them; Newton takes about four
-    for (int round = 0; round < kMost; ++round) {
+    const double round_off = constants::kPressureRoundOff * m * bulk;
+    for (int round = 0; round < constants::kPlasticIterations; ++round) {
       const V j = volume * exponential(-eta * x), p = pressure(j);
       const V g = measure - stiffness * x - strength(p);
-      const auto open = yields & (magnitude(g) > 1e-14 * measure + round_off);
+      const auto open = yields & (magnitude(g) > constants::kSoilTolerance * measure + round_off);
       if (!any_open(open)) break;
       low = g > 0.0 ? x : low;
       high = g > 0.0 ? high : x;

@@ -3,6 +3,7 @@
 /// @file Strain measures from the row-major deformation gradient, for a double or for Lanes. In 2-D, plane
 /// strain: F_zz = 1. Symmetric tensors in the order xx, yy, zz, xy, yz, xz.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/matrix_exponential.hpp"
 #include "kernels/simd/lanes.hpp"
 #include "kernels/tensor.hpp"
@@ -96,7 +97,7 @@ inline V smallest_stretch_squared(const V (&b)[kSymmetric<Dim>], V j) {
   } else {
     const V i1 = b[0] + b[1] + b[2], j2 = 4.0 * j * j;
     V b1 = broadcast<V>(0.0);
-    for (int k = 0; k < 4; ++k) b1 = quotient(j2, (i1 - b1) * (i1 - b1));
+    for (int k = 0; k < constants::kStretchIterations; ++k) b1 = quotient(j2, (i1 - b1) * (i1 - b1));
     const V mean = i1 * (1.0 / 3.0), d0 = b[0] - mean, d1 = b[1] - mean, d2 = b[2] - mean;
     const V deviator = d0 * d0 + d1 * d1 + d2 * d2 + 2.0 * (b[3] * b[3] + b[4] * b[4] + b[5] * b[5]);
     return larger(b1, mean - 2.0 * square_root(deviator * (1.0 / 6.0)));

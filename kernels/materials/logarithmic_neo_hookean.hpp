@@ -2,6 +2,7 @@
 
 /// @file Compressible neo-Hookean solid of K24 Eq. 46.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
@@ -52,10 +53,9 @@ struct LogarithmicNeoHookean {
   /// Newton's method from the last step's.
   template <class V>
   V out_of_plane_stretch(const V (&f)[4], V last) const {
-    constexpr int kRounds = 5;
     const V offset = lambda * logarithm(determinant<2>(f)) - shear;
     V y = logarithm(last);
-    for (int k = 0; k < kRounds; ++k) {
+    for (int k = 0; k < constants::kPlaneStressIterations; ++k) {
       const V term = shear * exponential(2.0 * y);
       y -= (term + lambda * y + offset) / (2.0 * term + lambda);
     }

@@ -12,19 +12,18 @@
 /// The series run to D^25: beyond |D| = 3, where no step of a simulation comes, the remainder exceeds
 /// round-off.
 
+#include "kernels/constants.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
 
 namespace detail {
 
-inline constexpr int kExponentialPowers = 25;
-
 template <class V>
 inline void traceless_exponential(const V (&d)[4], V (&e)[4]) {
   const V q = d[1] * d[2] - d[0] * d[3];
   V even = broadcast<V>(1.0), odd = broadcast<V>(1.0);
-  for (int n = kExponentialPowers - 1; n >= 2; n -= 2) {  // Horner, from the last term
+  for (int n = constants::kExponentialPowers - 1; n >= 2; n -= 2) {  // Horner, from the last term
     even = 1.0 + even * q * (1.0 / (n * (n - 1)));
     odd = 1.0 + odd * q * (1.0 / (n * (n + 1)));
   }
@@ -46,7 +45,7 @@ inline void traceless_exponential(const V (&d)[9], V (&e)[9]) {
   // D^n/n! = a I + b D + c D², from n = 2 on; their sums.
   V a = broadcast<V>(0.0), b = a, c = broadcast<V>(0.5);
   V identity = broadcast<V>(1.0), linear = identity, quadratic = c;
-  for (int n = 3; n <= kExponentialPowers; ++n) {
+  for (int n = 3; n <= constants::kExponentialPowers; ++n) {
     const double share = 1.0 / n;
     const V next = r * c * share;
     c *= share;

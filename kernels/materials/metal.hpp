@@ -3,6 +3,7 @@
 /// @file Finite-strain metals: a volumetric law and a yield strength over the neo-Hookean shear of N20
 /// Eq. 18.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/radial_return.hpp"
 #include "kernels/materials/shape_memory.hpp"
@@ -58,7 +59,9 @@ struct Metal {
   double modulus() const { return volume.bulk + 4 * shear / 3; }
   /// Without yield the shear stress is that of F; without shear there is none.
   double shape_limit() const {
-    return Yield::kPlastic ? kShapeOfMetals : shear > 0 ? kWholeShape : kShapeOfFluids;
+    return Yield::kPlastic ? constants::kShapeOfMetals
+           : shear > 0     ? constants::kWholeShape
+                           : constants::kShapeOfFluids;
   }
   /// What the law takes from the grid.
   void set_cell(double cell) requires Volume::kHeats { volume.cell = cell; }

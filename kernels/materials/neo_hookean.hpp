@@ -2,6 +2,7 @@
 
 /// @file Compressible neo-Hookean solid of N20 Eq. 18.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
@@ -63,12 +64,11 @@ struct NeoHookean {
   /// which has one positive root and is convex there: Newton's method from the last step's.
   template <class V>
   V out_of_plane_stretch(const V (&f)[4], V last) const {
-    constexpr int kRounds = 5;
     const V area = determinant<2>(f), q = 0.5 * bulk / isochoric_factor(area);
     const V fourth = q * area * area, cubic = broadcast<V>(2.0 / 3.0 * shear);
     const V constant = (shear / 3.0) * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2] + f[3] * f[3]);
     V w = 1.0 / isochoric_factor(last);
-    for (int k = 0; k < kRounds; ++k) {
+    for (int k = 0; k < constants::kPlaneStressIterations; ++k) {
       const V square = w * w, high = (fourth * w + cubic) * square;
       w -= (high * w - q * w - constant) / (4.0 * fourth * square * w + 3.0 * cubic * square - q);
     }

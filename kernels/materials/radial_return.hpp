@@ -2,6 +2,7 @@
 
 /// @file Plastic shear of a neo-Hookean solid (N20 Eq. 18), τ = G dev(b̄) + …, by radial return.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/simd/math.hpp"
 
@@ -30,13 +31,13 @@ class Shear {
   /// q x. The shear energy that sudden melting lets go, a thousandth of the plastic work before it, is not
   /// seen.
   V flow(V x, V (&b)[kSymmetric<Dim>]) const {
-    constexpr int kRounds = 5;
     const auto flows = x > broadcast<V>(0.0);
     const V scale = flows ? 1.0 - slope * x / measure : broadcast<V>(1.0);
     const V trial_half = 0.5 * contraction<Dim>(d_), trial_third = symmetric_determinant<Dim>(d_);
     const V half = scale * scale * trial_half, third = scale * scale * scale * trial_third - 1.0;
     V m = mean_;
-    for (int k = 0; k < kRounds; ++k) m -= ((m * m - half) * m + third) / (3.0 * m * m - half);
+    for (int k = 0; k < constants::kReturnIterations; ++k)
+      m -= ((m * m - half) * m + third) / (3.0 * m * m - half);
     for (int c = 0; c < kSymmetric<Dim>; ++c)
       b[c] = flows ? (c < 3 ? scale * d_[c] + m : scale * d_[c]) : b[c];
     const V share = scale * (1.0 - scale);

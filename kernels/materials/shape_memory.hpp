@@ -8,20 +8,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/principal_axes.hpp"
 #include "kernels/simd/math.hpp"
 
 namespace mpmfast {
-
-/// Fluids have no shape; grains of soil change neighbours early; of metals F is kept until its determinant
-/// would lose digits.
-inline constexpr double kShapeOfFluids = 1, kShapeOfSoils = 4, kShapeOfMetals = 20;
-/// Of what keeps all of it.
-inline constexpr double kWholeShape = 1e300;
-/// The most that F says of how far a particle has opened, (det F)^(1/Dim): material that has come apart does
-/// not fill the gaps.
-inline constexpr double kMostOpening = 2;
 
 /// J of F ← (I + a) F over J before: det(I + a).
 template <int Dim, class V>
@@ -73,6 +65,7 @@ void bound_shape(double limit, double volume, double (&f)[Dim * Dim]) {
 /// @param volume det F as J says, of a plane that stretches along its normal without that stretch
 template <int Dim>
 inline void limit_shape(double limit, Lanes volume, int count, Lanes (&f)[Dim * Dim]) {
+  using constants::kMostOpening;
   constexpr double most = Dim == 2 ? kMostOpening * kMostOpening : kMostOpening * kMostOpening * kMostOpening;
   volume = smaller(volume, broadcast<Lanes>(most));
   const Lanes root = detail::root_of_volume<Dim>(volume);
@@ -86,11 +79,13 @@ inline void limit_shape(double limit, Lanes volume, int count, Lanes (&f)[Dim * 
   const double bound = Dim == 2 ? limit * limit + 1 / (limit * limit) : limit * limit;
   const Lanes drift = magnitude(determinant<Dim>(f) - volume);
   LaneSet all = leading_lanes(count);
-  LaneSet kept = where_less(all, squares, bound * root * root * (1 + 1e-12));
-  kept = where_less(kept, drift, 1e-6 * volume);
+  LaneSet kept = where_less(all, squares, bound * root * root * (1 + constants::kShapeRoundOff));
+  kept = where_less(kept, drift, constants::kVolumeDrift * volume);
   if (same_lanes(kept, all)) return;
   for (int k = 0; k < (count < kLanes ? count : kLanes); ++k) {
-    if (squares[k] < bound * root[k] * root[k] * (1 + 1e-12) && drift[k] < 1e-6 * volume[k]) continue;
+    if (squares[k] < bound * root[k] * root[k] * (1 + constants::kShapeRoundOff) &&
+        drift[k] < constants::kVolumeDrift * volume[k])
+      continue;
     double one[Dim * Dim];
     for (int e = 0; e < Dim * Dim; ++e) one[e] = f[e][k];
     detail::bound_shape<Dim>(limit, volume[k], one);

@@ -3,6 +3,7 @@
 /// @file How a metal answers to volume: elastically, or by the Mie–Grüneisen equation of state with
 /// artificial viscosity.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
@@ -65,7 +66,7 @@ struct GruneisenVolume {
   /// A and dA/dη. Towards the pole 1/S1, where no shock can reach, A goes on along its tangent.
   template <class V>
   void cold(V eta, V& pressure, V& derivative) const {
-    const double limit = slope > 0 ? 0.95 / slope : 1e300;
+    const double limit = slope > 0 ? constants::kHugoniotPole / slope : constants::kUnbounded;
     const V e = smaller(larger(eta, broadcast<V>(0.0)), broadcast<V>(limit));
     const V inverse = 1.0 / (1.0 - slope * e), square = bulk * inverse * inverse;
     derivative = square * ((1.0 - gamma * e) + 2.0 * slope * e * (1.0 - 0.5 * gamma * e) * inverse);

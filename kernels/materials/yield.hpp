@@ -4,6 +4,7 @@
 ///   g(x) = q − 3Ḡ x − σ_y(α + x, x/Δt, T) = 0  for the equivalent plastic strain x ≥ 0 of the step,
 /// with q the von Mises measure of the trial Kirchhoff stress.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/parameters.hpp"
 #include "kernels/simd/math.hpp"
@@ -79,7 +80,9 @@ struct JohnsonCook {
   V thermal_share(V temperature) const {
     const V zero = broadcast<V>(0.0), one = broadcast<V>(1.0);
     const V t = smaller(larger((temperature - reference) * (1.0 / (melt - reference)), zero), one);
-    return t > 0.0 ? 1.0 - exponential(softening * logarithm(larger(t, broadcast<V>(1e-300)))) : one;
+    return t > 0.0 ? 1.0 - exponential(softening *
+                                       logarithm(larger(t, broadcast<V>(constants::kLeastHomologous))))
+                   : one;
   }
 
   template <class V>
@@ -99,13 +102,12 @@ struct JohnsonCook {
     V x = (trial - rest) / (slope + derivative * thermal);
     const auto yields = trial > rest;
     x = ((x > low) & (x <= high)) ? x : 0.5 * high;
-    constexpr int kMost = 60;  // bisection alone would need them; Newton takes about five
-    for (int k = 0; k < kMost; ++k) {
+    for (int k = 0; k < constants::kPlasticIterations; ++k) {
       const V rate = x * (1.0 / dt);
       const V base = static_strength(plastic_strain + x, derivative), share = rate_share(rate);
       const V rate_slope = rate > reference_rate ? rate_factor / x : zero;
       const V g = trial - slope * x - base * share * thermal;
-      const auto open = yields & (magnitude(g) > 1e-13 * trial);
+      const auto open = yields & (magnitude(g) > constants::kMetalTolerance * trial);
       if (!any_open(open)) break;
       low = g > 0.0 ? x : low;
       high = g > 0.0 ? high : x;
@@ -123,7 +125,7 @@ struct JohnsonCook {
   /// A + B αⁿ and its derivative.
   template <class V>
   V static_strength(V plastic_strain, V& derivative) const {
-    const V a = larger(plastic_strain, broadcast<V>(1e-12));
+    const V a = larger(plastic_strain, broadcast<V>(constants::kLeastPlasticStrain));
     const V grown = hardening * exponential(exponent * logarithm(a));
     derivative = exponent * grown / a;
     return yield + grown;

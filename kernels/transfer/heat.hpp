@@ -12,6 +12,7 @@
 
 #include <cstring>
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/simd/math.hpp"
 #include "kernels/transfer/sums.hpp"
@@ -170,7 +171,7 @@ HeatReport update_heat_tile(const TileContext<Dim>& c, HeatWorkspace<Dim, Basis>
           const double rise = filtered ? value[2] + scale.reference - temperature : value[1];
           temperature += rise;
           for (int d = 0; d < Dim; ++d) p.temperature_slope[d][q] = gradient[d][0];
-          report.sound &= temperature > 0 && temperature < 1e300;
+          report.sound &= temperature > 0 && temperature < constants::kMostSound;
           if (heat.stored > 0) {
             p.state.internal_energy[q] += heat.stored * rise;
             report.stored += p.volume[q] * heat.stored * rise;

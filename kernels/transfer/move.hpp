@@ -5,6 +5,7 @@
 
 #include "kernels/basis/domain_limit.hpp"
 #include "kernels/basis/weights.hpp"
+#include "kernels/constants.hpp"
 #include "kernels/transfer/update_rule.hpp"
 #include "kernels/views.hpp"
 
@@ -57,7 +58,7 @@ void move_chunk(const TileContext<Dim>& c, int body, std::uint32_t begin, int co
       drift2 += mean * mean;
     }
     const Lanes fastest = square_root(speed2) + load_lanes(p.wave_speed + begin + k);
-    report.lost |= !same_lanes(where_less(sound, fastest, broadcast<Lanes>(1e300)), all);
+    report.lost |= !same_lanes(where_less(sound, fastest, broadcast<Lanes>(constants::kMostSound)), all);
     report.fastest = larger(counts ? fastest : 0.0, report.fastest);
     report.speed_squared = larger(counts ? larger(speed2, drift2) : 0.0, report.speed_squared);
     if constexpr (Convected) {

@@ -8,6 +8,7 @@
 /// all that the grid hardly resolves. With v′ = S⁺V_new, stresses do the work that the particles' kinetic
 /// energy loses: Σ_p M_p V_p·S a Δt + ½ M_p |S a Δt|² = Σ_i f_i·½ (v_i + v′_i) Δt.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/transfer/affine.hpp"
 #include "kernels/transfer/sums.hpp"
@@ -31,7 +32,6 @@ struct ReExtrapolateWorkspace {
 template <int Dim>
 inline void find_compression_weight(const ParticleView<Dim>& p, std::uint32_t begin, int count,
                                     double* compression_weight) {
-  constexpr double kStart = 0.95, kRamp = 10;
   for (int k = 0; k < count; k += kLanes) {
     Lanes jacobian;
     if (p.state.volume_ratio) {
@@ -42,7 +42,7 @@ inline void find_compression_weight(const ParticleView<Dim>& p, std::uint32_t be
       jacobian = determinant<Dim>(f);
       if (p.plane_kind != PlaneKind::plane_strain) jacobian *= load_lanes(p.stretch + begin + k);
     }
-    const Lanes share = kRamp * (kStart - jacobian);
+    const Lanes share = constants::kCompressionRamp * (constants::kCompressionStart - jacobian);
     store_lanes(compression_weight + k, share > 1.0 ? 1.0 : share < 0.0 ? 0.0 : share);
   }
 }

@@ -3,6 +3,7 @@
 /// @file Strain and stress of a chunk of particles by one law: no basis in sight, so that each law is
 /// compiled once (engine/state/materials.cpp) and not with every basis.
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/evolving.hpp"
 #include "kernels/materials/kinematics.hpp"
 #include "kernels/materials/shape_memory.hpp"
@@ -68,7 +69,7 @@ inline Lanes advance_law(const StateView<Dim>& view, const Law& law, const Lanes
         StrainStep<Dim, Lanes>{a, seen, of_volume * before, of_volume * now, expansion, dt}, state, tau,
         wave_speed_squared);
     detail::store_state(view, law, at, count, state);
-    if (law.shape_limit() < kWholeShape) limit_shape<Dim>(law.shape_limit(), now, count, f);
+    if (law.shape_limit() < constants::kWholeShape) limit_shape<Dim>(law.shape_limit(), now, count, f);
     return now;
   } else {
     Lanes seen[Dim * Dim];

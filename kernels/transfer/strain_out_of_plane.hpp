@@ -3,6 +3,7 @@
 /// @file Strain and stress of particles in planes that stretch along their normal
 /// (materials/out_of_plane.hpp).
 
+#include "kernels/constants.hpp"
 #include "kernels/materials/out_of_plane.hpp"
 #include "kernels/materials/shape_memory.hpp"
 #include "kernels/views.hpp"
@@ -112,7 +113,7 @@ inline Lanes advance_hoop(const StateView<2>& view, const Law& law, const Lanes 
         state, tau, wave_speed_squared);
     plane = narrowed(state);
     detail::store_state(view, law, at, count, plane);
-    if (law.shape_limit() < kWholeShape) limit_shape<2>(law.shape_limit(), now / s, count, f);
+    if (law.shape_limit() < constants::kWholeShape) limit_shape<2>(law.shape_limit(), now / s, count, f);
     return now;
   } else {
     law.template stress<3>(full, tau, wave_speed_squared);

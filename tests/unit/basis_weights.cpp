@@ -533,22 +533,22 @@ TEST_CASE_TEMPLATE("CPDI: edges follow F until the domain is too long or too thi
   for (int repeat = 0; repeat < 400; ++repeat) {
     const Mat<Dim> f = random_deformation<Dim>(draw, 0.7) * uniform(draw, 0.5, 5);
     const Mat<Dim> free = 0.25 * f, found = edges_of<Dim>(f);
-    CHECK(half_diagonal<Dim>(found) < kMostHalfDiagonal * (1 + 1e-12));
+    CHECK(half_diagonal<Dim>(found) < constants::kMostHalfDiagonal * (1 + 1e-12));
     CHECK(found.determinant() * free.determinant() > 0);
     double product = 1;
     for (int j = 0; j < Dim; ++j) product *= free.col(j).norm();
-    const bool thin = std::abs(free.determinant()) < kLeastSine * product;
-    if (!thin && half_diagonal<Dim>(free) < kMostHalfDiagonal * (Dim == 2 ? 1 : 0.5)) {
+    const bool thin = std::abs(free.determinant()) < constants::kLeastSine * product;
+    if (!thin && half_diagonal<Dim>(free) < constants::kMostHalfDiagonal * (Dim == 2 ? 1 : 0.5)) {
       ++kept;
       CHECK((found - free).norm() < 1e-13 * free.norm());
     }
-    if (!thin && half_diagonal<Dim>(free) < kMostHalfDiagonal) continue;
+    if (!thin && half_diagonal<Dim>(free) < constants::kMostHalfDiagonal) continue;
     ++bounded;
     const Mat<Dim> products = found.transpose() * found;  // edges are orthogonal
     for (int j = 0; j < Dim; ++j)
       for (int k = 0; k < j; ++k) CHECK(std::abs(products(j, k)) < 1e-9);
     // Second moments are those of the free domain where the new one is short enough.
-    if (found.squaredNorm() < 0.99 * kMostHalfDiagonal * kMostHalfDiagonal)
+    if (found.squaredNorm() < 0.99 * constants::kMostHalfDiagonal * constants::kMostHalfDiagonal)
       CHECK((found * found.transpose() - free * free.transpose()).norm() < 1e-9);
   }
   CHECK(kept > 10);

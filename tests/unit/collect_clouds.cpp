@@ -48,10 +48,11 @@ void distort(State<Dim>& state) {
 /// node alone. @return particles in all clouds
 template <int Dim, class Basis>
 int compare(const State<Dim>& state) {
-  const ParticleView<Dim> view = const_cast<State<Dim>&>(state).view();
+  const DomainView<Dim> domains = state.domains();
   const auto& tiling = state.tiling;
   const auto context = [&](const ParticleTile<Dim>& tile) {
-    return TileContext<Dim>{&view, &tile, tiling.runs.data(), state.bodies.data(), &state.grid};
+    return TileContext<Dim, DomainView<Dim>>{&domains, &tile, tiling.runs.data(), state.bodies.data(),
+                                             &state.grid};
   };
   int found = 0;
   for (const auto& block : tiling.node_blocks)

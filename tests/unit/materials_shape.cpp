@@ -181,14 +181,14 @@ TEST_CASE_TEMPLATE("F keeps its stretches up to the limit, its rotation and J", 
     const double j = f.determinant();
     if (j < 0.05) continue;
     const Mat<Dim> g = bounded<Dim>(f, kLimit, j, repeat % kLanes);
-    const double root = std::pow(std::min(j, std::pow(kMostOpening, Dim)), 1.0 / Dim);
+    const double root = std::pow(std::min(j, std::pow(constants::kMostOpening, Dim)), 1.0 / Dim);
     const Polar<Dim> before(f), after(g);
     CHECK(std::pow(std::abs(g.determinant()), 1.0 / Dim) == doctest::Approx(root).epsilon(1e-6));
     CHECK(after.stretch[Dim - 1] <= kLimit * root * (1 + 1e-9));
     CHECK(after.stretch[0] >= root / std::pow(kLimit, Dim - 1) * (1 - 1e-9));
     CHECK((before.turn - after.turn).norm() < 1e-9);
     const double of_volume = std::pow(j, 1.0 / Dim), widest = before.stretch[Dim - 1] / of_volume;
-    if (widest < kLimit * (1 - 1e-9) && j < std::pow(kMostOpening, Dim) && Dim == 2) CHECK(g == f);
+    if (widest < kLimit * (1 - 1e-9) && j < std::pow(constants::kMostOpening, Dim) && Dim == 2) CHECK(g == f);
     cut += widest > kLimit;
   }
   CHECK(cut > 10);
@@ -196,19 +196,22 @@ TEST_CASE_TEMPLATE("F keeps its stretches up to the limit, its rotation and J", 
 
 TEST_CASE("material that has come apart fills at most twice its length, and closes to what it was") {
   const Mat<2> open = 30 * Mat<2>::Identity();
-  CHECK((bounded<2>(open, kShapeOfSoils, 900) - kMostOpening * Mat<2>::Identity()).norm() < 1e-9);
+  CHECK((bounded<2>(open, constants::kShapeOfSoils, 900) - constants::kMostOpening * Mat<2>::Identity())
+            .norm() < 1e-9);
   // While J falls back to 1, F follows it again.
-  CHECK((bounded<2>(kMostOpening * Mat<2>::Identity(), kShapeOfSoils, 1) - Mat<2>::Identity()).norm() < 1e-9);
+  CHECK((bounded<2>(constants::kMostOpening * Mat<2>::Identity(), constants::kShapeOfSoils, 1) -
+         Mat<2>::Identity())
+            .norm() < 1e-9);
 }
 
 TEST_CASE("which laws forget: fluids all shape, soils and metals most, elastic shear nothing") {
   MieGruneisen fluid, solid;
   solid.shear = 1e9;
-  CHECK(fluid.shape_limit() == kShapeOfFluids);
-  CHECK(solid.shape_limit() == kWholeShape);
-  CHECK(ElasticPlastic{}.shape_limit() == kShapeOfMetals);
-  CHECK(MieGruneisenJohnsonCook{}.shape_limit() == kShapeOfMetals);
-  CHECK(DruckerPrager::shape_limit() == kShapeOfSoils);
+  CHECK(fluid.shape_limit() == constants::kShapeOfFluids);
+  CHECK(solid.shape_limit() == constants::kWholeShape);
+  CHECK(ElasticPlastic{}.shape_limit() == constants::kShapeOfMetals);
+  CHECK(MieGruneisenJohnsonCook{}.shape_limit() == constants::kShapeOfMetals);
+  CHECK(DruckerPrager::shape_limit() == constants::kShapeOfSoils);
 }
 
 }  // namespace

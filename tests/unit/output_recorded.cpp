@@ -469,7 +469,7 @@ TEST_CASE("what lies so far off that Cairo's numbers would turn round is not dra
 TEST_CASE(
     "a domain is drawn as it is up to the longest diagonal of either direction, else as it was seeded") {
   Scene scene = small_scene(Space::plane_strain);
-  const double half = 0.25 * scene.grid.cell, most = kMostHalfDiagonal * scene.grid.cell;
+  const double half = 0.25 * scene.grid.cell, most = constants::kMostHalfDiagonal * scene.grid.cell;
   std::mt19937_64 random(5);
   const auto in = [&](double lower, double upper) {
     return lower + (upper - lower) * static_cast<double>(random() >> 11) * 0x1p-53;

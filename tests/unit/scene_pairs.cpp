@@ -71,7 +71,7 @@ TEST_CASE("a cohesive law has its keys, and its initial stiffness from the cells
   CHECK(parse(scene.resolved_yaml).resolved_yaml == scene.resolved_yaml);
   const AnyLaw on_grid = law_on(scene.contact.law, scene);
   CHECK(std::get<Cohesive>(on_grid).initial_stiffness ==
-        doctest::Approx(kBonded * stiffest_modulus(scene) / scene.grid.cell));
+        doctest::Approx(constants::plan::kBondStiffness * stiffest_modulus(scene) / scene.grid.cell));
   CHECK(std::get<Cohesive>(on_grid).compression_stiffness == 0);
 }
 

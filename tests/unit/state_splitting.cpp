@@ -267,7 +267,7 @@ TEST_CASE("edges that are too long are found by id, and held when they were halv
   CHECK(count_long_edges(state, rule).splits == 4);
   CHECK(count_long_edges(state, rule).held == 0);
   stretch(3, 0) = 100;
-  for (int times = 0; times < kMostHalvings; ++times) {
+  for (int times = 0; times < constants::splitting::kMostHalvings; ++times) {
     CHECK(count_long_edges(state, rule).splits >= 4);
     halve(state, {3}, 0);
   }

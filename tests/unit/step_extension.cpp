@@ -336,7 +336,7 @@ TEST_CASE("no node that others follow is thrown about by them, at the cost of ex
             share.weight * share.weight * given[static_cast<std::size_t>(follows.slot)];
       }
     for (std::size_t s = 0; s < given.size(); ++s)
-      CHECK(thrown[s] <= (Extension<2>::kMostThrown + 1e-12) * state.nodes.column(Nodal::mass)[s]);
+      CHECK(thrown[s] <= (constants::extension::kMostThrown + 1e-12) * state.nodes.column(Nodal::mass)[s]);
     lowered += p.extension.counters().lowered;
   }
   CHECK(lowered > 0);

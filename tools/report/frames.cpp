@@ -211,7 +211,7 @@ Json FramePacker::describe(std::size_t limit, Chunks& chunks, std::vector<std::s
   if (scene_) {  // how large domains are drawn
     json["largest"] = largest_half_diagonal(*scene_);
     json["follows_shape"] = facts(scene_->method.basis).convected;
-    json["least_sine"] = kLeastSine;
+    json["least_sine"] = constants::kLeastSine;
   }
   std::vector<double> times;
   for (const SeriesFrame& frame : survey_.frames) times.push_back(frame.time);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/constants.hpp"
 #include "engine/contact/active_set/correction_method.hpp"
 #include "engine/contact/impulses/node_motion.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
@@ -96,27 +97,27 @@ double predicted_gap(const CorrectionMethod& method, const PairGeometry<Dim>& ge
 template <int Dim>
 void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
                         PairColumns<Dim>& pairs) {
-  constexpr double kLeast = 0.05, kMost = 0.3;  // bounds of the recovery length, cells
+  using constants::contact::kLeastRecovery, constants::contact::kMostRecovery;
   for (int e = node.pair_begin; e < node.pair_end; ++e) {
     PairStatus& status = pairs.status[e];
     const PairHistory& before = pairs.before[e];
     const double separation = pairs.geometry[e].separation;
-    status.persistent = method.one_set && before.touched &&
-                        separation < std::clamp(before.recovery_length, kLeast * cell, kMost * cell);
+    status.persistent =
+        method.one_set && before.touched &&
+        separation < std::clamp(before.recovery_length, kLeastRecovery * cell, kMostRecovery * cell);
     status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
   }
 }
 
 /// Is the pair in contact after the second correction? True if that correction presses, or if the first one
-/// acted and the surfaces still approach as fast as the gap needs. Velocities below kNoise cells a step are
+/// acted and the surfaces still approach as fast as the gap needs. Velocities below kVelocityRoundOff cells a step are
 /// round-off.
 /// @param mass  of field a, kg
 /// @param relative  v_b − v_a after the correction, m/s
 template <int Dim>
 bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairStatus& status,
                    double mass, const Vec<Dim>& relative, double cell, double dt) {
-  constexpr double kNoise = 1e-10;
-  const double least = kNoise * cell / dt;
+  const double least = constants::contact::kVelocityRoundOff * cell / dt;
   if (impulse.now.dot(normal) < -least * mass) return true;
   if (!(std::abs(impulse.first.dot(normal)) > least * mass)) return false;
   return status.target_approach + relative.dot(normal) <= least;
@@ -124,17 +125,17 @@ bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, con
 
 /// The elastic recovery length of a pair, m: how far its surfaces would approach each other without the
 /// contact force F. It is F T²/(2 m_red) with the time T in which the fastest wave crosses a cell. Between
-/// bodies that F strains by ε, with a layer of half a cell on each side, it is h ε. The result is a moving
-/// mean in which the new value has the weight kNew; a new contact begins with its own value.
+/// bodies that F strains by ε it is 2 h ε, with a layer of h and the mass ½ ρ h³ on each side. The result is a moving
+/// mean in which the new value has the weight kRecoveryShare; a new contact begins with its own value.
 /// @param crossing      T, s
 /// @param inverse_mass  1/m_red, 1/kg
 template <int Dim>
 double updated_recovery_length(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal,
                                const PairHistory& before, double inverse_mass, double crossing, double dt) {
-  constexpr double kNew = 0.1;
+  using constants::contact::kRecoveryShare;
   const double normal_impulse = std::max(0.0, -impulse.second.dot(normal));
   const double now = 0.5 * normal_impulse * crossing * crossing * inverse_mass / dt;
-  return before.touched ? before.recovery_length + kNew * (now - before.recovery_length) : now;
+  return before.touched ? before.recovery_length + kRecoveryShare * (now - before.recovery_length) : now;
 }
 
 /// The part of a normal impulse of the second correction that counts as a force, N s (theory, "The energy of

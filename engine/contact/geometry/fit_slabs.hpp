@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/state/shares.hpp"
 #include "engine/state/state.hpp"
@@ -22,16 +23,13 @@ namespace mpmfast {
 template <int Dim>
 class FitSlabs {
  public:
-  /// Nodes of a slab for each thread: enough that threads hardly wait for each other at its end. All nodes of
-  /// its blocks count, also those that are not due.
-  static constexpr std::size_t kNodesAThread = 256;
-
   /// @param due   by contact node: it is fitted in this step
   /// @param many  false: one slab has all nodes
   void cut(const State<Dim>& state, const ContactList<Dim>& list, const std::vector<std::uint8_t>& due,
            bool many) {
     const std::size_t enough =
-        many ? kNodesAThread * static_cast<std::size_t>(state.threads) : ~std::size_t{0};
+        many ? constants::threads::kSlabNodesPerThread * static_cast<std::size_t>(state.threads)
+             : ~std::size_t{0};
     fitted_.clear();
     slabs_.clear();
     std::size_t nodes = 0;
@@ -69,10 +67,9 @@ class FitSlabs {
   /// f(index, node) for the nodes of a slab, block after block, in parallel.
   template <class F>
   void for_each_node(std::size_t slab, const State<Dim>& state, const ContactList<Dim>& list, F f) {
-    constexpr std::int64_t kFew = 4;
     const std::size_t first = slabs_[slab].begin;
-    share_out(shares_, static_cast<std::int64_t>(slabs_[slab].end - first), state.threads, 1, kFew,
-              [&](std::int64_t g) {
+    share_out(shares_, static_cast<std::int64_t>(slabs_[slab].end - first), state.threads, 1,
+              constants::threads::kFewFittedBlocks, [&](std::int64_t g) {
                 const std::size_t block = fitted_[first + static_cast<std::size_t>(g)];
                 for (std::size_t k = list.block_begin[block]; k < list.block_begin[block + 1]; ++k)
                   f(k, list.nodes[k]);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "engine/conditions/conditions.hpp"
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/state/thread_team.hpp"
 
@@ -29,10 +30,8 @@ struct FreeDirections {
 /// without bound. A gap d along n is closed by moving d/|n_free| along n_free.
 template <int Dim>
 void yield_constrained_directions(const FreeDirections<Dim>& free, int threads, ContactList<Dim>& list) {
-  constexpr double kLeast =
-      1e-3;  // |n_free| of a surface along the held plane: contact has no direction left
-  constexpr std::int64_t kFew = 256;  // nodes, below which one thread does all
-  for_each_of(static_cast<std::int64_t>(list.nodes.size()), threads, kFew, [&](std::int64_t k) {
+  using constants::contact::kLeastFreeNormal, constants::threads::kFewNodes;
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), threads, kFewNodes, [&](std::int64_t k) {
     ContactNode<Dim>& node = list.nodes[k];
     for (int f = node.field_begin; f < node.field_end; ++f) {
       const auto constraint = free.conditions->constraint(list.fields[f].slot);
@@ -45,9 +44,9 @@ void yield_constrained_directions(const FreeDirections<Dim>& free, int threads, 
       PairGeometry<Dim>& geometry = list.pairs.geometry[e];
       const Vec<Dim> along = free.part(node, geometry.normal);
       const double length = along.norm();
-      geometry.normal = length > kLeast ? Vec<Dim>(along / length) : Vec<Dim>::Zero();
+      geometry.normal = length > kLeastFreeNormal ? Vec<Dim>(along / length) : Vec<Dim>::Zero();
       geometry.separation =
-          length > kLeast ? geometry.separation / length : std::numeric_limits<double>::infinity();
+          length > kLeastFreeNormal ? geometry.separation / length : std::numeric_limits<double>::infinity();
     }
   });
 }

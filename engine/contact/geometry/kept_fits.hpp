@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/contact/pairs/node_fields.hpp"
 #include "engine/state/shares.hpp"
@@ -35,18 +36,17 @@ double largest_drift(const PairColumns<Dim>& pairs, const ContactNode<Dim>& node
 template <int Dim, class F>
 void find_due(const ContactList<Dim>& list, double refit, int threads, Shares& shares,
               std::vector<std::uint8_t>& due, const F& reuse) {
-  constexpr std::int64_t kAtOnce = 8, kFew = 64;  // blocks
-  constexpr double kSoon = 0.5;                   // of `refit`
+  using constants::threads::kBlocksAtOnce, constants::threads::kFewBlocks;
   due.assign(list.nodes.size(), true);
   if (list.pairs.fit.empty()) return;
   const auto blocks = static_cast<std::int64_t>(list.block_begin.size()) - 1;
-  share_out(shares, blocks, threads, kAtOnce, kFew, [&](std::int64_t b) {
+  share_out(shares, blocks, threads, kBlocksAtOnce, kFewBlocks, [&](std::int64_t b) {
     const std::size_t begin = list.block_begin[b], end = list.block_begin[b + 1];
     bool any = false;
     for (std::size_t k = begin; k < end; ++k) {
       const double drift = largest_drift(list.pairs, list.nodes[k]);
       any |= drift >= refit;
-      due[k] = drift >= kSoon * refit;
+      due[k] = drift >= constants::contact::kEarlyRefit * refit;
     }
     for (std::size_t k = begin; k < end; ++k) {
       due[k] &= any;
@@ -91,14 +91,13 @@ void renumber_fits(const Tiling<Dim>& tiling, Indexed<KeptFit<Dim>>& fits) {
 }
 
 /// After particles have moved: adds to the drift of each fit how far the fastest field of its node has moved,
-/// or kSlide times the slip of surfaces in contact if that is more, since slip brings other support
+/// or kSlipDrift times the slip of surfaces in contact if that is more, since slip brings other support
 /// particles.
 template <int Dim>
 void drift_fits(const State<Dim>& state, double dt, ContactList<Dim>& list) {
-  constexpr double kSlide = 30;
-  constexpr std::int64_t kFew = 1024;  // nodes, below which one thread does all
+  using constants::contact::kSlipDrift, constants::threads::kFewCopies;
   PairColumns<Dim>& pairs = list.pairs;
-  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFew, [&](std::int64_t k) {
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFewCopies, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     const NodeFields<Dim> fields(state, list, node);
     double fastest = 0;
@@ -111,7 +110,7 @@ void drift_fits(const State<Dim>& state, double dt, ContactList<Dim>& list) {
         slip = fields.vector(Nodal::velocity, pair.a) - fields.vector(Nodal::velocity, pair.b);
       const Vec<Dim>& normal = pairs.geometry[e].normal;
       slip -= slip.dot(normal) * normal;
-      pairs.fit[e].drift += dt * std::max(fastest, kSlide * slip.norm());
+      pairs.fit[e].drift += dt * std::max(fastest, kSlipDrift * slip.norm());
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
 #include "engine/state/state.hpp"
 
@@ -25,9 +26,9 @@ struct RawNormal {
 /// @param sum  of all of them, its own included
 template <int Dim>
 bool is_confirmed(const RawNormal<Dim>& own, const Vec<Dim>& sum) {
-  constexpr double kCosine = 0.984807753012208;  // of 10 degrees
+  using constants::contact::kConfirmingCosine;
   const Vec<Dim> others = sum - own.weighted;
-  return own.weighted.dot(others) > kCosine * own.weighted.norm() * others.norm();
+  return own.weighted.dot(others) > kConfirmingCosine * own.weighted.norm() * others.norm();
 }
 
 template <int Dim>

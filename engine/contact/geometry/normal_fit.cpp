@@ -11,7 +11,7 @@ void NormalFit<Dim>::run(const State<Dim>& state, const ContactSpec& spec, const
                          ContactList<Dim>& list) {
   const FitChoice choice(spec);
   if (!choice.regress && !choice.separate) return;
-  const ParticleView<Dim> particles = const_cast<State<Dim>&>(state).view();  // read only here
+  const DomainView<Dim> domains = state.domains();
   const bool keeps_fits = !list.pairs.fit.empty();
   for (FitWorkspace<Dim>& work : workspaces_) {
     work.candidates.extent = choice.separate ? std::optional(choice.extent) : std::nullopt;
@@ -27,7 +27,7 @@ void NormalFit<Dim>::run(const State<Dim>& state, const ContactSpec& spec, const
   slabs_.cut(state, list, due_, choice.smooth);
   for (FitWorkspace<Dim>& work : workspaces_)
     work.clouds.resize(std::max(slabs_.at_once(), work.clouds.size()));
-  const Run run{state, spec, basis, choice, mean, particles};
+  const Run run{state, spec, basis, choice, mean, domains};
   std::size_t surrounded = 0;  // slabs whose means are taken
   for (std::size_t s = 0; s < slabs_.size(); ++s) {
     fit_slab(run, s, list);
@@ -152,8 +152,8 @@ void NormalFit<Dim>::find_candidates(const Run& run, const ContactList<Dim>& lis
       const auto tile = tiling.tiles.begin() + t;
       if (tile->field != node_tile.field) continue;  // sides of a crack share tiles: each tile once
       for (auto part = tile; part <= tile + tile->others; ++part) {
-        const TileContext<Dim> context{&run.particles, &*part, tiling.runs.data(), run.state.bodies.data(),
-                                       &run.state.grid};
+        const TileContext<Dim, DomainView<Dim>> context{&run.domains, &*part, tiling.runs.data(),
+                                                        run.state.bodies.data(), &run.state.grid};
         run.basis.add_candidates(context, box, work.candidates);
       }
     }

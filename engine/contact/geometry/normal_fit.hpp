@@ -34,7 +34,7 @@ class NormalFit {
     const ContactBasis<Dim>& basis;
     const FitChoice& choice;
     const MeanNormals<Dim>& mean;
-    const ParticleView<Dim>& particles;
+    const DomainView<Dim>& domains;
   };
   /// Where the cloud of a node is kept.
   struct KeptCloud {

@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "engine/constants.hpp"
 #include "engine/contact/published/explicit_pairs.hpp"
 #include "engine/contact/solver/solve_node.hpp"
 #include "engine/state/thread_team.hpp"
@@ -317,12 +318,11 @@ template <int Dim>
 template <class Begin, class Finish>
 auto Corrections<Dim>::solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish)
     -> Counts {
-  constexpr std::int64_t kAtOnce = 32, kFew = 64;  // nodes
   const ContactList<Dim>& list = pass.list;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  const int threads = n <= kFew ? 1 : pass.state.threads;
+  const int threads = n <= constants::threads::kFewSolved ? 1 : pass.state.threads;
   std::atomic<std::uint64_t> converged{0}, unconverged{0};
-  shares_.cut(threads, n, kAtOnce);
+  shares_.cut(threads, n, constants::threads::kSolvedAtOnce);
   on_threads(threads, [&](const TeamThread& me) {
     NodeLoop<Dim, Begin, Finish> loop(pass, solves_in_lanes_, begin, finish,
                                       workspaces_[static_cast<std::size_t>(me.thread)]);

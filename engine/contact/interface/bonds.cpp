@@ -4,6 +4,7 @@
 #include <limits>
 #include <variant>
 
+#include "engine/constants.hpp"
 #include "engine/contact/interface/bond_steps.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
 #include "engine/state/thread_team.hpp"
@@ -14,8 +15,8 @@ namespace mpmfast {
 template <int Dim>
 template <class F>
 void Bonds<Dim>::for_each(const State<Dim>& state, const ContactList<Dim>& list, const F& f) const {
-  constexpr std::int64_t kFew = 64;  // nodes, below which one thread does all
-  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFew, [&](std::int64_t k) {
+  using constants::threads::kFewSolved;
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFewSolved, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     const NodeFields<Dim> fields(state, list, node);
     for (int e = node.pair_begin; e < node.pair_end; ++e)
@@ -28,7 +29,6 @@ void Bonds<Dim>::for_each(const State<Dim>& state, const ContactList<Dim>& list,
 /// the nodes around. Surfaces that meet where there was no bond have a broken one.
 template <int Dim>
 void Bonds<Dim>::find(const State<Dim>& state, ContactList<Dim>& list) const {
-  constexpr double kTouch = 0.25;  // gap up to which surfaces are bonded at the start, cells
   PairColumns<Dim>& pairs = list.pairs;
   for_each(state, list, [&](const auto& node, const auto&, int e, const Cohesive&) {
     const ContactPair& pair = pairs.pair[e];
@@ -47,7 +47,7 @@ void Bonds<Dim>::find(const State<Dim>& state, ContactList<Dim>& list) const {
     }
     if (bond.damage_before >= 0) return;
     if (state.step == 0) {
-      const bool touch = pairs.geometry[e].separation < kTouch * state.grid.cell;
+      const bool touch = pairs.geometry[e].separation < constants::contact::kBondedGap * state.grid.cell;
       bond.damage = touch && !is_cracked(state, node, pair) ? 0 : 1;
     } else {
       take_nearest(state, node, e, list);
@@ -74,7 +74,6 @@ bool Bonds<Dim>::is_cracked(const State<Dim>& state, const ContactNode<Dim>& nod
 template <int Dim>
 void Bonds<Dim>::take_nearest(const State<Dim>& state, const ContactNode<Dim>& node, int e,
                               ContactList<Dim>& list) const {
-  constexpr double kAcross = 0.01;  // weight of a squared distance across the surface
   const Vec<Dim>& normal = list.pairs.geometry[e].normal;
   Bond<Dim>& bond = list.pairs.bond[e];
   double nearest = std::numeric_limits<double>::infinity();
@@ -88,7 +87,7 @@ void Bonds<Dim>::take_nearest(const State<Dim>& state, const ContactNode<Dim>& n
     Vec<Dim> offset = beside.offset_before;
     for (int d = 0, rest = position; d < Dim; ++d, rest /= 3) offset[d] += rest % 3 - 1;
     const double across = offset.dot(normal);
-    const double distance = offset.squaredNorm() - (1 - kAcross) * across * across;
+    const double distance = offset.squaredNorm() - (1 - constants::contact::kAcrossWeight) * across * across;
     if (!(distance < nearest)) continue;
     nearest = distance;
     bond.damage = beside.damage_before;
@@ -100,21 +99,21 @@ void Bonds<Dim>::take_nearest(const State<Dim>& state, const ContactNode<Dim>& n
 /// and passes that on when the surface has come to the next node.
 template <int Dim>
 void Bonds<Dim>::find_followers(const State<Dim>& state, ContactList<Dim>& list) const {
-  constexpr double kLittle = 0.05;  // share of the largest area around
+  using constants::contact::kLittleArea;
   for_each(state, list, [&](const auto& node, const auto&, int e, const Cohesive&) {
     Bond<Dim>& bond = list.pairs.bond[e];
     for (int position = 0; position < power(3, Dim); ++position)
       if (const int f = same_pair(state, list, node, list.pairs.pair[e], position); f >= 0)
-        bond.least_area = std::max(bond.least_area, kLittle * list.pairs.bond[f].area);
+        bond.least_area = std::max(bond.least_area, kLittleArea * list.pairs.bond[f].area);
   });
 }
 
-/// The material point of a bond moves with the mean velocity of its two fields. When it is kHalf a cell off
-/// along the surface, the next node takes it over. (If a node took |v| Δt/h of the last node's damage in each
-/// step, every vibration would mend what is broken beside what is whole.)
+/// The material point of a bond moves with the mean velocity of its two fields. When it is kBondOffset cells
+/// off along the surface, the next node takes it over. (If a node took |v| Δt/h of the last node's damage in
+/// each step, every vibration would mend what is broken beside what is whole.)
 template <int Dim>
 void Bonds<Dim>::carry(const State<Dim>& state, double dt, ContactList<Dim>& list) const {
-  constexpr double kHalf = 0.5;  // cells
+  using constants::contact::kBondOffset;
   PairColumns<Dim>& pairs = list.pairs;
   for_each(state, list, [&](const auto& node, const auto& fields, int e, const Cohesive&) {
     const ContactPair& pair = pairs.pair[e];
@@ -130,7 +129,7 @@ void Bonds<Dim>::carry(const State<Dim>& state, double dt, ContactList<Dim>& lis
     const Vec<Dim>& normal = pairs.geometry[e].normal;
     Bond<Dim>& bond = pairs.bond[e];
     const Vec<Dim> along = bond.offset - bond.offset.dot(normal) * normal;
-    if (!bond.follows() && !(along.template lpNorm<Eigen::Infinity>() > kHalf)) return;
+    if (!bond.follows() && !(along.template lpNorm<Eigen::Infinity>() > kBondOffset)) return;
     const double before = law.integrity_of(bond.damage);
     take_nearest(state, node, e, list);
     InterfaceSpring<Dim>& spring = pairs.spring[e];

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <variant>
 
+#include "engine/constants.hpp"
 #include "engine/contact/interface/bond_steps.hpp"
 #include "engine/contact/interface/extrapolated_jump.hpp"
 #include "engine/contact/pairs/neighbours.hpp"
@@ -73,10 +74,10 @@ Interfaces<Dim>::Interfaces(const Scene& scene, const Plan& plan, const PairLaws
 
 template <int Dim>
 void Interfaces<Dim>::find(const State<Dim>& state, ContactList<Dim>& list) const {
+  using constants::threads::kFewSolved;
   if (!active_) return;
-  constexpr std::int64_t kFew = 64;  // nodes, below which one thread does all
   if (bonds_active_) bonds_.find(state, list);
-  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFew, [&](std::int64_t k) {
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFewSolved, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     for (int e = node.pair_begin; e < node.pair_end; ++e) find_pair(state, node, e, list);
   });
@@ -164,10 +165,8 @@ template <int Dim>
 void Interfaces<Dim>::solve_node(const NodeFields<Dim>& fields, const ContactNode<Dim>& node, int acting,
                                  const FreeDirections<Dim>& free, double dt, ContactList<Dim>& list,
                                  std::vector<Vec<Dim>>& impulses) const {
-  constexpr int kSweeps = 200;
-  constexpr double kConverged = 1e-24;  // squared relative change
   PairColumns<Dim>& pairs = list.pairs;
-  for (int sweep = 0; sweep < (acting > 1 ? kSweeps : 1); ++sweep) {
+  for (int sweep = 0; sweep < (acting > 1 ? constants::contact::kSpringSweeps : 1); ++sweep) {
     double change = 0, largest = 0;
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
       InterfaceSpring<Dim>& spring = pairs.spring[e];
@@ -188,7 +187,7 @@ void Interfaces<Dim>::solve_node(const NodeFields<Dim>& fields, const ContactNod
       on_a += impulse;
       on_b -= impulse;
     }
-    if (change <= kConverged * largest) break;
+    if (change <= constants::contact::kSpringTolerance * largest) break;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "engine/constants.hpp"
 #include "engine/state/slots.hpp"
 #include "kernels/contact/friction_cone.hpp"
 
@@ -94,11 +95,11 @@ void record_impulses(const State<Dim>& state, const PairLaws& laws, const std::v
 template <int Dim>
 void record_friction(const State<Dim>& state, const PairLaws& laws, const CorrectionMethod& method,
                      ContactList<Dim>& list, ContactLedger<Dim>& ledger, std::vector<double>& block_sums) {
-  constexpr std::int64_t kNodes = 64;  // whose work makes one sum
+  using constants::contact::kNodesOfSum;
   PairColumns<Dim>& pairs = list.pairs;
   const auto n = static_cast<std::int64_t>(list.nodes.size());
-  block_sums.resize(static_cast<std::size_t>((n + kNodes - 1) / kNodes));
-  for_each_block(n, kNodes, state.threads, [&](std::int64_t begin, std::int64_t end) {
+  block_sums.resize(static_cast<std::size_t>((n + kNodesOfSum - 1) / kNodesOfSum));
+  for_each_block(n, kNodesOfSum, state.threads, [&](std::int64_t begin, std::int64_t end) {
     double sum = 0;
     for (std::int64_t k = begin; k < end; ++k) {
       const ContactNode<Dim>& node = list.nodes[k];
@@ -117,7 +118,7 @@ void record_friction(const State<Dim>& state, const PairLaws& laws, const Correc
         sum += impulse.friction_work;
       }
     }
-    block_sums[static_cast<std::size_t>(begin / kNodes)] = sum;
+    block_sums[static_cast<std::size_t>(begin / kNodesOfSum)] = sum;
   });
   for (const double sum : block_sums) ledger.friction_work += sum;
   if (laws.count() == 0) return;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "engine/constants.hpp"
 #include "engine/contact/geometry/kept_fit.hpp"
 #include "engine/contact/interface/interface_spring.hpp"
 #include "engine/state/indexed.hpp"
@@ -138,8 +139,8 @@ struct ContactList {
 /// f(node, e) for every pair e, node after node, in parallel.
 template <int Dim, class F>
 void for_each_pair(const ContactList<Dim>& list, int threads, const F& f) {
-  constexpr std::int64_t kFew = 256;  // nodes, below which one thread does all
-  for_each_of(static_cast<std::int64_t>(list.nodes.size()), threads, kFew, [&](std::int64_t k) {
+  using constants::threads::kFewNodes;
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), threads, kFewNodes, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
     for (int e = node.pair_begin; e < node.pair_end; ++e) f(node, e);
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "engine/constants.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
@@ -21,12 +22,11 @@ std::size_t PairFinder<Dim>::bytes() const {
 /// Each thread lists its share of the blocks; the listings follow each other in the order of the threads.
 template <int Dim>
 void PairFinder<Dim>::find(const State<Dim>& state, PairMemory<Dim>& memory, ContactList<Dim>& list) {
-  constexpr std::size_t kFewest = 64;  // blocks, below which threads would wait more than work
   const std::size_t blocks = state.tiling.node_blocks.size();
   memory.store(list, state.threads);
   list.node_at.resize(state.tiling.block_nodes());
   field_begin_.resize(blocks + 1);
-  const int asked = blocks < kFewest ? 1 : state.threads;
+  const int asked = blocks < constants::threads::kFewBlocks ? 1 : state.threads;
   listings_.resize(std::max(static_cast<std::size_t>(asked), listings_.size()));
   on_threads(asked, [&](const TeamThread& me) {
     const auto threads = static_cast<std::size_t>(me.threads), thread = static_cast<std::size_t>(me.thread);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "engine/constants.hpp"
 #include "engine/contact/geometry/fit_choice.hpp"
 #include "engine/state/check_values.hpp"
 #include "engine/state/thread_team.hpp"
@@ -68,10 +69,10 @@ PairMemory<Dim>::PairMemory(const Scene& scene, const Plan& plan, const PairLaws
 
 template <int Dim>
 void PairMemory<Dim>::store(const ContactList<Dim>& list, int threads) {
-  constexpr std::int64_t kFew = 1024;  // pairs, below which one thread does all
+  using constants::threads::kFewCopies;
   const PairColumns<Dim>& pairs = list.pairs;
   stored_.resize(pairs.size());
-  for_each_of(static_cast<std::int64_t>(pairs.size()), threads, kFew, [&](std::int64_t e) {
+  for_each_of(static_cast<std::int64_t>(pairs.size()), threads, kFewCopies, [&](std::int64_t e) {
     const PairStatus& status = pairs.status[e];
     Stored& stored = stored_[static_cast<std::size_t>(e)];
     stored.key = keys_[static_cast<std::size_t>(e)];

@@ -1,14 +1,10 @@
 #include "engine/contact/penalty/facet_bins.hpp"
 
+#include "engine/constants.hpp"
+
 namespace mpmfast::penalty {
 
 namespace {
-
-/// Least number of buckets, a power of two, –. It affects time only.
-constexpr std::size_t kLeastBuckets = 16;
-
-/// Buckets per facet, –, so that few bins share a bucket. It affects time only.
-constexpr std::size_t kBucketsPerFacet = 2;
 
 /// Large primes that spread neighbouring bins over the buckets, by axis. They affect time only.
 constexpr std::uint32_t kHashPrimes[3] = {73856093u, 19349663u, 83492791u};

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/contact/penalty/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/state/archive.hpp"
 #include "kernels/contact/laws.hpp"
 #include "kernels/dimension.hpp"

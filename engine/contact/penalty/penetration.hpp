@@ -15,7 +15,7 @@
 #include <cmath>
 #include <span>
 
-#include "engine/contact/penalty/constants.hpp"
+#include "engine/constants.hpp"
 #include "kernels/contact/closest_point.hpp"
 
 namespace mpmfast::penalty {

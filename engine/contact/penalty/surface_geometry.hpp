@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "engine/contact/penalty/constants.hpp"
+#include "engine/constants.hpp"
 #include "engine/contact/penalty/item.hpp"
 #include "engine/state/state.hpp"
 

@@ -1,5 +1,6 @@
 #include "engine/contact/published/grid_geometry.hpp"
 
+#include "engine/constants.hpp"
 #include "engine/contact/pairs/node_fields.hpp"
 #include "kernels/contact/separation.hpp"
 
@@ -42,7 +43,6 @@ template <int Dim>
 void find_gradient_normal(const State<Dim>& state, const ContactSpec& spec, const NodeFields<Dim>& fields,
                           const ContactNode<Dim>& node, const ContactPair& pair,
                           PairGeometry<Dim>& geometry) {
-  constexpr double kAlways = 10;  // rigid_bias from which the rigid body's gradient replaces a regression
   const SideVolumes<Dim> sides(state, fields, node, pair);
   Vec<Dim> normal = sides.own - sides.others;
   bool gradients = true;
@@ -62,7 +62,8 @@ void find_gradient_normal(const State<Dim>& state, const ContactSpec& spec, cons
       gradients = false;
   }
   // NN §3.5: a rigid body keeps its shape, and so does its gradient.
-  if (meets_rigid(node, pair) && spec.rigid_bias > 0 && (gradients || spec.rigid_bias >= kAlways) &&
+  if (meets_rigid(node, pair) && spec.rigid_bias > 0 &&
+      (gradients || spec.rigid_bias >= constants::contact::kCertainRigidBias) &&
       sides.others.norm() * spec.rigid_bias >= sides.own.norm()) {
     normal = -sides.others;
     geometry.prescribed = true;
