@@ -71,7 +71,7 @@ std::vector<std::string> plan_lines(const Scene& scene) {
   const auto line = [&](const char* name, const auto& value) {
     lines.push_back(fmt::format("{}: {}", name, value));
   };
-  line("depth", word(plan.plane_kind, std::array{"held", "plane_stress", "hoop"}));
+  line("depth", word(plan.plane_kind, std::array{"held", "relaxed", "hoop"}));
   line("update", word(plan.update, std::array{"flip", "pic", "xpic", "apic"}));
   line("position", word(plan.position, std::array{"grid_end", "grid", "trapezoid", "particle"}));
   line("dimension", plan.dimension);
