@@ -3,6 +3,8 @@
 set(common <Eigen/LU> <algorithm> <array> <cmath> <filesystem> <fmt/format.h> <fmt/ranges.h> <fstream> <map> <optional>
   <string> <variant> <vector>)
 target_precompile_headers(mpmfast_quantities PRIVATE ${common})
+# One for each level of optimisation: g++ compiles a file with the level of its precompiled header.
+target_precompile_headers(mpmfast_geometry PRIVATE ${common})
 # A program takes a header that was compiled for libraries if its own code is compiled alike.
 function(reuse_headers from)
   foreach(target ${ARGN})
@@ -14,8 +16,9 @@ set(program mpmfast)
 if(TARGET mpmfast_program)
   set(program mpmfast_program)
 endif()
-reuse_headers(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_state mpmfast_conditions
-  mpmfast_contact mpmfast_loads mpmfast_step mpmfast_core mpmfast_study mpmfast_report ${program})
+reuse_headers(mpmfast_quantities mpmfast_scene mpmfast_study ${program})
+reuse_headers(mpmfast_geometry mpmfast_output mpmfast_state mpmfast_conditions mpmfast_contact mpmfast_heat mpmfast_loads
+  mpmfast_step mpmfast_core mpmfast_report)
 if(MPMFAST_TESTS)
   target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)
@@ -23,7 +26,7 @@ if(MPMFAST_TESTS)
   reuse_headers(test_main test_support unit_tests kernel_tests short_tests validation_tests)
 endif()
 if(MPMFAST_BENCH)
-  reuse_headers(mpmfast_quantities benchmarks)
+  reuse_headers(mpmfast_geometry benchmarks)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # What bug 105651 says falsely of std::string, g++ 12 says in more ways where its header is precompiled: no matter for

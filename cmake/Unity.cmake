@@ -1,12 +1,13 @@
 # Several files in one translation unit: each begins with the same headers, which take most of the time that a short file
-# takes. Not the passes of the bases and contact: their files are long.
+# takes. Not the passes of the bases: their files are long.
 set(program mpmfast)
 if(TARGET mpmfast_program)
   set(program mpmfast_program)
 endif()
 set_target_properties(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_core mpmfast_study
   mpmfast_report ${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
-set_target_properties(mpmfast_state mpmfast_step PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
+set_target_properties(mpmfast_state mpmfast_step mpmfast_conditions mpmfast_contact mpmfast_heat mpmfast_loads PROPERTIES
+  UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
 set_source_files_properties(${BASIS_SOURCES} TARGET_DIRECTORY mpmfast_step PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 # The tests of a program in so many units, by a hash of the file's name: a new file moves no other. Two tests of a unit must
@@ -44,7 +45,7 @@ if(MPMFAST_BENCH)
 endif()
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # An unnamed namespace of an included file belongs to the unit all the same.
-  foreach(target mpmfast_state mpmfast_step ${united})
+  foreach(target mpmfast_state mpmfast_step mpmfast_conditions mpmfast_contact mpmfast_heat mpmfast_loads ${united})
     target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
   endforeach()
 endif()
