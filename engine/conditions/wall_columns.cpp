@@ -210,8 +210,11 @@ void SurfaceWalls<Dim>::find_gaps(const State<Dim>& state) {
     column.gap = state.grid.cell * column.gaps.least(constants::conditions::kColumnSlack);
 }
 
-// Here: the members that this file defines.
-template class SurfaceWalls<2>;
-template class SurfaceWalls<3>;
+template void SurfaceWalls<2>::list(const State<2>&, const Prescribed&);
+template void SurfaceWalls<3>::list(const State<3>&, const Prescribed&);
+template void SurfaceWalls<2>::list_near(const State<2>&);
+template void SurfaceWalls<3>::list_near(const State<3>&);
+template void SurfaceWalls<2>::find_gaps(const State<2>&);
+template void SurfaceWalls<3>::find_gaps(const State<3>&);
 
 }  // namespace mpmfast

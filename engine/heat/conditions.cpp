@@ -161,8 +161,11 @@ void Heat<Dim>::feed(State<Dim>& state, double t, double dt) {
   }
 }
 
-// Here: the members that this file defines.
-template class Heat<2>;
-template class Heat<3>;
+template void Heat<2>::list_nodes(const State<2>&);
+template void Heat<3>::list_nodes(const State<3>&);
+template void Heat<2>::apply_boundary_flow(State<2>&, const Fed&, double);
+template void Heat<3>::apply_boundary_flow(State<3>&, const Fed&, double);
+template void Heat<2>::feed(State<2>&, double, double);
+template void Heat<3>::feed(State<3>&, double, double);
 
 }  // namespace mpmfast

@@ -214,8 +214,13 @@ void Heat<Dim>::cross(State<Dim>& state, const Contact<Dim>& contact, double dt)
     }
 }
 
-// Here: the members that this file defines.
-template class Heat<2>;
-template class Heat<3>;
+template void Heat<2>::find_crossings(const State<2>&, const Contact<2>&);
+template void Heat<3>::find_crossings(const State<3>&, const Contact<3>&);
+template void Heat<2>::tie(State<2>&, const Contact<2>&, Nodal);
+template void Heat<3>::tie(State<3>&, const Contact<3>&, Nodal);
+template void Heat<2>::add_friction_heat(State<2>&, const Contact<2>&, double);
+template void Heat<3>::add_friction_heat(State<3>&, const Contact<3>&, double);
+template void Heat<2>::cross(State<2>&, const Contact<2>&, double);
+template void Heat<3>::cross(State<3>&, const Contact<3>&, double);
 
 }  // namespace mpmfast
