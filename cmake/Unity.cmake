@@ -5,7 +5,7 @@ if(TARGET mpmfast_program)
   set(program mpmfast_program)
 endif()
 set_target_properties(mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_core mpmfast_study
-  mpmfast_report ${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
+  mpmfast_report ${program} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
 set_target_properties(mpmfast_state mpmfast_step mpmfast_conditions mpmfast_contact mpmfast_heat mpmfast_loads PROPERTIES
   UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 5)
 set_source_files_properties(${BASIS_SOURCES} TARGET_DIRECTORY mpmfast_step PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -110,8 +110,8 @@ void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& 
 }
 
 /// Is the pair in contact after the second correction? True if that correction presses, or if the first one
-/// acted and the surfaces still approach as fast as the gap needs. Velocities below kVelocityRoundOff cells a step are
-/// round-off.
+/// acted and the surfaces still approach as fast as the gap needs. Velocities below kVelocityRoundOff cells a
+/// step are round-off.
 /// @param mass  of field a, kg
 /// @param relative  v_b − v_a after the correction, m/s
 template <int Dim>
@@ -125,8 +125,9 @@ bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, con
 
 /// The elastic recovery length of a pair, m: how far its surfaces would approach each other without the
 /// contact force F. It is F T²/(2 m_red) with the time T in which the fastest wave crosses a cell. Between
-/// bodies that F strains by ε it is 2 h ε, with a layer of h and the mass ½ ρ h³ on each side. The result is a moving
-/// mean in which the new value has the weight kRecoveryShare; a new contact begins with its own value.
+/// bodies that F strains by ε it is 2 h ε, with a layer of h and the mass ½ ρ h³ on each side. The result is
+/// a moving mean in which the new value has the weight kRecoveryShare; a new contact begins with its own
+/// value.
 /// @param crossing      T, s
 /// @param inverse_mass  1/m_red, 1/kg
 template <int Dim>
