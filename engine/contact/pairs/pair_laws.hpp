@@ -63,10 +63,12 @@ class PairLaws {
   bool all(const F& holds) const {
     return std::all_of(laws_.begin(), laws_.end(), holds);
   }
-  /// Calls f with the laws in the form that costs least: OneLaw or LawsByPair.
+  /// Calls f with the laws in the form that costs least: OneLaw or LawsByPair. Coulomb's law, which most
+  /// scenes have, is called directly.
   template <class F>
   void dispatch(const F& f) const {
     if (by_pair_) return f(LawsByPair{laws_});
+    if (const auto* coulomb = std::get_if<Coulomb>(&laws_.front())) return f(OneLaw<Coulomb>{*coulomb});
     std::visit([&](const auto& law) { f(OneLaw<std::decay_t<decltype(law)>>{law}); }, laws_.front());
   }
 
