@@ -38,7 +38,7 @@ class Conditions {
     walls_.invalidate_nodes();
   }
 
-  /// What lasts from one step to the next.
+  /// The state that persists from step to step.
   void visit(Archive& archive) { walls_.visit(archive); }
 
   /// Puts the prescribed components into the nodal velocities that the strain is taken from: `velocity`, or

@@ -46,7 +46,7 @@ class SurfaceWalls {
   explicit SurfaceWalls(const Scene& scene);
   bool empty() const { return walls_.empty(); }
   void invalidate_nodes() { stale_ = true; }
-  /// What lasts from one step to the next: the columns that stick.
+  /// The state that persists from step to step: the columns that stick.
   void visit(Archive& archive);
 
   /// Planes, columns and gaps of the step from t to t + dt, after the projection of masses.

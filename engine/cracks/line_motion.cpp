@@ -11,7 +11,7 @@ namespace mpmfast {
 
 namespace {
 
-/// Which bit of the sides of a node tells the sides of this crack apart; 0: the node does not see it.
+/// The bit of a node's crack sides that belongs to this crack; 0: the node has no side of it.
 template <int Dim>
 int side_bit(const CrackedNode<Dim>* node, int crack) {
   int bit = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file The nodes on which particles have weight, as the basis tells them.
+/// @file The nodes on which particles have weight in the basis of the run.
 
 #include <cstddef>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file What the contact of crack sides tells about a tip: softening bonds and tractions. No other file of
+/// @file Softening bonds and tractions near a tip, read from the contact of crack sides. No other file of
 /// cracks reads the list of contacts.
 
 #include <optional>

@@ -153,8 +153,8 @@ void Heat<Dim>::tie(State<Dim>& state, const Contact<Dim>& contact, Nodal quanti
   });
 }
 
-/// Heat of friction, by effusivities: as two half-spaces share it that are equally warm where they touch.
-/// (The books want one order, and a node has little to do: one thread.)
+/// Adds the heat of friction, shared by effusivities: two half-spaces of one temperature share it so.
+/// (One thread: the ledger needs one order, and a node has little to do.)
 template <int Dim>
 void Heat<Dim>::add_friction_heat(State<Dim>& state, const Contact<Dim>& contact, double dt) {
   const auto& list = contact.list();

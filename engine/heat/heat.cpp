@@ -131,8 +131,8 @@ void Heat<Dim>::end(State<Dim>& state, double t, double dt) {
       temperature[fed.slot] = held(fed, face(fed, t), [&](int slot) { return temperature[slot]; });
 }
 
-/// Σ_{k<m} (I − B)ᵏ T⁺, B what the grid gets back of what particles have of it; m = 1: T⁺ itself. Nodes that
-/// are held are as they are told.
+/// Σ_{k<m} (I − B)ᵏ T⁺, B what the grid gets back of what particles have of it; m = 1: T⁺ itself. Nodes with
+/// prescribed temperatures keep them.
 template <int Dim>
 void Heat<Dim>::filter(State<Dim>& state, HeatCarrier<Dim>& carrier, const Contact<Dim>& contact) {
   auto& nodes = state.nodes;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file Which discs of a picture show, where they are told from the front to the back.
+/// @file The visible discs of a picture, given in order from the front to the back.
 
 #include <cstdint>
 #include <vector>

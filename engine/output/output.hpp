@@ -80,11 +80,11 @@ struct HistoryRow {
 template <int Dim>
 void fill_particle_sums(const Particles<Dim>& particles, const Scene& scene, HistoryRow& row);
 
-/// Do the particles of a body leave each other by its law, as grains and fluids do? F then tells nothing of
+/// Do the particles of a body leave each other by its law, as grains and fluids do? F then says nothing about
 /// neighbours.
 bool flows(const Scene& scene, const BodySpec& body);
 
-/// How far apart neighbouring particles of one body were at most, as their F tells.
+/// The largest distance between neighbouring particles of one body, from their F.
 struct Spacing {
   double cells{};
   std::uint64_t body{};  ///< into Scene::bodies

@@ -9,8 +9,8 @@
 
 namespace mpmfast {
 
-/// The columns that the file holds or tells: place, velocity, F, stress, initial volume, evolving state.
-/// Throws FileError where it does not fit the scene.
+/// The columns that the file holds, or that follow from it: position, velocity, F, stress, initial volume,
+/// evolving state. Throws FileError where it does not fit the scene.
 template <int Dim>
 Particles<Dim> read_frame(const VtuReader& file, const std::filesystem::path& path, const Scene& scene);
 

@@ -13,7 +13,7 @@ namespace mpmfast {
 /// shapes (judged on a raster).
 double estimated_particles(const Scene& scene);
 
-/// What a run takes for a while beside what lasts.
+/// Memory that a run needs for a while only.
 struct PassingNeed {
   double bytes{};
   const char* reason = "";  ///< what takes it

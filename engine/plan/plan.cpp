@@ -41,8 +41,8 @@ void plan_method(const MethodSpec& method, Plan& plan) {
   plan.deformation_terms = method.deformation_terms;
 }
 
-/// The grains of a law that parts them leave each other: a longer domain tells nothing of the material there,
-/// and that of a lone grain grows without end.
+/// The grains of a law that parts them leave each other: a longer domain says nothing about the material
+/// there, and that of a lone grain grows without end.
 void plan_splitting(const Scene& scene, Plan& plan) {
   if (!scene.method.split || !facts(plan.basis).convected) return;
   plan.split_edge = scene.method.split_edge;

@@ -52,7 +52,7 @@ enum class Task : std::uint8_t {
   grow_cracks,
 };
 
-/// What the seconds of a run are told by (run.json).
+/// The timers of a step (run.json, `seconds`).
 enum class Timer : std::uint8_t {
   sort,
   project,

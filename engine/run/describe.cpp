@@ -99,7 +99,7 @@ std::string contact_text(const ContactSpec& contact) {
   return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
 }
 
-/// What lasts, then what comes to it, and the sum. @param step  that has advanced
+/// Memory for the whole run, memory for a while, and their sum. @param step  that has advanced
 template <int Dim>
 std::string memory_text(const Step<Dim>& step, const Scene& scene) {
   const State<Dim>& state = step.state();

@@ -161,7 +161,7 @@ struct BoundarySpec {
   std::variant<WallSpec, VelocityBoxSpec> condition;
 };
 
-/// What nodes at and beyond a face of the grid, or in a box, are told of heat.
+/// A heat condition on the nodes at and beyond a face of the grid, or in a box.
 struct HeatConditionSpec {
   enum class Kind { temperature, flux, ambient };
   std::string name;

@@ -3,7 +3,7 @@
 /// @file How a state is written to a checkpoint and read from it: by one function for both ways, so that
 /// nothing is kept that does not come back.
 ///
-/// `visit(archive)` hands every number that lasts from one step to the next to an archive, under a name of
+/// `visit(archive)` hands every number that persists from step to step to an archive, under a name of
 /// its own. One that writes takes the numbers, one that reads fills them in.
 
 #include <concepts>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file Splitting: a particle whose convected domain has become longer than the grid functions bridge is
+/// @file Splitting: a particle whose convected domain has become longer than the grid functions span is
 /// halved across its longest direction (tools/manual/theory.md, "Splitting").
 ///
 /// A domain has the half-edge vectors r_k = F s_k l_k e_k, l_k of its body and s_k its own share of that.

@@ -63,7 +63,7 @@ class Step {
   void find_stresses();
 
   /// Adds to one component of the particles' velocities, m/s, in the order of the columns; the energy that
-  /// this brings is booked as work of loads.
+  /// this brings is recorded as work of loads.
   void add_velocity(int axis, std::span<const double> change);
 
   /// Throws the RunFailure of a time step that collapsed to dt: who holds it, and why.
@@ -99,12 +99,12 @@ class Step {
   double interface_energy() const { return contact_.ledger().stored; }
   double dissipated_energy();  ///< plastic work and viscous heat so far, J
 
-  /// All that lasts from one step to the next: filled from an archive, a step of the same scene goes on to
+  /// The state that persists from step to step: filled from an archive, a step of the same scene goes on to
   /// the bit as the one that was written. Throws what the archive throws.
   void visit(Archive& archive);
 
  private:
-  /// What crosses a cell first: waves in particles, and what is told to move, m/s.
+  /// The fastest speed, m/s: of waves in particles and of prescribed motion.
   double fastest() const;
   /// Below a thousand particles a thread, waiting for each other costs more than the work.
   void choose_threads();

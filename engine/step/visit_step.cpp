@@ -1,4 +1,4 @@
-/// What lasts from one step to the next, all of it and nothing else: what a step computes before it reads it
+/// All state that persists from step to step, and nothing else: what a step computes before it reads it
 /// (nodes, contact nodes, speeds of boundaries and rigid bodies) is not here.
 
 #include <fmt/format.h>

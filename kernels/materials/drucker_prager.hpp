@@ -27,7 +27,7 @@ struct DruckerPrager {
                               *kDescription =
                                   "soil and sand: cohesion, friction, dilation, no or little tension";
   static constexpr StateColumns kColumns{true, false, true, false, true};
-  static constexpr bool kParts = true;          ///< grains leave each other: F tells nothing of neighbours
+  static constexpr bool kParts = true;          ///< grains leave each other: F says nothing about neighbours
   static constexpr bool kElasticVolume = true;  ///< elastic_strain has the volume in it
   static constexpr double start_temperature = 293;  ///< K, of no account
   static constexpr double heat_share = 1;           ///< of what it dissipates

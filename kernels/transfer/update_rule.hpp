@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file What the particle update is told, and what it reports: for those who call it without its kernel.
+/// @file Inputs and results of the particle update, without its kernel.
 
 namespace mpmfast {
 

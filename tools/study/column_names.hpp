@@ -16,7 +16,7 @@ struct UnknownName {
 };
 
 /// The names of the expression that are not known. One that is known but lacks its backquotes falls apart
-/// into several: they are told once.
+/// into several: they are reported once.
 std::vector<UnknownName> unknown_names(const Expression& expression, std::span<const std::string> known);
 
 }  // namespace mpmfast

@@ -202,7 +202,7 @@ std::string error_label(const Study& study, const StudyRuns& runs) {
 }
 
 /// The points of a panel as gnuplot commands, without what they mean.
-/// @param colour  the axis that tells joined methods apart by colour; one that is none: they are grey
+/// @param colour  the axis that gives connected methods their colour; one that is none: they are grey
 /// @param suffix  of the names of its blocks; @param data  the blocks are added
 std::string plot_of(const ChartPoints& points, std::size_t colour, const std::string& front_title,
                     const std::string& suffix, std::string& data) {

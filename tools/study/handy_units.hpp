@@ -8,7 +8,7 @@
 
 namespace mpmfast {
 
-/// The unit that the end of a column's name tells: "s" of time_s; empty where it tells none.
+/// The unit at the end of a column's name: "s" of time_s; empty where it has none.
 std::string unit_of_column(const std::string& name);
 
 /// That of a column, and of a sum of columns of one unit; empty for anything else, whose factors we do not

@@ -33,7 +33,7 @@ struct Launched {
 /// by somebody else, never begun. What it says goes to NAME.log beside its folder. Throws FileError when its
 /// order cannot be written.
 /// @param anew   what is in its folder does not count
-/// @param again  is told why it is started again
+/// @param again  called with the reason for which it is started again
 Launched run_launched(const StudyRun& run, const Launch& launch, bool anew,
                       const std::function<void(const std::string&)>& again);
 

@@ -42,7 +42,7 @@ struct ErrorSpec {
 /// One value of an axis.
 struct Choice {
   std::string name;
-  std::string label;  ///< in names of runs: tells the key where the value alone does not, "cfl=0.2"
+  std::string label;  ///< in names of runs; with the key where the value alone is ambiguous: "cfl=0.2"
   std::vector<Setting> set;
   Constants let;                               ///< names for the study's expressions
   Only only;                                   ///< what this one goes with
@@ -85,7 +85,7 @@ inline constexpr std::array<Keyword<Over>, 4> kOvers{{
     {Over::mean, "mean", "the mean of the history's rows"},
 }};
 
-/// A number of each run that is only told, not judged.
+/// A number of each run that is reported, without an error.
 struct QuantitySpec {
   std::string name;
   std::optional<Formula> quantity;
@@ -159,7 +159,7 @@ std::string file_name_of(const std::string& name);
 /// study's), then Study::more.
 std::vector<ErrorSpec> error_specs(const Study& study, const std::vector<std::size_t>& choice);
 
-/// Are the runs compared by an error, or only told?
+/// Are the runs compared by an error, or only reported?
 inline bool has_error(const Study& study) { return study.error || !study.conditions.empty(); }
 
 /// The scene that a combination of choices runs: that of the last axis that names one, or the study's.

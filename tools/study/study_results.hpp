@@ -30,7 +30,7 @@ struct StudyResult {
 /// Has the run finished, and does every condition hold that applies?
 bool holds(const StudyResult& result);
 
-/// The machine and the program, as the first run tells.
+/// The machine and the program of the first run.
 struct StudyMachine {
   std::string cpu, version;
   int threads = 0;

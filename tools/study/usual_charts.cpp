@@ -10,7 +10,7 @@ namespace mpmfast {
 
 namespace {
 
-constexpr std::size_t kMostCurves = 16;    // more cannot be told apart
+constexpr std::size_t kMostCurves = 16;    // more cannot be distinguished
 constexpr double kRoundOff = 1e-9;         // of what is summed
 constexpr std::string_view kAll = "all.";  // before columns of all bodies together
 constexpr std::string_view kMass = ".mass_kg";

@@ -2,7 +2,7 @@
 
 /// @file The keys of a scene, each described once: its name, what it means, the member that it fills, the
 /// form of its value. A description is a function of `Keys`, which reads a map of a scene into the members,
-/// writes them as a map, or tells what may stand there (known.hpp).
+/// writes them as a map, or lists the keys that are known (known.hpp).
 
 #include <array>
 #include <cstddef>
@@ -101,7 +101,7 @@ class Slot {
   bool reference(int& index, const std::vector<std::string>& names);
 
   // Where a value has several forms, each of these says whether it is this one: what is read looks so, what
-  // is written is `chosen`. What is told is all of them, one after another.
+  // is written is `chosen`. The list of known keys has all of them.
   bool is_keyword(const char* word, bool chosen, const char* description = "");
   bool is_map(bool chosen, const MapBody& body);
   bool is_list(bool chosen, const std::string& expected, int least, int most, std::size_t& count,
@@ -181,7 +181,7 @@ class Keys {
   bool need_at(const std::string& name, const char* description, const std::string& expected,
                const Slot::Body& body);
 
-  /// As key and at, where what is taken in its absence follows from other keys: no default is told.
+  /// As key and at, where the default follows from other keys: the list of known keys has none.
   template <class T, class F>
   bool derived(const std::string& name, const char* description, T& member, const F& form) {
     return derived_at(name, description, [&](Slot& slot) { slot.take(member, form); });
@@ -220,7 +220,7 @@ class Keys {
   Choice one_of(const KeyGroups& groups, int written = 0);
 
   /// Keys that the map has under a condition: "bitmap" and "!bitmap" (this key is there, or not),
-  /// "model=rigid", "3d". They are described where it holds, and told of always. Told is what the map does
+  /// "model=rigid", "3d". They are read where it holds, and always listed. Listed is what the map does
   /// not have anyway; a key of the condition's own name is one that it may have.
   void under(const std::string& condition, bool holds, const std::function<void()>& body);
 
@@ -242,7 +242,7 @@ class Keys {
   enum class Presence { optional, derived, needed, chosen };  ///< the last: its name is the user's choice
   /// @param absent  what is returned where nothing is found
   bool read(const std::optional<Value>& found, bool absent, const Slot::Body& body);
-  /// Writes or tells.
+  /// Writes or lists.
   bool describe(const std::string& name, const char* description, Presence presence, const Slot::Body& body);
   void register_key(const std::string& name, const char* description, Presence presence,
                     const Slot::Body& body);

@@ -52,7 +52,7 @@ struct Known {
   const Form* form(Form::Kind kind) const;
 };
 
-/// Hears what the descriptions tell. What is told twice, of planes and of solids, is merged.
+/// Collects the keys that the descriptions list. Keys listed twice, for planes and for solids, are merged.
 class KeyRegistry {
  public:
   void form(const std::string& pattern, const Form& form);
@@ -60,7 +60,7 @@ class KeyRegistry {
   /// @param child  pattern of the key's value
   void key(const std::string& map, const std::string& child, bool needed, const std::string& description);
   void standard(const std::string& pattern, const std::string& text);
-  /// From now on, what is told of these values is not what is taken in their absence.
+  /// From now on, these keys have values that are not their defaults.
   void choose(const std::vector<std::string>& patterns) { chosen_ = patterns; }
   void closed(const std::string& map) { found_[map].closed = true; }
   void groups(const std::string& map, const KeyGroups& groups) { found_[map].one_of = groups; }

@@ -14,7 +14,7 @@ namespace mpmfast {
 
 namespace {
 
-/// A line of the page that stands for what is told:
+/// A line of the page that is replaced by generated text:
 ///   @about KEY         its form and its meaning
 ///   @keys MAP KEY …    a table of these keys (the map of all is `scene`)
 ///   @rest MAP          a table of the keys of a map that no @keys has
@@ -51,7 +51,7 @@ const std::vector<Directive>& tables() {
   return kTables;
 }
 
-const std::string& sentence_on(const std::string& pattern) { return known_at(pattern).description; }
+const std::string& description_at(const std::string& pattern) { return known_at(pattern).description; }
 
 /// The third column.
 std::string default_column(const KnownKey& key) {
@@ -69,7 +69,7 @@ class KeyRows {
   void add(const KnownKey& key, const std::string& path) {
     text_ += fmt::format("| {} | {} | {} | {}{} |\n", path == "FACE" ? face_names() : "`" + path + "`",
                          form_text(key.pattern, false), default_column(key), condition(key),
-                         sentence_on(key.pattern));
+                         description_at(key.pattern));
     add_words(key, path);
     if (has_table(key.pattern)) return;
     for (const KnownKey& inner : all_keys(key.pattern)) add(inner, path + "." + inner.name);
@@ -151,7 +151,7 @@ bool merge(SharedKey& known, const SharedKey& other) {
 
 void collect(const std::string& owner, const std::string& map, std::vector<SharedKey>& rows) {
   for (const KnownKey& key : all_keys(map)) {
-    const SharedKey row{key.name, form_text(key.pattern, false), sentence_on(key.pattern), {owner}};
+    const SharedKey row{key.name, form_text(key.pattern, false), description_at(key.pattern), {owner}};
     const bool known = std::any_of(rows.begin(), rows.end(), [&](SharedKey& r) { return merge(r, row); });
     const auto twin =
         std::find_if(rows.rbegin(), rows.rend(), [&](const SharedKey& r) { return r.name == row.name; });
@@ -221,7 +221,7 @@ std::string table_text(const Directive& table, const std::string& caption) {
 /// "`grid` (map, needed): The grid of cubic cells …".
 std::string about(const std::string& key) {
   return fmt::format("`{}` ({}{}): {}\n", key, form_text(key, false), known_at(key).needed ? ", needed" : "",
-                     sentence_on(key));
+                     description_at(key));
 }
 
 /// @param caption  the line of text before it

@@ -64,7 +64,7 @@ class SchemaWriter {
   }
 
  private:
-  /// Of the early keys, which no reader tells of.
+  /// Of the early keys, which no description lists.
   static Json early_properties() {
     const Json text{{"type", "string"}};
     Json out{{"variables", {{"type", "object"}, {"additionalProperties", {{"type", {"number", "string"}}}}}},

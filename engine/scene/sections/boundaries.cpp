@@ -208,7 +208,7 @@ std::vector<BoundaryEntry> written_entries(const Scene& scene) {
   return out;
 }
 
-/// What is told of: a face, with a wall that stands still or moves, and nodes.
+/// The entries that are listed: a face, with a wall that stands still or moves, and nodes.
 std::vector<BoundaryEntry> described_entries(const Scene& scene) {
   return {{kFaces[0].name, wall_on(kFaces[0], scene.grid)}, {"", {}}};
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// @file The sections of a scene: each is described once, and read, written and told of by its description
+/// @file The sections of a scene: each is described once, and read, written and listed by its description
 /// (keys.hpp). What follows from several sections is checked after they are read.
 
 #include <string>

@@ -78,7 +78,7 @@ class PairEntries {
     slot.list(materials ? "a list of two materials" : "a list of two bodies", 2, 2, count,
               [&](Slot& item, std::size_t k) {
                 if (item.reads() && !materials && states_unread(item.value()->node())) {
-                  item.keep(false);  // told where the body stands
+                  item.keep(false);  // reported where the body stands
                   return;
                 }
                 int& index = pair.between[k];

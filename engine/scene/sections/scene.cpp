@@ -157,7 +157,7 @@ const std::map<std::string, Known>& known_values() {
       scene.space = space.value;
       register_key(scene);
     }
-    // Choices on which defaults of other keys depend: those are told to vary.
+    // Choices on which defaults of other keys depend: those vary.
     knowledge.choose({"contact.normal", "contact.law", "method.update", "method.strain"});
     scene.contact.normal = NormalKind::specified;
     scene.contact.law.acts = Adhesion{};
