@@ -1,6 +1,12 @@
 // Elastic bodies that meet keep their energy, friction counted: the default strain with its one set of
 // touching pairs a step. Beside the figures, those of `strain: average`.
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 #include "tests/turned.hpp"
 
 namespace mpmfast {
@@ -73,14 +79,22 @@ TEST_CASE("rings, spheres, a disk that spins and a bar that swings at a wall kee
 }
 
 TEST_CASE("grains pressed until many jam on a node keep their energy") {
-  const auto error = [](const char* friction) {
-    return energy_error("hard/grains.yaml",
-                        {{"bodies.0.bitmap", "grains_6.png"}, {"contact.friction", friction}});
+  // Such grains forget how they began: moduli that differ by 1e-9 give errors from -0.5 to 0.5 %, and one run
+  // in some thirty -3 %, where a nearly massless field has friction in a jam. So the middle of three runs
+  // counts. (With pairs that do not converge it is +18 %.)
+  const auto middle_error = [](const char* friction) {
+    std::array<double, 3> errors{};
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      errors[k] =
+          energy_error("hard/grains.yaml",
+                       {{"bodies.0.bitmap", "grains_6.png"},
+                        {"contact.friction", friction},
+                        {"materials.aluminium.bulk", fmt::format("{:.9f} GPa", 78.09 + 1e-7 * double(k))}});
+    std::sort(errors.begin(), errors.end());
+    return errors[1];
   };
-  // Such grains forget how they began: time steps that differ by 1e-7 give -1.2 to 0.5 %, ten of them -0.3 %
-  // in the mean. With pairs that did not settle +18 %.
-  CHECK(std::abs(error("0.2")) < 0.02);
-  CHECK(std::abs(error("0")) < 0.015);  // -1.1 %; the other packings -0.1 to -1.1
+  CHECK(std::abs(middle_error("0.2")) < 0.01);
+  CHECK(std::abs(middle_error("0")) < 0.015);  // -1.1 %; the other packings -0.1 to -1.1
 }
 
 TEST_CASE("what pairs lose as they part falls with the cell") {
