@@ -19,7 +19,7 @@ endif()
 reuse_headers(mpmfast_quantities mpmfast_scene mpmfast_study ${program})
 reuse_headers(mpmfast_geometry mpmfast_output mpmfast_state mpmfast_conditions mpmfast_contact mpmfast_heat mpmfast_loads
   mpmfast_step mpmfast_core mpmfast_report)
-if(MPMFAST_TESTS)
+if(MPMFAST_TESTS AND NOT MPMFAST_TEST_OBJECTS)
   target_precompile_headers(test_main PRIVATE ${common} <doctest/doctest.h>
     ${PROJECT_SOURCE_DIR}/tests/support.hpp)
   set_source_files_properties(tests/main.cpp TARGET_DIRECTORY test_main PROPERTIES SKIP_PRECOMPILE_HEADERS ON)

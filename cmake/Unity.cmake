@@ -24,14 +24,14 @@ function(unite_tests target units)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()
 set(united "")
-if(MPMFAST_TESTS)
-  unite_tests(unit_tests 31)
+if(MPMFAST_TESTS AND NOT MPMFAST_TEST_OBJECTS)
+  unite_tests(unit_tests 14)
   unite_tests(short_tests 2)
   unite_tests(validation_tests 10)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/stability/recorded_runs.cpp
     ${PROJECT_SOURCE_DIR}/tests/validation/cohesive_limits.cpp TARGET_DIRECTORY validation_tests
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-  foreach(name curved_springs output_framing scene_resolved two_pairs)
+  foreach(name curved_springs output_framing scene_resolved scene_schema two_pairs)
     set_source_files_properties(${PROJECT_SOURCE_DIR}/tests/unit/${name}.cpp TARGET_DIRECTORY unit_tests
       PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endforeach()

@@ -13,17 +13,10 @@
 #include "engine/run/run.hpp"
 #include "engine/scene/read_scene.hpp"
 #include "engine/step/step.hpp"
+#include "tests/sanitized.hpp"
 #include "tests/source_folder.hpp"
 
 namespace mpmfast::test {
-
-/// Do the sanitizers watch? Everything is some 20 times slower then, so long cases take fewer steps, or are
-/// passed over where others run the same code.
-#ifdef __SANITIZE_ADDRESS__
-inline constexpr bool kSanitized = true;
-#else
-inline constexpr bool kSanitized = false;
-#endif
 
 Scene scene_from(const std::string& yaml, const std::vector<Override>& overrides = {});
 Scene scene_file(const std::string& name, const std::vector<Override>& overrides = {});

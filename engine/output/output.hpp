@@ -270,7 +270,16 @@ std::vector<std::string> all_warnings(const RunSummary& summary);
 /// Written aside and renamed.
 void write_run_json(const std::filesystem::path& folder, const RunSummary& summary);
 
-/// Version, commit, compiler and flags of this program.
+/// What this program was built from, as run.json says it: a study's run counts only for the program that made
+/// it.
+struct ProgramIdentity {
+  const char* version;
+  const char* git;
+  const char* compiler;
+  const char* flags;
+};
+ProgramIdentity program_identity();
+/// The same as text.
 std::string program_text();
 
 /// The largest resident set of this process since reset_peak_memory(), bytes; where the system forgets

@@ -52,6 +52,8 @@ std::uint64_t peak_memory_bytes() {
 
 void reset_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
+ProgramIdentity program_identity() { return {kVersion, kGit, kCompiler, kFlags}; }
+
 std::string program_text() {
   return fmt::format("mpmfast {} ({}), {}, {}", kVersion, kGit, kCompiler, kFlags);
 }

@@ -31,17 +31,17 @@ using namespace test;
 using Draw = std::mt19937_64;
 using Point = std::array<double, 2>;
 
-double uniform(Draw& draw, double lower, double upper) {
+double drawn(Draw& draw, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(draw);
 }
 
 int whole(Draw& draw, int lower, int upper) { return std::uniform_int_distribution<int>(lower, upper)(draw); }
 
 Surface placed_anyhow(Draw& draw, const Solid& solid) {
-  const Vec3 axis = *unit_vector({uniform(draw, -1, 1), uniform(draw, -1, 1), uniform(draw, -1, 1)});
+  const Vec3 axis = *unit_vector({drawn(draw, -1, 1), drawn(draw, -1, 1), drawn(draw, -1, 1)});
   return Surface(solid.points, solid.triangles)
-      .placed(uniform(draw, 0.5, 2), axis, uniform(draw, -3, 3),
-              {uniform(draw, -1, 1), uniform(draw, -1, 1), uniform(draw, -1, 1)});
+      .placed(drawn(draw, 0.5, 2), axis, drawn(draw, -3, 3),
+              {drawn(draw, -1, 1), drawn(draw, -1, 1), drawn(draw, -1, 1)});
 }
 
 Solid ball(double spacing) {
@@ -65,8 +65,8 @@ TEST_CASE("a line along x meets a surface in the triangles over which it passes,
     std::vector<Crossing> got{{5, 5}};
     for (int k = 0; k < 60; ++k) {
       const double margin = k % 4 == 0 ? 0.2 : 0;
-      const double y = uniform(draw, box.lower[1] - margin, box.upper[1] + margin),
-                   z = uniform(draw, box.lower[2] - margin, box.upper[2] + margin);
+      const double y = drawn(draw, box.lower[1] - margin, box.upper[1] + margin),
+                   z = drawn(draw, box.lower[2] - margin, box.upper[2] + margin);
       std::vector<Crossing> wanted;
       for (const auto& t : surface.triangles()) {
         const Vec3 &a = surface.points()[t[0]], &b = surface.points()[t[1]], &c = surface.points()[t[2]];
@@ -88,7 +88,7 @@ TEST_CASE("a line along x meets a surface in the triangles over which it passes,
       }
       CHECK(sum == 0);
       for (int n = 0; n < 3; ++n) {
-        const double x = uniform(draw, box.lower[0] - 0.1, box.upper[0] + 0.1);
+        const double x = drawn(draw, box.lower[0] - 0.1, box.upper[0] + 0.1);
         int winding = 0;
         for (const Crossing& c : wanted) winding += c.x < x ? c.winding : 0;
         CHECK(wound_round(got, x) == (winding != 0));
@@ -102,9 +102,9 @@ TEST_CASE("a surface is scaled, turned about its axis, then moved") {
   const Solid solid = star_prism(4);
   const Surface start(solid.points, solid.triangles);
   for (int round = 0; round < 20; ++round) {
-    const Vec3 axis = *unit_vector({uniform(draw, -1, 1), uniform(draw, -1, 1), uniform(draw, -1, 1)});
-    const double angle = round == 0 ? 0 : uniform(draw, -4, 4), scale = uniform(draw, 0.1, 3);
-    const Vec3 way{uniform(draw, -1, 1), uniform(draw, -1, 1), uniform(draw, -1, 1)};
+    const Vec3 axis = *unit_vector({drawn(draw, -1, 1), drawn(draw, -1, 1), drawn(draw, -1, 1)});
+    const double angle = round == 0 ? 0 : drawn(draw, -4, 4), scale = drawn(draw, 0.1, 3);
+    const Vec3 way{drawn(draw, -1, 1), drawn(draw, -1, 1), drawn(draw, -1, 1)};
     const Surface end = start.placed(scale, axis, angle, way);
     CHECK(end.triangles() == start.triangles());
     // The turn as a quaternion.
@@ -479,7 +479,7 @@ TEST_CASE("a direction is its vector over its length, whatever that is, and one 
   Draw draw(57);
   for (const double size : {1e-300, 1e-101, 1e-99, 1e-3, 1.0, 7.0, 1e99, 1e101, 1e300})
     for (int k = 0; k < 20; ++k) {
-      Vec3 x{uniform(draw, -1, 1), uniform(draw, -1, 1), uniform(draw, -1, 1)};
+      Vec3 x{drawn(draw, -1, 1), drawn(draw, -1, 1), drawn(draw, -1, 1)};
       if (k < 6) x[static_cast<std::size_t>(k) % 3] = 0;
       const double length = std::hypot(x[0], x[1], x[2]);
       const auto got = unit_vector({size * x[0], size * x[1], size * x[2]});

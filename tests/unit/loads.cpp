@@ -14,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr double kDensity = 1000;
+constexpr double kBarDensity = 1000;
 
 /// One block of 6 mm by 4 mm off the lines of the grid, or that cube, under what `loads` says.
 Scene block(const char* space, const char* loads, const char* method = "{strain: last}") {
@@ -24,7 +24,7 @@ Scene block(const char* space, const char* loads, const char* method = "{strain:
                   "materials: {{m: {{model: neo_hookean, density: {}, young: 1 MPa, poisson: 0.3}}}}\n"
                   "bodies: [{{name: block, material: m, box: {{from: [{}], to: [{}]}}}}]\n"
                   "loads: {}\nmethod: {}\n",
-                  space, solid ? "30 mm, 10 mm, 10 mm" : "30 mm, 10 mm", kDensity,
+                  space, solid ? "30 mm, 10 mm, 10 mm" : "30 mm, 10 mm", kBarDensity,
                   solid ? "3.3 mm, 3.4 mm, 3.2 mm" : "3.3 mm, 3.4 mm",
                   solid ? "9.3 mm, 7.4 mm, 6.2 mm" : "9.3 mm, 7.4 mm", loads, method));
 }
@@ -124,7 +124,7 @@ double moved(const char* space, const char* basis) {
   double most = 0;
   for (std::size_t p = 0; p < particles.size(); ++p)
     most = std::max(most, particles.vector(Quantity::velocity, p).norm());
-  return most / (1e3 * dt / (kDensity * 1e-3));  // p dt/(rho h)
+  return most / (1e3 * dt / (kBarDensity * 1e-3));  // p dt/(rho h)
 }
 
 TEST_CASE("a body with the stress -p I rests under the pressure p, whatever its basis and deformation") {

@@ -15,7 +15,7 @@ namespace {
 
 using Draw = std::mt19937_64;
 
-double uniform(Draw& draw, double lower, double upper) {
+double drawn_between(Draw& draw, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(draw);
 }
 
@@ -95,16 +95,16 @@ struct Strained {
     deformation = in_space<Dim>(next, 1);
     before = old.determinant();
     now = next.determinant();
-    dt = uniform(draw, 1e-6, 1e-3);
+    dt = drawn_between(draw, 1e-6, 1e-3);
     expansion = step.trace() / dt;
-    const Mat<3> part =
-        in_space<Dim>(Mat<Dim>::Identity() + random_matrix<Dim>(draw, 0.12), 1 + uniform(draw, -0.1, 0.1));
+    const Mat<3> part = in_space<Dim>(Mat<Dim>::Identity() + random_matrix<Dim>(draw, 0.12),
+                                      1 + drawn_between(draw, -0.1, 0.1));
     elastic = part * part.transpose();
     if (isochoric) elastic /= std::cbrt(elastic.determinant());
-    state = resting_state<Dim, double>(uniform(draw, 250, 900));
-    state.dissipated = uniform(draw, 0, 1e7);
-    state.internal_energy = uniform(draw, 0, 1e9);
-    state.plastic_strain = uniform(draw, 0, 0.3);
+    state = resting_state<Dim, double>(drawn_between(draw, 250, 900));
+    state.dissipated = drawn_between(draw, 0, 1e7);
+    state.internal_energy = drawn_between(draw, 0, 1e9);
+    state.plastic_strain = drawn_between(draw, 0, 0.3);
     state.volume_ratio = now;
     for (int i = 0; i < 3; ++i) state.elastic_strain[i] = elastic(i, i);
     state.elastic_strain[3] = elastic(0, 1);

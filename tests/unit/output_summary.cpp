@@ -126,17 +126,17 @@ TEST_CASE("the peak of memory is that of a living process") {
 }
 
 TEST_CASE("the peak of memory is that of the run, not of what the process did before") {
-  constexpr std::size_t kMuch = std::size_t{1} << (test::kSanitized ? 29 : 28);  // the program has less
+  const std::size_t much = std::size_t{1} << (test::sanitized() ? 29 : 28);  // the program has less
   {
     // No page is the machine's before it is written to, and a compiler may leave out what nobody reads.
-    std::vector<char> much(kMuch, 'a');
-    const volatile char* last = &much.back();
+    std::vector<char> filled(much, 'a');
+    const volatile char* last = &filled.back();
     REQUIRE(*last == 'a');
   }
-  CHECK(peak_memory_bytes() > kMuch);
+  CHECK(peak_memory_bytes() > much);
   reset_peak_memory();
   if (!std::ofstream("/proc/self/clear_refs")) return;  // a system that forgets nothing
-  CHECK(peak_memory_bytes() < kMuch);
+  CHECK(peak_memory_bytes() < much);
 }
 
 TEST_CASE("the peak of memory is that of this program and not of the one that started it") {
@@ -147,9 +147,9 @@ TEST_CASE("the peak of memory is that of this program and not of the one that st
     return;
   }
   if (read_text("/proc/self/status").find("VmHWM:") == std::string::npos) return;  // nobody knows it
-  constexpr std::size_t kMuch = std::size_t{1} << (test::kSanitized ? 29 : 26);    // the program has less
-  const std::vector<char> much(kMuch, 'a');
-  const volatile char* last = &much.back();
+  const std::size_t much = std::size_t{1} << (test::sanitized() ? 29 : 26);        // the program has less
+  const std::vector<char> filled(much, 'a');
+  const volatile char* last = &filled.back();
   REQUIRE(*last == 'a');
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "answer").string();
@@ -167,7 +167,7 @@ TEST_CASE("the peak of memory is that of this program and not of the one that st
   std::uint64_t peak = 0;
   std::ifstream(file) >> peak;
   CHECK(peak > std::uint64_t{1} << 20);
-  CHECK(peak < kMuch);
+  CHECK(peak < much);
 }
 
 TEST_CASE(

@@ -92,7 +92,7 @@ bool tells_limit(__rlimit_resource_t which, std::uint64_t bytes) {
 }
 
 // The address sanitizer takes more address space than these limits leave.
-TEST_CASE("limits on address space and data count, less what is taken" * doctest::skip(test::kSanitized)) {
+TEST_CASE("limits on address space and data count, less what is taken" * doctest::skip(test::sanitized())) {
   CHECK(available_memory().bytes > 0);
   CHECK(tells_limit(RLIMIT_AS, std::uint64_t{1} << 30));
   CHECK(tells_limit(RLIMIT_DATA, std::uint64_t{1} << 29));

@@ -7,13 +7,12 @@
 
 #include "engine/run/describe_bodies.hpp"
 #include "tests/support.hpp"
+#include "tests/text.hpp"
 
 using namespace mpmfast;
 using namespace mpmfast::test;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 Scene grains(int count, const std::string& thickness = "") {
   std::string text =

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support.hpp"
+#include "tests/text.hpp"
 
 namespace mpmfast {
 namespace {
@@ -72,8 +73,6 @@ std::string complaint(F f) {
   }
   return "none";
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("a run that stops after some steps, on any threads, and goes on is the one that never stopped") {
   const Folder folder;

@@ -136,6 +136,7 @@ TEST_CASE("a run that is stopped before, amid and after splits goes on to the bi
   std::uint64_t stopped_amid = 0;
   for (std::uint64_t stop :
        {whole.steps / 8, whole.steps / 2, whole.steps / 2 + 1, 3 * whole.steps / 4, whole.steps - 2}) {
+    if (sanitized() && stop != whole.steps / 2) continue;
     CAPTURE(stop);
     RunOptions first;
     first.folder = folder / "stopped";

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/read_scene.hpp"
+#include "tests/text.hpp"
 
 namespace mpmfast::test {
 
@@ -59,10 +60,6 @@ inline std::string fault(const std::string& text, const std::vector<Override>& o
   std::string joined = std::to_string(all.size()) + " faults:";
   for (const std::string& one : all) joined += "\n" + one;
   return joined;
-}
-
-inline bool holds(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace mpmfast::test

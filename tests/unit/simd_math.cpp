@@ -14,7 +14,7 @@ namespace {
 
 using Draw = std::mt19937_64;
 
-double uniform(Draw& draw, double lower, double upper) {
+double between(Draw& draw, double lower, double upper) {
   return std::uniform_real_distribution<double>(lower, upper)(draw);
 }
 
@@ -40,9 +40,9 @@ double worst_error(F f, G g, Argument argument) {
 TEST_CASE("exponential agrees with the standard library to 2e-15") {
   const auto f = [](auto x) { return exponential(x); };
   const auto g = [](double x) { return std::exp(x); };
-  CHECK(worst_error(f, g, [](Draw& d) { return uniform(d, -2, 2); }) < 2e-15);
-  CHECK(worst_error(f, g, [](Draw& d) { return uniform(d, -700, 700); }) < 2e-15);
-  CHECK(worst_error(f, g, [](Draw& d) { return std::pow(10.0, uniform(d, -18, 0)); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return between(d, -2, 2); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return between(d, -700, 700); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return std::pow(10.0, between(d, -18, 0)); }) < 2e-15);
   CHECK(exponential(0.0) == 1.0);
   CHECK(exponential(1e300) == exponential(700.0));
   CHECK(exponential(-1e300) == exponential(-700.0));
@@ -53,17 +53,17 @@ TEST_CASE("exponential agrees with the standard library to 2e-15") {
 TEST_CASE("logarithm agrees with the standard library to 2e-15") {
   const auto f = [](auto x) { return logarithm(x); };
   const auto g = [](double x) { return std::log(x); };
-  CHECK(worst_error(f, g, [](Draw& d) { return uniform(d, 0.3, 2); }) < 2e-15);
-  CHECK(worst_error(f, g, [](Draw& d) { return std::pow(10.0, uniform(d, -300, 300)); }) < 2e-15);
-  CHECK(worst_error(f, g, [](Draw& d) { return 1.0 + std::pow(10.0, uniform(d, -15, -1)); }) < 2e-15);
-  CHECK(worst_error(f, g, [](Draw& d) { return 1.0 - std::pow(10.0, uniform(d, -15, -1)); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return between(d, 0.3, 2); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return std::pow(10.0, between(d, -300, 300)); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return 1.0 + std::pow(10.0, between(d, -15, -1)); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return 1.0 - std::pow(10.0, between(d, -15, -1)); }) < 2e-15);
   CHECK(logarithm(1.0) == 0.0);
 }
 
 TEST_CASE("the isochoric factor is J^(-2/3) to 2e-15") {
   const auto f = [](auto x) { return isochoric_factor(x); };
   const auto g = [](double x) { return std::pow(x, -2.0 / 3.0); };
-  CHECK(worst_error(f, g, [](Draw& d) { return uniform(d, 0.1, 3); }) < 2e-15);
+  CHECK(worst_error(f, g, [](Draw& d) { return between(d, 0.1, 3); }) < 2e-15);
   CHECK(isochoric_factor(1.0) == 1.0);
 }
 
@@ -74,8 +74,8 @@ TEST_CASE(
   for (int k = 0; k < 5000; ++k) {
     Lanes x, y;
     for (int i = 0; i < kLanes; ++i) {
-      x[i] = std::exp2(uniform(draw, -600, 600));
-      y[i] = std::copysign(std::exp2(uniform(draw, -300, 300)), uniform(draw, -1, 1));
+      x[i] = std::exp2(between(draw, -600, 600));
+      y[i] = std::copysign(std::exp2(between(draw, -300, 300)), between(draw, -1, 1));
     }
     const Lanes root = square_root(x), ratio = quotient(x, y);
     for (int i = 0; i < kLanes; ++i) {
@@ -94,8 +94,8 @@ TEST_CASE("floor, magnitude, larger, smaller and sum of Lanes are those of their
     Lanes x, y;
     double sum = 0;
     for (int i = 0; i < kLanes; ++i) {
-      x[i] = k < 10 ? std::round(uniform(draw, -5, 5)) : uniform(draw, -1e3, 1e3);
-      y[i] = uniform(draw, -1e3, 1e3);
+      x[i] = k < 10 ? std::round(between(draw, -5, 5)) : between(draw, -1e3, 1e3);
+      y[i] = between(draw, -1e3, 1e3);
       sum += x[i];
     }
     const Lanes size = magnitude(x), floor = floor_of(x), more = larger(x, y), less = smaller(x, y);

@@ -432,7 +432,7 @@ heat: {temperature: 310 K, filter: {every: 0.3}, boundaries: {bottom: {temperatu
 contact: {friction: 0.3}
 method: {basis: )") + basis +
                          "}\n",
-                     kSanitized ? 9 : 23, kSanitized ? 16 : 46);
+                     sanitized() ? 9 : 23, sanitized() ? 16 : 46);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ void check_momentum(const std::vector<Override>& overrides) {
   double scale = 0;
   for (std::size_t p = 0; p < step.state().particles.size(); ++p)
     scale += step.state().particles.column(Quantity::mass)[p] * 10;
-  advance(step, kSanitized ? 15 : 150);
+  advance(step, sanitized() ? 15 : 150);
   CHECK(step.contact_counters().nodes_peak > 0);
   // Round-off of some 1e5 additions a step, growing as a random walk over 150 steps.
   CHECK((momentum(step.state().particles) - before).norm() < 1e-13 * scale);
@@ -88,7 +88,7 @@ void check_perfect(std::vector<Override> overrides, const std::string& more) {
   Step<Dim> one(one_scene), two(two_scene);
   REQUIRE(one.plan().fields.size() == 1);
   REQUIRE(two.plan().fields.size() == 2);
-  const int steps = kSanitized ? 40 : 200;
+  const int steps = sanitized() ? 40 : 200;
   advance(one, steps);
   advance(two, steps);
   for (Quantity q : {Quantity::position, Quantity::velocity, Quantity::deformation_gradient})

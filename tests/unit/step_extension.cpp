@@ -303,7 +303,7 @@ void check_steps(const char* basis, const char* update) {
   }
   const Vec<Dim> before = momentum(particles);
   const double energy = kinetic_energy(particles);
-  advance(step, kSanitized ? 15 : 100);
+  advance(step, sanitized() ? 15 : 100);
   CHECK(step.extension().counters().nodes > 0);
   CHECK((momentum(particles) - before).norm() < 1e-13 * scale);
   const double now = kinetic_energy(particles) + step.stored_energy();

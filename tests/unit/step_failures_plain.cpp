@@ -18,6 +18,7 @@
 #include "engine/step/crowding.hpp"
 #include "tests/random.hpp"
 #include "tests/support.hpp"
+#include "tests/text.hpp"
 
 namespace mpmfast {
 namespace {
@@ -48,8 +49,8 @@ method: {{basis: {}}}
 
 /// What is said of a time step that is too short, or that is no number.
 template <int Dim>
-struct Blamed {
-  Blamed(const Step<Dim>& step, double dt, double share = 0.25) {
+struct BlamedBy {
+  BlamedBy(const Step<Dim>& step, double dt, double share = 0.25) {
     try {
       step.fail_collapsed(dt, share);
     } catch (const RunFailure& failure) {
@@ -74,7 +75,8 @@ std::pair<Vec<Dim>, bool> position_of(const Step<Dim>& step, std::size_t p) {
 }
 
 template <int Dim>
-void check_blames(const Step<Dim>& step, const Blamed<Dim>& blamed, std::size_t p, const std::string& cause) {
+void check_blames(const Step<Dim>& step, const BlamedBy<Dim>& blamed, std::size_t p,
+                  const std::string& cause) {
   const State<Dim>& state = step.state();
   const std::array<std::string, 3> bodies{"first", "second", "third"}, fields{"both", "second", "both"};
   const auto [x, known] = position_of(step, p);
@@ -86,8 +88,9 @@ void check_blames(const Step<Dim>& step, const Blamed<Dim>& blamed, std::size_t 
                     state.step, state.time, state.particles.id()[p], bodies[body], fields[body],
                     known ? "at" : "near", where, cause));
   REQUIRE(blamed.position.size() == 3);
-  for (int d = 0; d < 3; ++d)
-    CHECK(blamed.position[static_cast<std::size_t>(d)] == (d < Dim ? x[std::min(d, Dim - 1)] : 0));
+  for (int d = 0; d < 3; ++d)  // some compilers fuse the sum of `position_of`
+    CHECK(std::abs(blamed.position[static_cast<std::size_t>(d)] - (d < Dim ? x[std::min(d, Dim - 1)] : 0)) <
+          1e-15);
 }
 
 template <int Dim>
@@ -132,9 +135,15 @@ void check_spoilt() {
     Vec<Dim> middle = Vec<Dim>::Zero();
     for (const std::size_t p : spoilt) middle += position_of(step, p).first;
     middle /= static_cast<double>(spoilt.size());
-    const std::size_t p = plain_least(particles, [&](std::size_t q) {
-      return spoilt.contains(q) ? (position_of(step, q).first - middle).norm() : kInfinity;
-    });
+    const auto distance = [&](std::size_t q) { return (position_of(step, q).first - middle).norm(); };
+    std::size_t p =
+        plain_least(particles, [&](std::size_t q) { return spoilt.contains(q) ? distance(q) : kInfinity; });
+    const BlamedBy<Dim> blamed(step, kNone);
+    const double least = distance(p);
+    for (const std::size_t q : spoilt)  // of two, both are as far from the middle, but for round-off
+      if (distance(q) < least + 1e-15 &&
+          holds(blamed.message, fmt::format("particle {} of", particles.id()[q])))
+        p = q;
     std::string names;
     for (const Quantity q : particles.quantities())
       if (what[p].contains(q))
@@ -142,14 +151,14 @@ void check_spoilt() {
     std::string cause = "not a number any more (" + names + ")";
     if (spoilt.size() == 2) cause += ", nor is one particle around it";
     if (spoilt.size() > 2) cause += fmt::format(", nor are {} particles around it", spoilt.size() - 1);
-    check_blames(step, Blamed<Dim>(step, kNone), p, cause);
+    check_blames(step, blamed, p, cause);
     for (auto value = before.rbegin(); value != before.rend(); ++value) *value->first = value->second;
   }
   // So far apart that no distance is a number: the first.
   particles.column(Quantity::position, 0)[7] = 1e200;
   particles.column(Quantity::position, 0)[9] = -1e200;
   particles.column(Quantity::mass)[7] = particles.column(Quantity::mass)[9] = kNone;
-  check_blames(step, Blamed<Dim>(step, kNone), 7,
+  check_blames(step, BlamedBy<Dim>(step, kNone), 7,
                "not a number any more (mass), nor is one particle around it");
 }
 
@@ -193,7 +202,7 @@ void check_inverted_and_lost() {
     }
     if (least < kInfinity)
       check_blames(
-          step, Blamed<Dim>(step, kNone), lost,
+          step, BlamedBy<Dim>(step, kNone), lost,
           fmt::format("it left the grid at {:.4g} m/s (grid.leaving says what else may become of it)",
                       particles.vector(Quantity::velocity, lost).norm()));
     // Volumes that are none come first.
@@ -205,7 +214,7 @@ void check_inverted_and_lost() {
       const std::size_t named =
           plain_least(particles, [&](std::size_t q) { return particles.volume_ratio(q); });
       check_blames(
-          step, Blamed<Dim>(step, kNone), named,
+          step, BlamedBy<Dim>(step, kNone), named,
           fmt::format("its volume became zero or negative (J = {:.3g})", particles.volume_ratio(named)));
     }
   }
@@ -275,11 +284,11 @@ void check_fastest() {
         fmt::format(": its waves run at {:.4g} m/s, it moves at {:.4g} m/s, J = {:.3g}",
                     particles.column(Quantity::wave_speed)[p], speed(p), particles.volume_ratio(p));
     for (const double share : {0.123, 0.999})
-      check_blames(step, Blamed<Dim>(step, 1.2345e-9, share), p,
+      check_blames(step, BlamedBy<Dim>(step, 1.2345e-9, share), p,
                    fmt::format("the time step collapsed to 1.23e-09 s, {} of the first (time.collapse){}",
                                share < 0.5 ? "0.12" : "1", rest));
     for (const double share : {1.0, 2.0})
-      check_blames(step, Blamed<Dim>(step, 1.2345e-9, share), p,
+      check_blames(step, BlamedBy<Dim>(step, 1.2345e-9, share), p,
                    "steps of 1.23e-09 s never reach the end" + rest);
     // Where all are right, the domain whose edges are the largest.
     const std::size_t widest = plain_least(particles, [&](std::size_t q) {
@@ -288,7 +297,7 @@ void check_fastest() {
         squares += std::pow(particles.column(Quantity::domain_edges, e)[q], 2);
       return -squares;
     });
-    check_blames(step, Blamed<Dim>(step, kInfinity), widest,
+    check_blames(step, BlamedBy<Dim>(step, kInfinity), widest,
                  "a speed is no number any more; of all domains its own is the largest");
   }
 }

@@ -57,7 +57,7 @@ void check_heat_is_kept(const std::vector<Override>& sets) {
   const Scene scene = scene_from(impact(Dim), sets);
   Step<Dim> step(scene);
   const std::vector<double> before = contents(step);
-  advance(step, kSanitized ? 10 : 60);
+  advance(step, sanitized() ? 10 : 60);
   const std::vector<double> after = contents(step);
   CHECK(after[0] < 0.999 * before[0]);  // some crossed
   CHECK(step.heat().sums().friction > 0);
@@ -87,7 +87,7 @@ void check_one_field(const std::vector<Override>& sets) {
   two.push_back({"contact", "{law: perfect}"});
   const Scene scene_one = scene_from(impact(Dim), one), scene_two = scene_from(impact(Dim), two);
   Step<Dim> single(scene_one), tied(scene_two);
-  const int steps = kSanitized ? 8 : 40;
+  const int steps = sanitized() ? 8 : 40;
   advance(single, steps);
   advance(tied, steps);
   REQUIRE(tied.state().fields() == 2);
@@ -170,7 +170,7 @@ Rough rough_left(const std::string& basis, double x) {
   for (std::size_t p = 0; p < particles.size(); ++p)
     particles.column(Quantity::temperature)[p] = 310 + any(random);
   REQUIRE(step.stable_dt() == step.heat().stable_dt());
-  advance(step, kSanitized ? 40 : 600);
+  advance(step, sanitized() ? 40 : 600);
   const double* t = particles.column(Quantity::temperature);
   const auto n = static_cast<std::ptrdiff_t>(particles.size());
   const double mean = std::accumulate(t, t + n, 0.0) / static_cast<double>(n);
@@ -190,7 +190,7 @@ TEST_CASE("conduction is stable at its own time step, wherever the surface cuts 
       CAPTURE(x);
       const Rough left = rough_left(basis, x);
       CHECK(left.particles < 1.5);  // what the grid cannot see of them stays
-      if (!kSanitized) CHECK(left.nodes < 1e-3);
+      if (!sanitized()) CHECK(left.nodes < 1e-3);
     }
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("heat goes the same way on any number of threads") {
     omp_set_num_threads(threads);
     const Scene scene = scene_from(impact(2), {{"grid.cell", "0.25 mm"}, {"contact", "{friction: 0.3}"}});
     Step<2> step(scene);
-    advance(step, kSanitized ? 4 : 30);
+    advance(step, sanitized() ? 4 : 30);
     omp_set_num_threads(before);
     return by_id(step.state().particles, Quantity::temperature);
   };
@@ -229,7 +229,7 @@ void check_ledger(const std::string& yaml, const std::vector<Override>& sets) {
   const Scene scene = scene_from(yaml, sets);
   Step<Dim> step(scene);
   const double before = contents(step).back();
-  advance(step, kSanitized ? 10 : 60);
+  advance(step, sanitized() ? 10 : 60);
   const HeatSums& sums = step.heat().sums();
   const double in =
       std::accumulate(sums.conditions.begin(), sums.conditions.end(), sums.friction + sums.rigid);
@@ -264,17 +264,17 @@ bodies:
 heat: {temperature: 310 K}
 )";
 }
-const std::string kSoft = "model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa";
+const std::string kRubber = "model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa";
 
 TEST_CASE("heat crosses where several bodies meet, by pairs, lumps or at once, and rigid ones keep theirs") {
   for (const char* contact : {"{friction: 0.2}", "{normal: logistic_regression, friction: 0.2}",
                               "{normal: average_gradient}", "{normal: logistic_regression, fields: pairs}"}) {
     CAPTURE(std::string(contact));
     const std::vector<Override> sets{{"contact", contact}};
-    const Scene scene = scene_from(three(kSoft), sets);
+    const Scene scene = scene_from(three(kRubber), sets);
     Step<2> step(scene);
     const std::vector<double> before = contents(step);
-    advance(step, kSanitized ? 10 : 60);
+    advance(step, sanitized() ? 10 : 60);
     const std::vector<double> after = contents(step);
     CHECK(after[0] > before[0]);
     CHECK(after[2] < before[2]);
@@ -283,7 +283,7 @@ TEST_CASE("heat crosses where several bodies meet, by pairs, lumps or at once, a
   const Scene scene = scene_from(three("model: rigid"));
   Step<2> step(scene);
   const std::vector<double> before = contents(step);
-  advance(step, kSanitized ? 10 : 60);
+  advance(step, sanitized() ? 10 : 60);
   const std::vector<double> after = contents(step);
   CHECK(after[2] == before[2]);
   CHECK(step.heat().sums().rigid > 0);
@@ -295,7 +295,7 @@ TEST_CASE("heat crosses where several bodies meet, by pairs, lumps or at once, a
 TEST_CASE(
     "a third body far away does not change what crosses between two, whatever is done where many meet") {
   const auto crossed = [](const std::string& contact, bool third) {
-    std::string yaml = three(kSoft);
+    std::string yaml = three(kRubber);
     const auto at = yaml.find("  - {name: c");
     if (third)
       yaml.replace(yaml.find("[10 mm, 5.3 mm], to: [20 mm, 10 mm]"), 35, "[21 mm, 9 mm], to: [23 mm, 11 mm]");
@@ -322,7 +322,7 @@ TEST_CASE("a scene with heat says what it does not know") {
       CHECK(std::string(error.what()).find(what) != std::string::npos);
     }
   };
-  const std::string soft = three(kSoft);
+  const std::string soft = three(kRubber);
   refused(three("model: rigid"), {{"contact", "{law: perfect}"}}, "tied to rigid ones");
   refused(soft, {{"contact", "{family: penalty}"}}, "surfaces that are followed");
   refused(soft, {{"heat.boundaries", "{left: {temperature: -5 K}}"}}, "not positive");

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "engine/errors.hpp"
-#include "mpmfast_version.hpp"
+#include "engine/output/output.hpp"
 #include "tests/unit/study_fixture.hpp"
 #include "tools/study/other_program.hpp"
 #include "tools/study/report.hpp"
@@ -17,7 +17,8 @@ namespace {
 
 /// What a run with 16 particles and 10 steps leaves behind; the speed of the block ends at `vy`.
 void leave_run(const std::filesystem::path& folder, const StudyRun& run, const std::string& status,
-               double wall, double vy, const std::string& commit = kGit) {
+               double wall, double vy, const std::string& commit = program_identity().git) {
+  const ProgramIdentity program = program_identity();
   write_text(folder / run.folder / "scene.yaml", run.scene.resolved_yaml);
   write_text(folder / run.folder / "history.csv", fmt::format("time_s,block.vy\n0,0\n1e-5,{}\n", vy));
   write_text(
@@ -26,8 +27,8 @@ void leave_run(const std::filesystem::path& folder, const StudyRun& run, const s
                   "\"status\": \"{}\","
                   "\"reason\": \"{}\", \"particles\": 16, \"steps\": 10, \"wall_s\": {}, \"threads\": 2,"
                   "\"particle_steps_per_s\": 800, \"energy_error\": 0.25}}",
-                  kVersion, commit, kCompiler, kFlags, status, status == "failed" ? "it fell | out" : "",
-                  wall));
+                  program.version, commit, program.compiler, program.flags, status,
+                  status == "failed" ? "it fell | out" : "", wall));
 }
 
 const std::string kStudy =

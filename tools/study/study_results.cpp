@@ -15,7 +15,6 @@
 #include "engine/errors.hpp"
 #include "engine/output/json_depth.hpp"
 #include "engine/output/output.hpp"
-#include "mpmfast_version.hpp"
 #include "other_program.hpp"
 #include "pareto.hpp"
 
@@ -182,9 +181,12 @@ std::string what_differs(const StudyRun& run, const fs::path& folder, const nloh
                                                                  : "the scene or the program was another";
   if (read_text(folder / run.folder / "scene.yaml") != run.scene.resolved_yaml)
     return "the scene was another";
-  constexpr std::array<std::pair<const char*, const char*>, 4> kProgram{
-      {{"version", kVersion}, {"git", kGit}, {"compiler", kCompiler}, {"flags", kFlags}}};
-  for (const auto& [key, value] : kProgram)
+  const ProgramIdentity program = program_identity();
+  const std::array<std::pair<const char*, const char*>, 4> now{{{"version", program.version},
+                                                                {"git", program.git},
+                                                                {"compiler", program.compiler},
+                                                                {"flags", program.flags}}};
+  for (const auto& [key, value] : now)
     if (const std::string was = text(json, key); was != value)
       return fmt::format("the program's {} was {}", key, was.empty() ? "not known" : was);
   return "";

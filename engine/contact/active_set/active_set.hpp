@@ -29,50 +29,73 @@ struct PairRule {
   bool holds_overlap = false;  ///< without: an overlapping pair that parts is constrained along the normal
 };
 
-/// Makes the rule of a correction for one pair. @param gap  predicted, m
-template <int Dim>
-using RuleFunction = PairRule<Dim> (*)(const CorrectionMethod& method, const PairStatus& status,
-                                       const PairHistory& before, double gap);
+/// Which pairs a correction acts on, and how it treats them.
+struct CorrectionRule {
+  bool on_closing = false;     ///< acts on gaps that close by the end of the step
+  bool on_persistent = false;  ///< acts on persistent pairs
+  bool on_active = false;      ///< acts on pairs that the first correction acted on
+  bool on_touching = false;    ///< acts on pairs that the second correction left in contact
+  bool bilateral = false;      ///< constrains the normal velocities of persistent pairs in both directions
+  bool holds_stuck_before =
+      false;                 ///< constrains persistent pairs that stuck in the last step along the surface
+  bool holds_stuck = false;  ///< constrains pairs that stuck in the second correction along the surface
+  bool friction = false;     ///< friction acts
+  bool overlap_is_contact = false;  ///< pairs that overlap are in contact, also if they part
+  bool touched_is_contact = false;  ///< so are pairs that were in contact before the step
+};
 
 /// The first correction acts on gaps that close by the end of the step and on persistent pairs. The normal
 /// velocities of persistent pairs are constrained in both directions. A pair that stuck is also constrained
 /// along the surface. Otherwise friction would do work on the relative velocities in the strains, and add
 /// energy.
-template <int Dim>
-PairRule<Dim> first_rule(const CorrectionMethod& method, const PairStatus& status, const PairHistory& before,
-                         double gap) {
-  PairRule<Dim> rule;
-  rule.set.acts = gap < 0 || status.persistent;
-  rule.set.bilateral = status.persistent;
-  rule.set.must_stick = method.holds_sticking && status.persistent && before.stuck;
-  rule.set.friction = method.first_stays;
-  rule.holds_overlap = method.overlap_is_contact || (method.persistent && before.touched);
+inline CorrectionRule first_rule(const CorrectionMethod& method) {
+  CorrectionRule rule;
+  rule.on_closing = true;
+  rule.on_persistent = true;
+  rule.bilateral = true;
+  rule.holds_stuck_before = method.holds_sticking;
+  rule.friction = method.first_stays;
+  rule.overlap_is_contact = method.overlap_is_contact;
+  rule.touched_is_contact = method.persistent;
   return rule;
 }
 
 /// The second correction also acts on pairs that forces bring together. It only presses: a pulling impulse
 /// ends the contact.
-template <int Dim>
-PairRule<Dim> second_rule(const CorrectionMethod& method, const PairStatus& status, const PairHistory&,
-                          double gap) {
-  PairRule<Dim> rule;
-  rule.set.acts = gap < 0 || status.persistent || status.active_in_first;
-  rule.set.friction = true;
-  rule.holds_overlap = method.overlap_is_contact;
+inline CorrectionRule second_rule(const CorrectionMethod& method) {
+  CorrectionRule rule;
+  rule.on_closing = true;
+  rule.on_persistent = true;
+  rule.on_active = true;
+  rule.friction = true;
+  rule.overlap_is_contact = method.overlap_is_contact;
   return rule;
 }
 
 /// The correction of re-extrapolated momenta acts on pairs that the second correction left in contact.
-template <int Dim>
-PairRule<Dim> re_extrapolated_rule(const CorrectionMethod& method, const PairStatus& status,
-                                   const PairHistory&, double) {
-  PairRule<Dim> rule;
-  rule.set.acts = status.touching;
-  rule.set.bilateral = status.persistent;
-  rule.set.must_stick = method.holds_sticking && status.stuck;
-  rule.set.friction = method.first_stays;
-  rule.holds_overlap = method.overlap_is_contact;
+inline CorrectionRule re_extrapolated_rule(const CorrectionMethod& method) {
+  CorrectionRule rule;
+  rule.on_touching = true;
+  rule.bilateral = true;
+  rule.holds_stuck = method.holds_sticking;
+  rule.friction = method.first_stays;
+  rule.overlap_is_contact = method.overlap_is_contact;
   return rule;
+}
+
+/// The rule of a correction for one pair. @param gap  predicted, m
+template <int Dim>
+[[gnu::always_inline]] inline PairRule<Dim> pair_rule(const CorrectionRule& rule, const PairStatus& status,
+                                                      const PairHistory& before, double gap) {
+  PairRule<Dim> own;
+  own.set.acts = (rule.on_closing && gap < 0) || (rule.on_persistent && status.persistent) ||
+                 (rule.on_active && status.active_in_first) || (rule.on_touching && status.touching);
+  own.set.bilateral = rule.bilateral && status.persistent;
+  own.set.must_stick =
+      (rule.holds_stuck_before && status.persistent && before.stuck) || (rule.holds_stuck && status.stuck);
+  own.set.friction = rule.friction;
+  own.holds_overlap = rule.overlap_is_contact || (rule.touched_is_contact && before.touched);
+  return own;
 }
 
 /// The gap at the end of the step if no contact impulse acted, m (NN Eq. 3.56). Corrections decide by it.

@@ -19,7 +19,7 @@ struct CorrectionPass {
   const PairLaws& laws;
   const CorrectionMethod& method;
   const FreeDirections<Dim>& free;
-  RuleFunction<Dim> rule;
+  CorrectionRule rule;
   bool may_stick;  ///< pairs may stick in this correction
   double dt;       ///< s
 
@@ -50,7 +50,7 @@ bool uses_active_set(const CorrectionMethod& method) {
 template <int Dim, class Law>
 PairRule<Dim> rule_for(const CorrectionPass<Dim>& pass, const Law& law, int e, double gap) {
   const PairColumns<Dim>& pairs = pass.list.pairs;
-  PairRule<Dim> rule = pass.rule(pass.method, pairs.status[e], pairs.before[e], gap);
+  PairRule<Dim> rule = pair_rule<Dim>(pass.rule, pairs.status[e], pairs.before[e], gap);
   rule.set.must_stick &= Law::scope == LawScope::contact;
   rule.holds_overlap &= Law::scope == LawScope::contact;
   if constexpr (Law::scope == LawScope::bonded)

@@ -104,7 +104,7 @@ Corrections<Dim>::Corrections(const Scene& scene, const Plan& plan, const PairLa
 
 template <int Dim>
 CorrectionPass<Dim> Corrections<Dim>::make_pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt,
-                                                RuleFunction<Dim> rule, bool may_stick,
+                                                const CorrectionRule& rule, bool may_stick,
                                                 ContactList<Dim>& list) const {
   return {state, list, spec_, laws_, method_, free, rule, may_stick, dt};
 }
@@ -117,7 +117,7 @@ template <int Dim>
 void Corrections<Dim>::correct_first(State<Dim>& state, const FreeDirections<Dim>& free,
                                      const StepTimes& times, ContactList<Dim>& list) {
   const CorrectionPass<Dim> pass =
-      make_pass(state, free, times.dt, first_rule<Dim>, method_.strain_may_stick(), list);
+      make_pass(state, free, times.dt, first_rule(method_), method_.strain_may_stick(), list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     work.motion.read(pass.fields(node));
     begin_active_set(pass, node, work.motion);
@@ -143,7 +143,7 @@ template <int Dim>
 void Corrections<Dim>::correct_second(State<Dim>& state, const FreeDirections<Dim>& free,
                                       const StepTimes& times, Interfaces<Dim>& interfaces,
                                       ContactList<Dim>& list) {
-  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, second_rule<Dim>, true, list);
+  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, second_rule(method_), true, list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     if (interfaces.active()) interfaces.apply(state, node, free, times.dt, list);
     work.motion.read(pass.fields(node));
@@ -186,7 +186,7 @@ template <int Dim>
 void Corrections<Dim>::correct_re_extrapolated(State<Dim>& state, const FreeDirections<Dim>& free,
                                                const StepTimes& times, ContactList<Dim>& list) {
   const CorrectionPass<Dim> pass =
-      make_pass(state, free, times.dt, re_extrapolated_rule<Dim>, method_.strain_may_stick(), list);
+      make_pass(state, free, times.dt, re_extrapolated_rule(method_), method_.strain_may_stick(), list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     work.motion.read(pass.fields(node));
   };

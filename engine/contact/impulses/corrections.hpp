@@ -40,10 +40,10 @@ class Corrections {
 
  private:
   struct Counts {
-    std::uint64_t converged = 0, unconverged = 0;  ///< nodes of simultaneous or explicit pairs
+    std::uint64_t converged{}, unconverged{};  ///< nodes of simultaneous or explicit pairs
   };
   CorrectionPass<Dim> make_pass(State<Dim>& state, const FreeDirections<Dim>& free, double dt,
-                                RuleFunction<Dim> rule, bool may_stick, ContactList<Dim>& list) const;
+                                const CorrectionRule& rule, bool may_stick, ContactList<Dim>& list) const;
   template <class Begin, class Finish>
   Counts solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish);
   void begin_active_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,

@@ -1,5 +1,7 @@
 #include "engine/contact/ledger/record_contact.hpp"
 
+#include <algorithm>
+
 #include <Eigen/Geometry>
 
 #include "engine/constants.hpp"
@@ -75,6 +77,9 @@ template <int Dim>
 void record_impulses(const State<Dim>& state, const PairLaws& laws, const std::vector<Vec<Dim>>& pivots,
                      const ContactList<Dim>& list, ContactLedger<Dim>& ledger) {
   const PairColumns<Dim>& pairs = list.pairs;
+  if (laws.none_by_fields() &&
+      std::find(state.field_rigid.begin(), state.field_rigid.end(), true) == state.field_rigid.end())
+    return;
   for (const ContactNode<Dim>& node : list.nodes) {
     if (node.rigid < 0 && laws.none_by_fields()) continue;
     const NodeFields<Dim> fields(state, list, node);

@@ -72,6 +72,7 @@ struct PairImpulses {
 
 /// v_b − v_a, m/s, in the directions that boundary conditions leave free. (Its normal part is the opening
 /// rate, its tangential part the slip rate.)
+/// The corrections of a method set what is read of it; the rest keeps values of an earlier step.
 template <int Dim>
 struct RelativeVelocities {
   Vec<Dim> start = Vec<Dim>::Zero();         ///< as extrapolated from the particles

@@ -263,7 +263,6 @@ void PairFinder<Dim>::take_listing(const State<Dim>& state, const Listing& listi
       pairs.before[e] = {};
       pairs.status[e] = {};
       pairs.impulse[e] = {};
-      pairs.relative[e] = {};
       if (!pairs.spring.empty()) pairs.spring[e] = {};
       if (!pairs.bond.empty()) pairs.bond[e] = {};
       if (!pairs.fit.empty()) pairs.fit[e] = {};

@@ -1,0 +1,30 @@
+# The tests as another build has compiled them (MPMFAST_TEST_OBJECTS), linked with the engine of this one, which the
+# sanitizers watch. Compiled once more they would take longer than the whole engine, and tell of faults of the tests alone.
+if(NOT EXISTS ${MPMFAST_TEST_OBJECTS})
+  message(FATAL_ERROR "${MPMFAST_TEST_OBJECTS} is missing. Compile the tests first: tools/build ci. To compile them under "
+    "the sanitizers instead: -DMPMFAST_TEST_OBJECTS=")
+endif()
+include(${MPMFAST_TEST_OBJECTS})
+# Functions that engine and tests have from headers are those of the engine, since its libraries come first.
+set(watched mpmfast_quantities mpmfast_geometry mpmfast_scene mpmfast_output mpmfast_state mpmfast_conditions
+  mpmfast_contact mpmfast_heat mpmfast_loads mpmfast_step mpmfast_core mpmfast_study mpmfast_report mpmfast_packing)
+set(first "LINKER:--whole-archive")
+foreach(library ${watched})
+  list(APPEND first $<TARGET_FILE:${library}>)
+endforeach()
+list(APPEND first "LINKER:--no-whole-archive")
+foreach(program unit_tests short_tests library_tests)
+  set(objects ${objects_test_main} ${objects_${program}})
+  if(NOT program STREQUAL library_tests)
+    list(APPEND objects ${objects_test_support})
+  endif()
+  set_source_files_properties(${objects} PROPERTIES EXTERNAL_OBJECT TRUE GENERATED TRUE)
+  add_executable(${program} EXCLUDE_FROM_ALL ${objects})
+  set_target_properties(${program} PROPERTIES LINKER_LANGUAGE CXX)
+  target_link_libraries(${program} PRIVATE mpmfast_options fmt::fmt)
+endforeach()
+foreach(program unit_tests short_tests)
+  target_link_options(${program} PRIVATE ${first})
+  target_link_libraries(${program} PRIVATE ${watched} yaml-cpp ZLIB::ZLIB)
+endforeach()
+target_link_libraries(library_tests PRIVATE mpmfast_library)
