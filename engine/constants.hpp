@@ -264,6 +264,25 @@ inline constexpr double kRecoveryShare = 0.1;
 /// Velocity below which round-off decides, cells a step; above 1e-14.
 inline constexpr double kVelocityRoundOff = 1e-10;
 
+// Contact at points of the surface.
+
+/// Points along the side of a cell of a surface along the grid; 2 to 4. Fewer leave motion of the surface
+/// free; more cost time.
+inline constexpr int kPointsPerCell = 3;
+/// How far a point may lie beyond the edge of a deformable body, cells; 0.5 to 1. With less, the last nodes
+/// of an edge are free to roll up.
+inline constexpr double kBeyondEdge = 0.6;
+/// Gap beyond which there is no point, cells; more than what surfaces approach in a step.
+inline constexpr double kFarPoint = 0.6;
+/// Least sum of the weights of the nodes with mass around a point; in (0, 1).
+inline constexpr double kLeastWeight = 0.2;
+/// Distance within which a point takes over what an earlier one knew, cells; 0.5 to 1.
+inline constexpr double kInheritReach = 0.75;
+/// Sweeps over the points of a correction, at most; 5 or more.
+inline constexpr int kPointSweeps = 20;
+/// Largest change of an impulse in a sweep, over the largest impulse, below which they have converged.
+inline constexpr double kPointTolerance = 1e-6;
+
 // Interfaces and bonds.
 
 /// Sweeps over the springs of a node with several, at most.

@@ -81,6 +81,14 @@ class Conditions {
     return x;
   }
 
+  /// A velocity with the components that conditions on nodes prescribe, m/s.
+  Vec<Dim> with_prescribed(const Constraint& constraint, Vec<Dim> v) const {
+    if (constraint.combination < 0) return v;
+    const Combination& c = combinations_[static_cast<std::size_t>(constraint.combination)];
+    for (int k = 0; k < c.count; ++k) v += (c.speed[k] - v.dot(c.direction[k])) * c.direction[k];
+    return v;
+  }
+
   /// Force of each boundary on the material in this step, N.
   const std::vector<Vec<Dim>>& force() const { return ledger_.force; }
   /// Work that the boundaries did on the material in this step, J.

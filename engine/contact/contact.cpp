@@ -14,6 +14,7 @@
 #include "engine/contact/pairs/find_pairs.hpp"
 #include "engine/contact/pairs/pair_memory.hpp"
 #include "engine/contact/published/grid_geometry.hpp"
+#include "engine/contact/surface/surface_contact.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
@@ -64,6 +65,7 @@ struct Contact<Dim>::Phases {
   NormalFit<Dim> fit;
   Interfaces<Dim> interfaces;
   Corrections<Dim> corrections;
+  std::unique_ptr<SurfaceContact<Dim>> surface;  ///< null: contact acts on nodes
   FreeDirections<Dim> free;
   StepTimes times{};
   std::vector<Vec<Dim>> pivots;       ///< m, by field
@@ -73,13 +75,16 @@ struct Contact<Dim>::Phases {
       : finder(scene, laws, cracks),
         memory(scene, plan, laws),
         interfaces(scene, plan, laws, cracks),
-        corrections(scene, plan, laws) {}
+        corrections(scene, plan, laws) {
+    if (plan.surface) surface = std::make_unique<SurfaceContact<Dim>>(scene, plan, laws);
+  }
 };
 
 template <int Dim>
 Contact<Dim>::Contact(const Scene& scene, const Plan& plan, const Cracks<Dim>& cracks)
     : scene_(scene),
       cracks_(cracks),
+      fields_(static_cast<int>(plan.fields.size())),
       has_geometry_(plan.contact_geometry),
       laws_(scene, plan),
       phases_(std::make_unique<Phases>(scene, plan, laws_, cracks)) {}
@@ -98,7 +103,8 @@ void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& bas
   const auto is_crack = [](const ContactPair& pair) { return pair.crack >= 0; };
   if (!std::all_of(list_.pairs.pair.begin(), list_.pairs.pair.end(), is_crack)) {
     find_grid_normals(state, scene_.contact, list_);
-    phases_->fit.run(state, scene_.contact, basis, list_);
+    phases_->fit.run(state, scene_.contact, basis, list_,
+                     phases_->surface ? &phases_->surface->samples() : nullptr);
     find_grid_separations(state, scene_.contact, list_);
   }
   if (cracks_.active()) find_crack_separations(state, list_);
@@ -110,10 +116,15 @@ void Contact<Dim>::find_geometry(State<Dim>& state, const ContactBasis<Dim>& bas
 }
 
 template <int Dim>
-void Contact<Dim>::yield_to(const Conditions<Dim>& conditions, int threads) {
+void Contact<Dim>::yield_to(const State<Dim>& state, const Conditions<Dim>& conditions) {
   phases_->free.conditions = &conditions;
+  if (phases_->surface) {
+    phases_->surface->find(state, phases_->free, list_);
+    for (PairStatus& status : list_.pairs.status) status.separable = true;
+    return;
+  }
   if (!conditions.empty() && phases_->corrections.method().one_set)
-    yield_constrained_directions(phases_->free, threads, list_);
+    yield_constrained_directions(phases_->free, state.threads, list_);
 }
 
 template <int Dim>
@@ -125,6 +136,7 @@ void Contact<Dim>::begin_step(const std::vector<Vec<Dim>>& pivots, double dt, do
 
 template <int Dim>
 void Contact<Dim>::correct_first(State<Dim>& state) {
+  if (phases_->surface) return phases_->surface->correct_first(state, phases_->times);
   phases_->corrections.correct_first(state, phases_->free, phases_->times, list_);
   if (phases_->corrections.method().first_stays)
     record_impulses(state, laws_, phases_->pivots, list_, ledger_);
@@ -132,6 +144,8 @@ void Contact<Dim>::correct_first(State<Dim>& state) {
 
 template <int Dim>
 void Contact<Dim>::correct_second(State<Dim>& state) {
+  if (phases_->surface)
+    return phases_->surface->correct_second(state, phases_->times, phases_->pivots, ledger_);
   phases_->corrections.correct_second(state, phases_->free, phases_->times, phases_->interfaces, list_);
   record_impulses(state, laws_, phases_->pivots, list_, ledger_);
   if (!phases_->corrections.method().one_set) end_step(state);
@@ -139,6 +153,7 @@ void Contact<Dim>::correct_second(State<Dim>& state) {
 
 template <int Dim>
 void Contact<Dim>::correct_re_extrapolated(State<Dim>& state) {
+  if (phases_->surface) return phases_->surface->correct_re_extrapolated(state, phases_->times, ledger_);
   phases_->corrections.correct_re_extrapolated(state, phases_->free, phases_->times, list_);
   if (phases_->corrections.method().one_set) end_step(state);
 }
@@ -201,6 +216,7 @@ void Contact<Dim>::visit(Archive& archive) {
   visit_counters(archive, list_.counters);
   archive.number("contact/stored", ledger_.stored);
   phases_->memory.visit(archive, list_);
+  if (phases_->surface) phases_->surface->visit(archive, fields_);
 }
 
 template <int Dim>
@@ -218,7 +234,8 @@ std::size_t Contact<Dim>::bytes() const {
   const PairColumns<Dim>& pairs = list_.pairs;
   return bytes_in(list_.nodes, list_.fields, list_.node_at, pairs.pair, pairs.geometry, pairs.before,
                   pairs.status, pairs.impulse, pairs.relative, pairs.spring, pairs.bond, pairs.fit) +
-         phases_->memory.bytes() + phases_->finder.bytes() + phases_->fit.bytes();
+         phases_->memory.bytes() + phases_->finder.bytes() + phases_->fit.bytes() +
+         (phases_->surface ? phases_->surface->bytes() : 0);
 }
 
 template class Contact<2>;

@@ -31,7 +31,8 @@ class Contact {
   /// Geometry: normals and separations of all pairs, for all corrections of the step; jumps of interfaces.
   void find_geometry(State<Dim>& state, const ContactBasis<Dim>& basis);
   /// On nodes where conditions prescribe components of the velocities, contact acts along the others only.
-  void yield_to(const Conditions<Dim>& conditions, int threads);
+  /// Contact at the surface lists its points then.
+  void yield_to(const State<Dim>& state, const Conditions<Dim>& conditions);
 
   /// Begins the ledger of a step.
   /// @param pivots    points about which moments count, by field, m
@@ -72,6 +73,7 @@ class Contact {
 
   const Scene& scene_;
   const Cracks<Dim>& cracks_;
+  int fields_;
   bool has_geometry_;  ///< some law asks for normals and separations
   PairLaws laws_;
   std::unique_ptr<Phases> phases_;

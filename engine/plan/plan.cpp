@@ -218,6 +218,7 @@ Plan make_plan(const Scene& scene) {
   const bool meets = plan.fields.size() > 1 && any_law(scene, acts), cracked = !scene.cracks.empty();
   plan.penalty = meets && scene.contact.family == ContactFamily::penalty;
   plan.contact = (meets && !plan.penalty) || cracked;
+  plan.surface = meets && scene.contact.family == ContactFamily::surface;
   plan.contact_geometry = any_law(scene, touches);
   plan.keeps_fits = plan.contact && plan.contact_geometry && scene.contact.refit > 0;
   const auto interface_springs = [](const auto& law) { return law.scope == LawScope::interface; };

@@ -28,6 +28,7 @@ struct Plan {
   double wall_share = 1;  ///< of what walls take from velocities as a step begins: FLIP's particles take it
   int deformation_terms = 2;
   bool contact = false;  ///< on nodes: more than one velocity field, and a law that acts
+  bool surface = false;  ///< contact acts at points of the surface, not on nodes
   bool penalty = false;  ///< the same between surfaces that are followed
   bool own_filter = false;
   bool paired = false;                  ///< XPIC carries Δv* beside v*

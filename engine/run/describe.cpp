@@ -96,7 +96,9 @@ std::string contact_text(const ContactSpec& contact) {
   if (contact.family == ContactFamily::penalty)
     return fmt::format("{}{}; between surfaces, with springs of {:g} moduli a cell", law, pairs,
                        contact.springs.stiffness);
-  return fmt::format("{}{}; normals by {}", law, pairs, name_of(kNormals, contact.normal));
+  return fmt::format("{}{}; {}normals by {}", law, pairs,
+                     contact.family == ContactFamily::surface ? "at points of the surface, " : "",
+                     name_of(kNormals, contact.normal));
 }
 
 /// Memory for the whole run, memory for a while, and their sum. @param step  that has advanced

@@ -211,7 +211,7 @@ struct PairLawSpec {
 
 /// Where contact acts: on the nodes that several velocity fields share, or between surfaces that are
 /// followed.
-enum class ContactFamily { nodes, penalty };
+enum class ContactFamily { nodes, surface, penalty };
 
 struct ContactSpec {
   bool active = true;  ///< false: every body shares one velocity field

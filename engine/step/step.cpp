@@ -301,7 +301,7 @@ void Step<Dim>::find_contact() {
     const auto timed = clock_.enter(Task::contact_geometry);
     contact_.find_geometry(state_, *passes_);
   }
-  contact_.yield_to(conditions_, state_.threads);
+  contact_.yield_to(state_, conditions_);
 }
 
 template <int Dim>

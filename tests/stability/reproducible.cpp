@@ -67,6 +67,19 @@ TEST_CASE("contact of surfaces that are followed gives the same bits on any numb
   }
 }
 
+TEST_CASE(
+    "contact at points of the surface gives the same bits on any number of threads, and after a resume") {
+  for (const char* yaml : {kGrains2, kGrains3}) {
+    const Scene scene = scene_from(yaml, {{"contact", "{family: surface, friction: 0.3}"}});
+    const Outcome one = run(scene, 1), two = run(scene, 2), three = run(scene, 3);
+    REQUIRE(one.failure.empty());
+    CHECK(one.history.at("friction_J").back() > 0);
+    CHECK(one.summary.checksum == two.summary.checksum);
+    CHECK(one.summary.checksum == three.summary.checksum);
+    CHECK(one.summary.energy_error == three.summary.energy_error);
+  }
+}
+
 TEST_CASE("any number of threads counts the same normals as fallbacks, touching and doubtful") {
   for (const char* normal : {"smoothed_max_margin", "max_margin"}) {
     CAPTURE(std::string(normal));

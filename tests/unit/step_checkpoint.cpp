@@ -189,6 +189,7 @@ TEST_CASE("every method of contact goes on to the bit") {
         "contact: {corrections: 1, friction: 0.2}\nmethod: {update: xpic(2), own_filter: true}\n",
         "contact: {fields: pairs, pairs: [{between: [a, b], friction: 0.4}]}\nmethod: {basis: qcpdi}\n",
         "contact: {law: adhesion, normal_strength: 1 MPa, shear_strength: 1 MPa}\nmethod: {basis: linear}\n",
+        "contact: {family: surface, friction: 0.3}\nmethod: {update: xpic(2)}\n",
         "contact: {family: penalty, friction: 0.3}\nmethod: {basis: bspline2, extension: {occupation: "
         "0.75}}\n",
         "contact: none\nmethod: {basis: bspline3, update: apic, deformation_terms: exponential}\n"}) {

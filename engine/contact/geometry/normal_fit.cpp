@@ -8,8 +8,9 @@ namespace mpmfast {
 
 template <int Dim>
 void NormalFit<Dim>::run(const State<Dim>& state, const ContactSpec& spec, const ContactBasis<Dim>& basis,
-                         ContactList<Dim>& list) {
+                         ContactList<Dim>& list, std::vector<SurfaceSample<Dim>>* samples) {
   const FitChoice choice(spec);
+  if (samples) samples->assign(list.pairs.size(), {});
   if (!choice.regress && !choice.separate) return;
   const DomainView<Dim> domains = state.domains();
   const bool keeps_fits = !list.pairs.fit.empty();
@@ -27,7 +28,7 @@ void NormalFit<Dim>::run(const State<Dim>& state, const ContactSpec& spec, const
   slabs_.cut(state, list, due_, choice.smooth);
   for (FitWorkspace<Dim>& work : workspaces_)
     work.clouds.resize(std::max(slabs_.at_once(), work.clouds.size()));
-  const Run run{state, spec, basis, choice, mean, domains};
+  const Run run{state, spec, basis, choice, mean, domains, samples};
   std::size_t surrounded = 0;  // slabs whose means are taken
   for (std::size_t s = 0; s < slabs_.size(); ++s) {
     fit_slab(run, s, list);
@@ -97,6 +98,7 @@ void NormalFit<Dim>::fit_node(const Run& run, const ContactNode<Dim>& node, cons
     if (choice.separate)
       geometry.separation = run.state.grid.cell *
                             cloud_separation(choice.extent, cloud, fields, pair, geometry.normal, support);
+    if (run.samples && !choice.smooth) sample(run, node, cloud, e, list);
     const bool overlaps = geometry.separation < 0;
     const bool touches = fits && (!choice.separate || overlaps || list.pairs.before[e].touched);
     const bool doubted = touches && fell_back;
@@ -204,8 +206,25 @@ void NormalFit<Dim>::take_means(const Run& run, std::size_t slab, ContactList<Di
         geometry.separation =
             run.state.grid.cell * cloud_separation(run.choice.extent, cloud, ranges(node, cloud.count),
                                                    list.pairs.pair[e], geometry.normal, fit.support);
+      if (run.samples) sample(run, node, cloud, e, list);
     }
   });
+}
+
+/// The points of a pair's surface that belong to its node.
+template <int Dim>
+void NormalFit<Dim>::sample(const Run& run, const ContactNode<Dim>& node, const CloudColumns<Dim>& cloud,
+                            int e, const ContactList<Dim>& list) const {
+  const ContactPair& pair = list.pairs.pair[e];
+  const FieldRanges fields = ranges(node, cloud.count);
+  const SampledPair<Dim> sampled{cloud,
+                                 fields(pair.a),
+                                 fields(pair.b),
+                                 meets_rigid(node, pair),
+                                 list.pairs.geometry[e].normal,
+                                 run.state.grid.cell};
+  with_extent(run.choice.extent,
+              [&]<Extent E>() { (*run.samples)[static_cast<std::size_t>(e)] = sample_surface<E>(sampled); });
 }
 
 template <int Dim>

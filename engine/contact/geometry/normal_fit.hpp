@@ -11,6 +11,7 @@
 #include "engine/contact/geometry/fit_slabs.hpp"
 #include "engine/contact/geometry/fit_workspace.hpp"
 #include "engine/contact/geometry/mean_normals.hpp"
+#include "engine/contact/surface/surface_sample.hpp"
 #include "engine/state/shares.hpp"
 
 namespace mpmfast {
@@ -21,8 +22,9 @@ class NormalFit {
   NormalFit() : workspaces_(static_cast<std::size_t>(omp_get_max_threads())) {}
 
   /// Finds the normals of all pairs that have none prescribed, and the separations of all, as the scene asks.
+  /// @param samples  result, by pair: points of their surfaces; null: none are asked for
   void run(const State<Dim>& state, const ContactSpec& spec, const ContactBasis<Dim>& basis,
-           ContactList<Dim>& list);
+           ContactList<Dim>& list, std::vector<SurfaceSample<Dim>>* samples = nullptr);
 
   std::size_t bytes() const;
 
@@ -35,6 +37,7 @@ class NormalFit {
     const FitChoice& choice;
     const MeanNormals<Dim>& mean;
     const DomainView<Dim>& domains;
+    std::vector<SurfaceSample<Dim>>* samples;
   };
   /// Where the cloud of a node is kept.
   struct KeptCloud {
@@ -56,6 +59,8 @@ class NormalFit {
   void collect(const Run& run, const ContactList<Dim>& list, const ContactNode<Dim>& node,
                const Candidates<Dim>& candidates, CloudWorkspace<Dim>& clouds);
   void take_means(const Run& run, std::size_t slab, ContactList<Dim>& list);
+  void sample(const Run& run, const ContactNode<Dim>& node, const CloudColumns<Dim>& cloud, int e,
+              const ContactList<Dim>& list) const;
   void count(ContactCounters& counters) const;
 
   std::vector<FitWorkspace<Dim>> workspaces_;  ///< by thread

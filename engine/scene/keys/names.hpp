@@ -69,9 +69,11 @@ inline constexpr std::array<Keyword<int>, 4> kDeformationTerms{{
     {MethodSpec::kAllTerms, "exponential", "F advances by exp(dt grad v): rotations and det F are exact"},
 }};
 
-inline constexpr std::array<Keyword<ContactFamily>, 2> kFamilies{{
+inline constexpr std::array<Keyword<ContactFamily>, 3> kFamilies{{
     {ContactFamily::nodes, "nodes",
      "on nodes that two bodies share: their velocities are corrected (default)"},
+    {ContactFamily::surface, "surface",
+     "at points of the surfaces that meet: one condition where the surface is"},
     {ContactFamily::penalty, "penalty",
      "between surfaces that points follow: springs push out what overlaps (K24)"},
 }};

@@ -156,7 +156,7 @@ void describe_corrections(Keys& map, bool strain_stated, ContactSpec& contact, S
 void describe_map(Keys& map, bool strain_stated, Scene& scene, Keys& top) {
   ContactSpec& contact = scene.contact;
   map.key("family", "Where contact acts.", contact.family, kFamilies);
-  const bool nodes = contact.family == ContactFamily::nodes || map.describes();
+  const bool nodes = contact.family != ContactFamily::penalty || map.describes();
   if (nodes) describe_geometry(map, scene.dimension(), contact);
   describe_law(map, "What surfaces do that touch: the law of all pairs but those in `pairs`.",
                scene.heat.active, contact.law);

@@ -40,7 +40,7 @@ void check_extension(const Value& top, const Scene& scene) {
   const auto meets = [&](const BodySpec& body) { return field(body) != field(scene.bodies[0]); };
   const Value stated = *top.find("method")->find("extension");
   if (scene.method.update == UpdateKind::apic) stated.report("apic makes energy with extended splines");
-  if (scene.contact.family == ContactFamily::nodes &&
+  if (scene.contact.family != ContactFamily::penalty &&
       std::any_of(scene.bodies.begin(), scene.bodies.end(), meets))
     stated.report("extended splines do not know contact on nodes: one velocity field was expected",
                   "family: penalty; contact: none; or leave the extension out");
@@ -62,6 +62,44 @@ void check_penalty(const Value& top, const Scene& scene) {
     stated.report("surfaces are followed whole: none may flow out (grid.leaving)");
   if (scene.space == Space::axisymmetric)
     stated.report("penalty contact does not know scenes about an axis yet");
+}
+
+/// Contact at the surface finds its points from fits in every step, and has one active set a step.
+void check_surface(const Value& top, const Scene& scene) {
+  const ContactSpec& contact = scene.contact;
+  const Value stated = *top.find("contact")->find("family");
+  const auto refuse = [&](bool wrong, const char* why, const char* hint = "family: nodes") {
+    if (wrong) stated.report(why, hint);
+  };
+  const auto rubs = [](const SurfaceLaw& law) {
+    return std::visit(
+        [](const auto& one) {
+          return one.scope == LawScope::nowhere || (one.scope == LawScope::contact && !one.uses_area);
+        },
+        law.acts);
+  };
+  refuse(
+      !rubs(contact.law) || !std::all_of(contact.pairs.begin(), contact.pairs.end(),
+                                         [&](const PairLawSpec& pair) { return rubs(pair.law); }),
+      "contact at the surface knows the laws coulomb, frictionless, stick, velocity_friction and ignore yet");
+  refuse(!contact.decides_once() || (scene.method.strain != StrainKind::last_re_extrapolated &&
+                                     scene.method.strain != StrainKind::average_re_extrapolated),
+         "contact at the surface decides once a step what touches",
+         "method.strain: average+ or last+, and corrections, persistent, advance_separation and detection as "
+         "they are by default");
+  const bool fitted =
+      contact.normal == NormalKind::max_margin || contact.normal == NormalKind::smoothed_max_margin ||
+      contact.normal == NormalKind::logistic_regression ||
+      contact.normal == NormalKind::smoothed_logistic_regression ||
+      contact.normal == NormalKind::logistic_irls || contact.normal == NormalKind::linear_regression;
+  const bool by_particles = contact.separation == SeparationKind::ellipsoid ||
+                            contact.separation == SeparationKind::ellipsoid_support ||
+                            contact.separation == SeparationKind::parallelogram_support;
+  refuse(!fitted || !by_particles || contact.fields != ManyFields::simultaneous || contact.refit > 0,
+         "contact at the surface finds its points from the particles of each pair in every step",
+         "a normal by a fit, separation: ellipsoid, fields: simultaneous, refit: 0");
+  refuse(scene.heat.active, "contact at the surface does not know heat yet");
+  refuse(!scene.cracks.empty(), "contact at the surface does not know cracks yet");
 }
 
 /// What follows surfaces and cracks knows the particles that a body was seeded with.
@@ -101,6 +139,8 @@ void check_scene(const Value& top, bool grid_known, const std::vector<BodyLocati
   check_bodies(scene, locations, grid_known);
   if (scene.contact.family == ContactFamily::penalty)
     check_penalty(top, scene);
+  else if (scene.contact.family == ContactFamily::surface)
+    check_surface(top, scene);
   else if (scene.contact.active)
     check_interfaces(top, scene);
   check_crack(top, scene);
