@@ -564,7 +564,6 @@ MPMFAST_RUN("stl_body", 15, "stl_body.yaml", "grid.cell=2 mm")
 MPMFAST_RUN("taylor_bar", 40, "taylor_bar.yaml", "")
 MPMFAST_RUN("thick_ring", 300, "thick_ring.yaml", "")
 MPMFAST_RUN("thin_plate", 50, "thin_plate.yaml", "")
-MPMFAST_RUN("three_materials", 40, "three_materials.yaml", "")
 MPMFAST_RUN("uniaxial", 120, "uniaxial.yaml", "")
 MPMFAST_RUN("hard/clouds", 40, "hard/clouds.yaml", "contact.friction=0")
 MPMFAST_RUN("hard/corner_on_corner", 120, "hard/corner_on_corner.yaml", "")
@@ -824,8 +823,6 @@ MPMFAST_RUN("separation parallelogram_support/solid", 6, "solid.yaml",
 MPMFAST_RUN(
     "separation parallelogram_support/gradient", 24, "meet.yaml",
     "contact.separation=parallelogram_support; contact.normal=average_gradient; contact.corrections=1")
-MPMFAST_RUN("separation displacement/meet", 12, "meet.yaml",
-            "contact.separation=displacement; method.basis=bspline3")
 MPMFAST_RUN("separation displacement/gradient", 24, "meet.yaml",
             "contact.separation=displacement; contact.normal=average_gradient; contact.corrections=1")
 MPMFAST_RUN("separation position_offset/meet", 24, "meet.yaml",
