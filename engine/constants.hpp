@@ -274,6 +274,9 @@ inline constexpr int kPointsPerCell = 3;
 inline constexpr double kBeyondEdge = 0.6;
 /// Gap beyond which there is no point, cells; more than what surfaces approach in a step.
 inline constexpr double kFarPoint = 0.6;
+/// Farthest that a point may lie from its node along an axis, cells; 1 to 2. Points of two blocks of one colour
+/// would share nodes beyond.
+inline constexpr double kFarOffset = 1.5;
 /// Least sum of the weights of the nodes with mass around a point; in (0, 1).
 inline constexpr double kLeastWeight = 0.2;
 /// Distance within which a point takes over what an earlier one knew, cells; 0.5 to 1.

@@ -46,7 +46,7 @@ struct ActiveSetRule {
     const double force = Law::scope == LawScope::contact ? force_of(end) : end;
     const double limit =
         law({friction ? std::max(0.0, -force) : 0, needed, reduced_mass, friction ? area_time : 0});
-    const Friction<Dim> after = into_cone(tangential, needed, limit);
+    const Friction<Vec<Dim>> after = into_cone(tangential, needed, limit);
     return {end * normal + after.impulse, after.sticks ? ContactStatus::stick : ContactStatus::slip};
   }
 };

@@ -1,39 +1,50 @@
 #pragma once
 
-/// @file Coulomb's cone: normal and tangential parts of an impulse, and the friction limit of the latter.
+/// @file Coulomb's cone: normal and tangential parts of an impulse, and the friction limit of the latter. A
+/// vector is Vec<Dim>, or LaneVector<Dim> for kLanes impulses at once.
 
 #include "kernels/dimension.hpp"
+#include "kernels/simd/lane_vector.hpp"
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wignored-attributes"
 
 namespace mpmfast {
 
 /// A vector as x = normal·n + tangential.
-template <int Dim>
+template <class Vector>
 struct SplitVector {
-  double normal;  ///< x·n
-  Vec<Dim> tangential;
+  NumberOf<Vector> normal;  ///< x·n
+  Vector tangential;
 };
 
 /// Splits x along the unit normal n.
-template <int Dim>
-inline SplitVector<Dim> split(const Vec<Dim>& x, const Vec<Dim>& n) {
-  const double normal = x.dot(n);
+template <class Vector>
+inline SplitVector<Vector> split(const Vector& x, const Vector& n) {
+  const NumberOf<Vector> normal = dot(x, n);
   return {normal, x - normal * n};
 }
 
 /// A tangential impulse after friction.
-template <int Dim>
+template <class Vector>
 struct Friction {
-  Vec<Dim> impulse;  ///< N s
-  bool sticks;
+  Vector impulse;  ///< N s
+  MaskOf<NumberOf<Vector>> sticks;
 };
 
 /// Projects the tangential impulse that sticking needs into the cone: its length is at most `limit`.
-/// @param needed  its length, N s
+/// @param needed  its length, N s; positive, unless the limit is zero or infinite
 /// @param limit   what the law carries, N s; infinite: sticks
-template <int Dim>
-inline Friction<Dim> into_cone(const Vec<Dim>& tangential, double needed, double limit) {
-  if (needed <= limit) return {tangential, true};
-  return {(limit / needed) * tangential, false};
+template <class Vector>
+inline Friction<Vector> into_cone(const Vector& tangential, const NumberOf<Vector>& needed,
+                                  const NumberOf<Vector>& limit) {
+  using Number = NumberOf<Vector>;
+  const MaskOf<Number> sticks = needed <= limit;
+  if constexpr (std::is_same_v<Number, double>)
+    if (sticks) return {tangential, true};  // a branch costs less than the quotient
+  return {chosen(sticks, broadcast<Number>(1.0), quotient(limit, needed)) * tangential, sticks};
 }
 
 }  // namespace mpmfast
+
+#pragma GCC diagnostic pop

@@ -173,7 +173,7 @@ FrictionResult<Dim> apply_friction(const Law& law, double normal_impulse, const 
   const Vec<Dim> spring_force = spring.mean_force(slip, Vec<Dim>(slip + 0.5 * dt * rate));
   const Vec<Dim> stick = spring.inertia(joint.mass, dt, alone) * rate + dt * (drawn - spring_force);
   const double needed = stick.norm();
-  const Friction<Dim> friction = into_cone(stick, needed, law({normal_impulse, needed, joint.mass}));
+  const Friction<Vec<Dim>> friction = into_cone(stick, needed, law({normal_impulse, needed, joint.mass}));
   if (friction.sticks) return {Vec<Dim>::Zero(), stick};
   PairStart<Dim> sliding = joint;
   sliding.opening -= friction.impulse / dt;

@@ -19,7 +19,7 @@ inline Vec<Dim> resolve_pair(const Vec<Dim>& stick, const Vec<Dim>& normal, doub
                              double reduced_mass = 0, double area_time = 0) {
   if constexpr (Law::scope == LawScope::nowhere || Law::scope == LawScope::interface) return Vec<Dim>::Zero();
   if constexpr (Law::scope == LawScope::everywhere) return stick;
-  const SplitVector<Dim> trial = split(stick, normal);
+  const SplitVector<Vec<Dim>> trial = split(stick, normal);
   if constexpr (Law::scope == LawScope::bonded) {
     const double shear = trial.tangential.norm();
     if (separation < law.longest_gap() && law.holds({-trial.normal, shear, reduced_mass, area_time}))
@@ -28,7 +28,7 @@ inline Vec<Dim> resolve_pair(const Vec<Dim>& stick, const Vec<Dim>& normal, doub
   if (!(trial.normal < 0 && separation < 0)) return Vec<Dim>::Zero();
   const double needed = trial.tangential.norm();
   const double limit = law({-trial.normal, needed, reduced_mass, area_time});
-  const Friction<Dim> friction = into_cone(trial.tangential, needed, limit);
+  const Friction<Vec<Dim>> friction = into_cone(trial.tangential, needed, limit);
   return friction.sticks ? stick : Vec<Dim>(trial.normal * normal + friction.impulse);
 }
 

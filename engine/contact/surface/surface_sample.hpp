@@ -88,7 +88,8 @@ SupportSearch::Found reach_at(const CloudColumns<Dim>& particles, const Vec<Dim>
 /// The points of a pair's surface that belong to its node.
 template <Extent E, int Dim>
 SurfaceSample<Dim> sample_surface(const SampledPair<Dim>& pair) {
-  using constants::contact::kPointsPerCell, constants::contact::kBeyondEdge, constants::contact::kFarPoint;
+  using constants::contact::kPointsPerCell, constants::contact::kBeyondEdge, constants::contact::kFarPoint,
+      constants::contact::kFarOffset;
   SurfaceSample<Dim> sample;
   const Vec<Dim>& n = pair.normal;
   if (n.isZero(0)) return sample;
@@ -116,6 +117,7 @@ SurfaceSample<Dim> sample_surface(const SampledPair<Dim>& pair) {
     const double gap = -ahead.value - behind.value;
     if (ahead.at < 0 || behind.at < 0 || gap > kFarPoint) continue;
     x += (0.5 * (ahead.value - behind.value) - x.dot(n)) * n;
+    if (x.cwiseAbs().maxCoeff() > kFarOffset) continue;
     sample.points[static_cast<std::size_t>(sample.count++)] = {x, gap * pair.cell};
   }
   return sample;
