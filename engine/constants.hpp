@@ -266,23 +266,28 @@ inline constexpr double kVelocityRoundOff = 1e-10;
 
 // Contact at points of the surface.
 
-/// Points along the side of a cell of a surface along the grid; 2 to 4. Fewer leave motion of the surface
-/// free; more cost time.
-inline constexpr int kPointsPerCell = 3;
+/// Farthest distance of neighbouring points along a surface, cells; 0.3 to 0.5. More leaves motion of the
+/// surface free: corners of turned bodies are not held. Less costs time, and there are more points than
+/// motions.
+inline constexpr double kPointSpacing = 0.35;
+/// By how much a later axis must be nearer to a normal to be taken; 1.01 to 1.1. So neighbouring nodes take
+/// the same one where a surface lies at 45° to the grid.
+inline constexpr double kNearerAxis = 1.05;
 /// How far a point may lie beyond the edge of a deformable body, cells; 0.5 to 1. With less, the last nodes
 /// of an edge are free to roll up.
 inline constexpr double kBeyondEdge = 0.6;
 /// Gap beyond which there is no point, cells; more than what surfaces approach in a step.
 inline constexpr double kFarPoint = 0.6;
-/// Farthest that a point may lie from its node along an axis, cells; 1 to 2. Points of two blocks of one colour
-/// would share nodes beyond.
+/// Farthest that a point may lie from its node along an axis, cells; 1 to 2. Points of two blocks of one
+/// colour would share nodes beyond.
 inline constexpr double kFarOffset = 1.5;
 /// Least sum of the weights of the nodes with mass around a point; in (0, 1).
 inline constexpr double kLeastWeight = 0.2;
 /// Distance within which a point takes over what an earlier one knew, cells; 0.5 to 1.
 inline constexpr double kInheritReach = 0.75;
-/// Sweeps over the points of a correction, at most; 5 or more.
-inline constexpr int kPointSweeps = 20;
+/// Sweeps over the points of a correction, at most; 20 or more. Fewer leave the rows at oblique surfaces
+/// uneven.
+inline constexpr int kPointSweeps = 30;
 /// Largest change of an impulse in a sweep, over the largest impulse, below which they have converged.
 inline constexpr double kPointTolerance = 1e-6;
 

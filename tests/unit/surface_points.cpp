@@ -86,9 +86,10 @@ SurfaceList<2> random_points(int count, Random& random) {
       SurfaceNode<2>& node = points.nodes.emplace_back();
       node.slot = 4 * column + row;
       node.mass = std::exp(3 * random.in(-1, 1));
-      node.inverse_mass.setConstant(1 / node.mass);
-      node.velocity = {random.in(-1, 1), random.in(-1, 1)};
       node.impulse.setZero(), node.as_force.setZero();
+      NodeResponse<2>& response = points.responses.emplace_back();
+      response.inverse_mass.setConstant(1 / node.mass);
+      response.velocity = {random.in(-1, 1), random.in(-1, 1)};
     }
   for (int p = 0; p < count; ++p) {
     points.geometry[p] = {{}, {0, 1}, 0, 0, 1, PairLaws::kDefault, false, true};
@@ -102,7 +103,10 @@ SurfaceList<2> random_points(int count, Random& random) {
         inverse += std::pow(points.stencil[p].weight[side][c], 2) / points.nodes[node].mass;
       }
     }
-    points.solve[p] = {1 / inverse, Vec<2>::Zero()};
+    points.solve[p] = {};
+    points.solve[p].reduced_mass = 1 / inverse;
+    points.solve[p].normal = points.geometry[p].normal;
+    points.solve[p].law = points.geometry[p].law;
     points.before[p] = {}, points.status[p] = {}, points.impulse[p] = {};
     points.status[p].target_approach = random.in(0, 0.3);
   }

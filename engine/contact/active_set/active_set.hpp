@@ -117,19 +117,21 @@ double predicted_gap(const CorrectionMethod& method, const PairGeometry<Dim>& ge
 /// normal force F would take the energy F δ in every step. A pair whose gap exceeds its elastic recovery
 /// length does not persist: the bodies do not touch there (beside a round contact, at the ends of a sliding
 /// block).
+inline void decide_persistence(const PairHistory& before, double separation, double cell, double dt,
+                               PairStatus& status) {
+  using constants::contact::kLeastRecovery, constants::contact::kMostRecovery;
+  status.persistent = before.touched && separation < std::clamp(before.recovery_length, kLeastRecovery * cell,
+                                                                kMostRecovery * cell);
+  status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
+}
+
+/// The same of all pairs of a node. Without one active set no pair persists.
 template <int Dim>
 void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
                         PairColumns<Dim>& pairs) {
-  using constants::contact::kLeastRecovery, constants::contact::kMostRecovery;
-  for (int e = node.pair_begin; e < node.pair_end; ++e) {
-    PairStatus& status = pairs.status[e];
-    const PairHistory& before = pairs.before[e];
-    const double separation = pairs.geometry[e].separation;
-    status.persistent =
-        method.one_set && before.touched &&
-        separation < std::clamp(before.recovery_length, kLeastRecovery * cell, kMostRecovery * cell);
-    status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
-  }
+  for (int e = node.pair_begin; e < node.pair_end; ++e)
+    decide_persistence(method.one_set ? pairs.before[e] : PairHistory{}, pairs.geometry[e].separation, cell,
+                       dt, pairs.status[e]);
 }
 
 /// Is the pair in contact after the second correction? True if that correction presses, or if the first one

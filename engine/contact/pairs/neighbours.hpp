@@ -2,32 +2,45 @@
 
 /// @file The contact nodes around one, and the pairs of the same two fields there.
 
+#include <array>
+
 #include "engine/contact/pairs/contact_list.hpp"
 #include "engine/contact/pairs/node_fields.hpp"
 
 namespace mpmfast {
 
-/// The contact node at one of the 3^Dim positions around a node (itself in the middle), or −1.
+/// A node of the grid: a block of nodes and its number there; no block, −1: none.
+struct NodePlace {
+  int block, local;
+};
+
+/// The node some steps along each axis from a contact node, at most a block away.
 template <int Dim>
-int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& list, const ContactNode<Dim>& node,
-                      int position) {
+NodePlace place_near(const Tiling<Dim>& tiling, const ContactNode<Dim>& node, const NodeIndex<Dim>& steps) {
   int block_digit = 0, stride3 = 1, local = 0, stride4 = 1, rest = node.local;
   for (int d = 0; d < Dim; ++d) {
-    int at = rest % kTileSide + position % 3 - 1;
-    int step = 1;
-    if (at < 0) at += kTileSide, step = 0;
-    if (at >= kTileSide) at -= kTileSide, step = 2;
-    block_digit += step * stride3;
+    int at = rest % kTileSide + steps[d], block = 1;
+    if (at < 0) at += kTileSide, block = 0;
+    if (at >= kTileSide) at -= kTileSide, block = 2;
+    block_digit += block * stride3;
     local += at * stride4;
     stride3 *= 3;
     stride4 *= kTileSide;
     rest /= kTileSide;
-    position /= 3;
   }
-  const int block = tiling.node_blocks[static_cast<std::size_t>(node.block)].neighbour[block_digit];
-  return block < 0 ? -1
-                   : list.node_at[static_cast<std::size_t>(block) * kTileNodes<Dim> +
-                                  static_cast<std::size_t>(local)];
+  return {tiling.node_blocks[static_cast<std::size_t>(node.block)].neighbour[block_digit], local};
+}
+
+/// The contact node at one of the 3^Dim positions around a node (itself in the middle), or −1.
+template <int Dim>
+int contact_neighbour(const Tiling<Dim>& tiling, const ContactList<Dim>& list, const ContactNode<Dim>& node,
+                      int position) {
+  NodeIndex<Dim> steps;
+  for (int& step : steps) step = position % 3 - 1, position /= 3;
+  const NodePlace place = place_near(tiling, node, steps);
+  return place.block < 0 ? -1
+                         : list.node_at[static_cast<std::size_t>(place.block) * kTileNodes<Dim> +
+                                        static_cast<std::size_t>(place.local)];
 }
 
 /// The pair of the same two fields at one of the 3^Dim positions around a node, or −1.

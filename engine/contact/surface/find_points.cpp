@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/constants.hpp"
+#include "engine/contact/pairs/neighbours.hpp"
 #include "engine/state/thread_team.hpp"
 
 namespace mpmfast {
@@ -14,24 +15,14 @@ namespace {
 /// The slot of a velocity field at a node near a contact node, or −1 where the field has no mass.
 template <int Dim>
 int slot_near(const State<Dim>& state, const ContactNode<Dim>& from, const NodeIndex<Dim>& node, int field) {
-  int block_digit = 0, stride3 = 1, local = 0, stride4 = 1, rest = from.local;
-  for (int d = 0; d < Dim; ++d) {
-    int at = rest % kTileSide + node[d] - from.index[d], step = 1;
-    if (at < 0) at += kTileSide, step = 0;
-    if (at >= kTileSide) at -= kTileSide, step = 2;
-    block_digit += step * stride3;
-    local += at * stride4;
-    stride3 *= 3;
-    stride4 *= kTileSide;
-    rest /= kTileSide;
-  }
-  const Tiling<Dim>& tiling = state.tiling;
-  const int b = tiling.node_blocks[static_cast<std::size_t>(from.block)].neighbour[block_digit];
-  if (b < 0) return -1;
-  const auto& block = tiling.node_blocks[static_cast<std::size_t>(b)];
+  NodeIndex<Dim> steps;
+  for (int d = 0; d < Dim; ++d) steps[d] = node[d] - from.index[d];
+  const NodePlace place = place_near(state.tiling, from, steps);
+  if (place.block < 0) return -1;
+  const auto& block = state.tiling.node_blocks[static_cast<std::size_t>(place.block)];
   for (int t = block.begin; t < block.end; ++t) {
-    if (tiling.node_tiles[static_cast<std::size_t>(t)].field != field) continue;
-    const int slot = t * kTileNodes<Dim> + local;
+    if (state.tiling.node_tiles[static_cast<std::size_t>(t)].field != field) continue;
+    const int slot = t * kTileNodes<Dim> + place.local;
     return state.nodes.column(Nodal::mass)[slot] > 0 ? slot : -1;
   }
   return -1;
@@ -84,17 +75,19 @@ void PointFinder<Dim>::find(const State<Dim>& state, const PairLaws& laws, const
     const PointGeometry<Dim>& geometry = points.geometry[p];
     points.status[p] = {};
     points.impulse[p] = {};
-    PointSolve<Dim>& solve = points.solve[p];
-    solve.trial.setZero();
     points.before[p] = {};
     const PointRecord<Dim>* record =
         memory.nearest(geometry.position, geometry.field_a, geometry.field_b, kInheritReach);
     if (record) points.before[p] = record->history;
     double inverse_mass = 0;
-    points.for_each_node(static_cast<int>(p), [&](const SurfaceNode<Dim>& node, double share) {
-      inverse_mass += share * share * geometry.normal.cwiseAbs2().dot(node.inverse_mass);
+    points.for_each_node(static_cast<int>(p), [&](int node, double share) {
+      inverse_mass += share * share * geometry.normal.cwiseAbs2().dot(points.responses[node].inverse_mass);
     });
+    PointSolve<Dim>& solve = points.solve[p];
     solve.reduced_mass = inverse_mass > 0 ? 1 / inverse_mass : 0;
+    solve.trial.setZero();
+    solve.normal = geometry.normal;
+    solve.law = geometry.law;
   });
 }
 
@@ -178,15 +171,17 @@ template <int Dim>
 void add_node(const State<Dim>& state, const FreeDirections<Dim>& free, int slot, bool rigid,
               SurfaceList<Dim>& points) {
   SurfaceNode<Dim>& node = points.nodes.emplace_back();
+  NodeResponse<Dim>& response = points.responses.emplace_back();
   node.slot = slot;
   node.mass = state.nodes.column(Nodal::mass)[slot];
-  node.inverse_mass.setConstant(rigid ? 0 : 1 / node.mass);
+  response.velocity.setZero();
+  response.inverse_mass.setConstant(rigid ? 0 : 1 / node.mass);
   if (rigid) return;
   node.constraint = free.conditions->constraint(slot);
   if (!node.constraint.any()) return;
   for (int d = 0; d < Dim; ++d) {
     const Vec<Dim> axis = Vec<Dim>::Unit(d);
-    if (free.conditions->free_part(node.constraint, axis) != axis) node.inverse_mass[d] = 0;
+    if (free.conditions->free_part(node.constraint, axis) != axis) response.inverse_mass[d] = 0;
   }
 }
 
@@ -198,15 +193,23 @@ void PointFinder<Dim>::number_nodes(const State<Dim>& state, const FreeDirection
                                     SurfaceList<Dim>& points) {
   node_at_.assign(static_cast<std::size_t>(state.tiling.slots()), -1);
   points.nodes.clear();
+  points.responses.clear();
   for (std::size_t p = 0; p < points.size(); ++p)
-    for (int side = 0; side < 2; ++side)
-      for (int& node : points.stencil[p].node[side]) {
+    for (int side = 0; side < 2; ++side) {
+      auto& nodes = points.stencil[p].node[side];
+      int any = 0;
+      for (int& node : nodes) {
         if (node < 0) continue;
         const int slot = std::exchange(node, node_at_[node]);
-        if (node >= 0) continue;
-        node = node_at_[slot] = static_cast<int>(points.nodes.size());
-        add_node(state, free, slot, side == 1 && points.geometry[p].meets_rigid, points);
+        if (node < 0) {
+          node = node_at_[slot] = static_cast<int>(points.nodes.size());
+          add_node(state, free, slot, side == 1 && points.geometry[p].meets_rigid, points);
+        }
+        any = node;
       }
+      for (int& node : nodes)
+        if (node < 0) node = any;  // its weight is 0
+    }
 }
 
 template class PointFinder<2>;

@@ -44,13 +44,6 @@ void for_each_point_by_colour(const TeamThread& me, const SurfaceList<Dim>& poin
   }
 }
 
-template <int Dim>
-void add_to_velocities(SurfaceList<Dim>& points, int p, const Vec<Dim>& impulse) {
-  points.for_each_node(p, [&](SurfaceNode<Dim>& node, double share) {
-    node.velocity += share * node.inverse_mass.cwiseProduct(impulse);
-  });
-}
-
 /// Squared impulses of one thread's points in a sweep, N² s².
 struct alignas(64) SweepTally {
   double change = 0, largest = 0;
@@ -58,25 +51,49 @@ struct alignas(64) SweepTally {
 
 /// Gives a point the impulse of its law while the others stay.
 template <int Dim, class Law>
-void respond(const PointPass& pass, const Law& law, int p, SurfaceList<Dim>& points, SweepTally& tally) {
-  constexpr bool kActs = Law::scope == LawScope::contact;
-  PairStatus& status = points.status[p];
-  PointSolve<Dim>& solve = points.solve[p];
-  PairImpulses<Dim>& impulse = points.impulse[p];
-  if (!kActs || !(solve.reduced_mass > 0)) return;
+void respond(const Law& law, int p, SurfaceList<Dim>& points, SweepTally& tally) {
+  PointSolve<Dim>& point = points.solve[p];
+  point.trial = point.impulse + point.reduced_mass * points.relative_velocity(p);
+  const auto all_of_it = [](double normal_impulse) { return normal_impulse; };
+  const Response<Dim> response = point.rule.response(point.normal, point.target_approach, point.trial,
+                                                     point.reduced_mass, law, 0, all_of_it);
+  point.status = response.status;
+  const Vec<Dim> change = response.impulse - point.impulse;
+  point.impulse = response.impulse;
+  tally.largest = std::max(tally.largest, point.impulse.squaredNorm());
+  if (change.isZero(0)) return;
+  tally.change = std::max(tally.change, change.squaredNorm());
+  points.for_each_node(p, [&](int k, double share) {
+    NodeResponse<Dim>& node = points.responses[k];
+    node.velocity += share * node.inverse_mass.cwiseProduct(change);
+  });
+}
+
+/// Prepares a point for the sweeps of a correction, without an impulse.
+template <int Dim>
+void prepare(const CorrectionRule& rule, int p, SurfaceList<Dim>& points) {
   // Every point is a candidate: its approach velocity decides, since other points change it.
   constexpr double kCloses = -1;
-  PairRule<Dim> rule = pair_rule<Dim>(pass.rule, status, points.before[p], kCloses);
-  solve.trial = impulse.now + solve.reduced_mass * points.relative_velocity(p);
-  const auto all_of_it = [](double normal_impulse) { return normal_impulse; };
-  const Response<Dim> response = rule.set.response(points.geometry[p].normal, status.target_approach,
-                                                   solve.trial, solve.reduced_mass, law, 0, all_of_it);
-  status.now = response.status;
-  const Vec<Dim> change = response.impulse - impulse.now;
-  if (!change.isZero(0)) add_to_velocities(points, p, change);
-  impulse.now = response.impulse;
-  tally.change = std::max(tally.change, change.squaredNorm());
-  tally.largest = std::max(tally.largest, impulse.now.squaredNorm());
+  PointSolve<Dim>& point = points.solve[p];
+  point.rule = pair_rule<Dim>(rule, points.status[p], points.before[p], kCloses).set;
+  point.rule.acts &= point.reduced_mass > 0;
+  point.target_approach = points.status[p].target_approach;
+  point.impulse.setZero();
+  point.status = ContactStatus::open;
+}
+
+/// Adds the impulses of a point to the sums of its nodes.
+template <int Dim>
+void add_to_sums(int p, SurfaceList<Dim>& points) {
+  const PairImpulses<Dim>& impulse = points.impulse[p];
+  points.for_each_node(p, [&](int k, double share) {
+    SurfaceNode<Dim>& node = points.nodes[k];
+    for (int d = 0; d < Dim; ++d) {
+      if (!(points.responses[k].inverse_mass[d] > 0)) continue;
+      node.impulse[d] += share * impulse.now[d];
+      node.as_force[d] += share * impulse.as_force[d];
+    }
+  });
 }
 
 }  // namespace detail
@@ -90,16 +107,15 @@ int solve_points(const PointPass& pass, SurfaceList<Dim>& points, const SumsOf& 
   pass.laws.dispatch([&](const auto& laws) {
     on_threads(asked, [&](const TeamThread& me) {
       const auto each_point = [&](const auto& f) { detail::for_each_point_by_colour(me, points, f); };
-      each_point([&](int p) {
-        points.impulse[p].now.setZero();
-        points.status[p].now = ContactStatus::open;
-      });
+      each_point([&](int p) { detail::prepare(pass.rule, p, points); });
       detail::SweepTally& mine = tallies[static_cast<std::size_t>(me.thread)];
       for (int done = 0; done < kPointSweeps; ++done) {
         mine = {};
         each_point([&](int p) {
-          laws.with(points.geometry[p].law,
-                    [&](const auto& law) { detail::respond(pass, law, p, points, mine); });
+          if (!points.solve[p].rule.acts) return;
+          laws.with(points.solve[p].law, [&]<class Law>(const Law& law) {
+            if constexpr (Law::scope == LawScope::contact) detail::respond(law, p, points, mine);
+          });
         });
         double change = 0, largest = 0;
         for (int t = 0; t < me.threads; ++t) {
@@ -111,15 +127,10 @@ int solve_points(const PointPass& pass, SurfaceList<Dim>& points, const SumsOf& 
         if (change <= kPointTolerance * kPointTolerance * largest) break;
       }
       each_point([&](int p) {
+        points.impulse[p].now = points.solve[p].impulse;
+        points.status[p].now = points.solve[p].status;
         sums_of(p);
-        const PairImpulses<Dim>& impulse = points.impulse[p];
-        points.for_each_node(p, [&](SurfaceNode<Dim>& node, double share) {
-          for (int d = 0; d < Dim; ++d) {
-            if (!(node.inverse_mass[d] > 0)) continue;
-            node.impulse[d] += share * impulse.now[d];
-            node.as_force[d] += share * impulse.as_force[d];
-          }
-        });
+        detail::add_to_sums(p, points);
       });
     });
   });

@@ -41,7 +41,7 @@ SurfaceContact<Dim>::SurfaceContact(const Scene& scene, const Plan& plan, const 
 template <int Dim>
 std::size_t SurfaceContact<Dim>::bytes() const {
   return bytes_in(samples_, points_.geometry, points_.stencil, points_.solve, points_.before, points_.status,
-                  points_.impulse, points_.relative, points_.nodes) +
+                  points_.impulse, points_.relative, points_.nodes, points_.responses) +
          finder_.bytes() + memory_.bytes();
 }
 
@@ -59,7 +59,7 @@ void SurfaceContact<Dim>::start(const State<Dim>& state) {
   for_each_of(static_cast<std::int64_t>(points_.nodes.size()), state.threads, constants::threads::kFewNodes,
               [&](std::int64_t k) {
                 SurfaceNode<Dim>& node = points_.nodes[k];
-                node.velocity = conditions_->with_prescribed(
+                points_.responses[k].velocity = conditions_->with_prescribed(
                     node.constraint, state.nodes.vector(Nodal::momentum, node.slot) / node.mass);
                 node.impulse.setZero();
                 node.as_force.setZero();
@@ -70,15 +70,8 @@ void SurfaceContact<Dim>::start(const State<Dim>& state) {
 /// (decide_persistence).
 template <int Dim>
 void SurfaceContact<Dim>::begin_active_set(double cell, double dt) {
-  using constants::contact::kLeastRecovery, constants::contact::kMostRecovery;
   for (std::size_t p = 0; p < points_.size(); ++p) {
-    PairStatus& status = points_.status[p];
-    const PairHistory& before = points_.before[p];
-    const double separation = points_.geometry[p].separation;
-    status.persistent =
-        before.touched &&
-        separation < std::clamp(before.recovery_length, kLeastRecovery * cell, kMostRecovery * cell);
-    status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
+    decide_persistence(points_.before[p], points_.geometry[p].separation, cell, dt, points_.status[p]);
     RelativeVelocities<Dim>& relative = points_.relative[p];
     relative.start = relative.after_first = points_.relative_velocity(static_cast<int>(p));
   }
@@ -107,9 +100,10 @@ void SurfaceContact<Dim>::correct_first(State<Dim>& state, const StepTimes& time
   });
   change_nodes(state, times.dt, false);
   if (method_.keeps_velocity_change)
-    for (const SurfaceNode<Dim>& node : points_.nodes)
+    for (std::size_t k = 0; k < points_.nodes.size(); ++k)
       for (int d = 0; d < Dim; ++d)
-        state.nodes.column(Nodal::star, Dim + d)[node.slot] += node.impulse[d] * node.inverse_mass[d];
+        state.nodes.column(Nodal::star, Dim + d)[points_.nodes[k].slot] +=
+            points_.nodes[k].impulse[d] * points_.responses[k].inverse_mass[d];
   for_each_point(points_, state.threads, [&](int p) {
     PairImpulses<Dim>& impulse = points_.impulse[p];
     impulse.first = impulse.now;

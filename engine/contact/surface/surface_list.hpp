@@ -9,6 +9,7 @@
 
 #include "engine/conditions/conditions.hpp"
 #include "engine/contact/pairs/contact_list.hpp"
+#include "kernels/contact/active_set_rule.hpp"
 
 namespace mpmfast {
 
@@ -25,32 +26,44 @@ struct PointGeometry {
 };
 
 /// The nodes of the cell around a point, of fields a and b, with the weights that multilinear functions have
-/// there. Nodes without mass are left out, and the weights of each field have the sum 1.
+/// there. The weights of each field have the sum 1. In place of a node without mass stands another one of the
+/// field, with the weight 0.
 template <int Dim>
 struct PointStencil {
   static constexpr int kNodes = 1 << Dim;
 
-  std::array<int, kNodes> node[2];  ///< into SurfaceList::nodes; −1: none
+  std::array<int, kNodes> node[2];  ///< into SurfaceList::nodes
   std::array<double, kNodes> weight[2];
 };
 
-/// What a point needs while impulses are found.
+/// A point while impulses are found: all that a sweep reads and writes of it, beside its stencil.
 template <int Dim>
 struct PointSolve {
-  double reduced_mass;  ///< m_red = 1/(Σ w²/m over the nodes of both fields), kg
-  Vec<Dim> trial;       ///< impulse that sticking would need while the others stay, N s
+  double reduced_mass;      ///< m_red = 1/(Σ w²/m over the nodes of both fields), kg
+  Vec<Dim> trial;           ///< impulse that sticking would need while the others stay, N s
+  Vec<Dim> normal;          ///< as PointGeometry
+  Vec<Dim> impulse;         ///< so far, N s
+  double target_approach;   ///< as PairStatus, m/s
+  int law;                  ///< as PointGeometry
+  ActiveSetRule<Dim> rule;  ///< of the correction
+  ContactStatus status;     ///< so far
 };
 
 /// A velocity field on a node that points reach.
 template <int Dim>
 struct SurfaceNode {
   int slot;
-  double mass;            ///< kg
-  Vec<Dim> inverse_mass;  ///< by axis; 0: rigid, or prescribed by conditions, 1/kg
+  double mass;  ///< kg
   typename Conditions<Dim>::Constraint constraint;
-  Vec<Dim> velocity;  ///< m/s, with the impulses so far
   Vec<Dim> impulse;   ///< of the correction, N s
   Vec<Dim> as_force;  ///< what counts as a force beside it, N s
+};
+
+/// How impulses move a node: all that a sweep reads and writes of it.
+template <int Dim>
+struct NodeResponse {
+  Vec<Dim> velocity;      ///< m/s, with the impulses so far
+  Vec<Dim> inverse_mass;  ///< by axis; 0: rigid, or prescribed by conditions, 1/kg
 };
 
 template <int Dim>
@@ -63,6 +76,7 @@ struct SurfaceList {
   Indexed<PairImpulses<Dim>> impulse;
   Indexed<RelativeVelocities<Dim>> relative;
   Indexed<SurfaceNode<Dim>> nodes;
+  Indexed<NodeResponse<Dim>> responses;  ///< of the nodes
   /// First points of consecutive blocks, and the end. Blocks of one colour never share a node.
   std::array<std::vector<std::array<int, 2>>, kCorners<Dim>> blocks;
 
@@ -83,16 +97,16 @@ struct SurfaceList {
   Vec<Dim> velocity_of(int p, int side) const {
     Vec<Dim> v = Vec<Dim>::Zero();
     for (std::size_t c = 0; c < PointStencil<Dim>::kNodes; ++c)
-      if (const int k = stencil[p].node[side][c]; k >= 0) v += stencil[p].weight[side][c] * nodes[k].velocity;
+      v += stencil[p].weight[side][c] * responses[stencil[p].node[side][c]].velocity;
     return v;
   }
-  /// Calls f(node, share) for the nodes of a point, where the share of an impulse on field a is positive.
+  /// Calls f(node, share) with the number of each node of a point, where the share of an impulse on field a
+  /// is positive.
   template <class F>
-  void for_each_node(int p, const F& f) {
+  void for_each_node(int p, const F& f) const {
     for (int side = 0; side < 2; ++side)
       for (std::size_t c = 0; c < PointStencil<Dim>::kNodes; ++c)
-        if (const int k = stencil[p].node[side][c]; k >= 0)
-          f(nodes[k], side == 0 ? stencil[p].weight[side][c] : -stencil[p].weight[side][c]);
+        f(stencil[p].node[side][c], side == 0 ? stencil[p].weight[side][c] : -stencil[p].weight[side][c]);
   }
 };
 

@@ -2,10 +2,10 @@
 
 /// @file Points of the surface between two bodies, found from the cloud of particles around a contact node.
 ///
-/// A plane normal to n lies midway between the two bodies. It is cut by lines of the grid, a third of a cell
-/// apart, that run along the axis nearest to n. A node takes the cuts within half a cell of itself, so that
-/// neighbouring nodes share the surface among themselves. Around each cut the particles straight ahead give
-/// the gap there.
+/// A plane normal to n lies midway between the two bodies. It is cut by lines that run along the axis nearest
+/// to n, three to five to the side of a cell, so that the cuts are at most constants::contact::kPointSpacing
+/// apart. A node takes the cuts within half a cell of itself, so that neighbouring nodes share the surface
+/// among themselves. Around each cut the particles straight ahead give the gap there.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ struct SampledPoint {
 
 template <int Dim>
 struct SurfaceSample {
-  static constexpr int kMost = power(constants::contact::kPointsPerCell, Dim - 1);
+  static constexpr int kMost = Dim == 2 ? 5 : 16;  ///< see lines_for
 
   std::array<SampledPoint<Dim>, kMost> points;
   int count = 0;
@@ -85,11 +85,27 @@ SupportSearch::Found reach_at(const CloudColumns<Dim>& particles, const Vec<Dim>
   return furthest.found();
 }
 
+/// The axis nearest to a normal, and the lines along it that a node takes.
+struct Lines {
+  int axis;
+  int across;  ///< to the side of a cell
+};
+
+template <int Dim>
+Lines lines_for(const Vec<Dim>& normal) {
+  using constants::contact::kNearerAxis, constants::contact::kPointSpacing;
+  int axis = 0;
+  for (int d = 1; d < Dim; ++d)
+    if (std::abs(normal[d]) > kNearerAxis * std::abs(normal[axis])) axis = d;
+  const double tilt = std::abs(normal[axis]);  // a cell of the grid has the area 1/tilt of the surface
+  const double stretch = Dim == 2 ? 1 / tilt : 1 / std::sqrt(tilt);
+  return {axis, static_cast<int>(std::ceil(stretch / kPointSpacing))};
+}
+
 /// The points of a pair's surface that belong to its node.
 template <Extent E, int Dim>
 SurfaceSample<Dim> sample_surface(const SampledPair<Dim>& pair) {
-  using constants::contact::kPointsPerCell, constants::contact::kBeyondEdge, constants::contact::kFarPoint,
-      constants::contact::kFarOffset;
+  using constants::contact::kBeyondEdge, constants::contact::kFarPoint, constants::contact::kFarOffset;
   SurfaceSample<Dim> sample;
   const Vec<Dim>& n = pair.normal;
   if (n.isZero(0)) return sample;
@@ -98,16 +114,14 @@ SurfaceSample<Dim> sample_surface(const SampledPair<Dim>& pair) {
                           other = pair.cloud.part(pair.other.first, pair.other.second - pair.other.first);
   const auto front = reach_along<E>(own, n), rear = reach_along<E>(other, back);
   if (front.at < 0 || rear.at < 0 || -front.value - rear.value > kFarPoint) return sample;
-  int axis = 0;
-  for (int d = 1; d < Dim; ++d)
-    if (std::abs(n[d]) > std::abs(n[axis])) axis = d;
-  for (int line = 0; line < SurfaceSample<Dim>::kMost; ++line) {
+  const auto [axis, across] = lines_for<Dim>(n);
+  for (int line = 0; line < power(across, Dim - 1); ++line) {
     Vec<Dim> x = Vec<Dim>::Zero();
     double rest = 0.5 * (front.value - rear.value);
     for (int d = 0, digits = line; d < Dim; ++d) {
       if (d == axis) continue;
-      x[d] = (digits % kPointsPerCell + 0.5) / kPointsPerCell - 0.5;
-      digits /= kPointsPerCell;
+      x[d] = (digits % across + 0.5) / across - 0.5;
+      digits /= across;
       rest -= n[d] * x[d];
     }
     x[axis] = rest / n[axis];
