@@ -266,9 +266,9 @@ inline constexpr double kVelocityRoundOff = 1e-10;
 
 // Contact at points of the surface.
 
-/// Farthest distance of neighbouring points along a surface, cells; 0.3 to 0.5. More leaves motion of the
-/// surface free: corners of turned bodies are not held. Less costs time, and there are more points than
-/// motions.
+/// Distance of neighbouring points along a surface, cells, at most (in space in the mean); 0.34 to 0.5. More
+/// leaves motion of the surface free: corners of turned bodies are not held. Less costs time, and there are
+/// more points than motions.
 inline constexpr double kPointSpacing = 0.35;
 /// By how much a later axis must be nearer to a normal to be taken; 1.01 to 1.1. So neighbouring nodes take
 /// the same one where a surface lies at 45° to the grid.

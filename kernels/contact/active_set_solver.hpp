@@ -42,9 +42,10 @@ inline Vector slip_direction(const Vector& impulse, const Vector& normal) {
 
 /// Gauss–Seidel gives each contact in turn the impulse of its law while the others stay. A few sweeps find
 /// the statuses; then convergence is slow, the more so the lighter a field between heavy ones. So a Newton
-/// step on the active set follows each sweep: the impulses that end all constrained relative motion if no
-/// status changes. For Coulomb's law in 2-D, where no slip turns, that is the solution. Each impulse has its
-/// reaction, so every iterate conserves momentum.
+/// step on the active set follows each of the first sweeps, and some of the later ones. It finds the impulses
+/// that end all constrained relative motion if no status changes. For Coulomb's law in 2-D, where no slip
+/// turns, that is the solution once the statuses are right. Each impulse has its reaction, so every iterate
+/// conserves momentum.
 ///
 /// A mask says for which nodes a call acts: one condition for a number, one a lane for lanes. A lane computes
 /// the same whatever the others hold.
@@ -55,9 +56,10 @@ inline Vector slip_direction(const Vector& impulse, const Vector& normal) {
 ///     with its `velocity` and `inverse_mass`;
 ///   - `contact(k)` with `normal`, `reduced_mass`, `target_approach`, `bilateral`, `status`, `impulse`,
 ///     `change`; its fields `first(k)` and `second(k)`;
-///   - `find_changes(mask)`: sets the changes of impulses that end all constrained relative motion; where
-///     there are any, and they are finite;
-///   - `advance(mask, share)`: adds that share of the changes; where that is kept.
+///   - `find_changes(mask)`: sets the changes of impulses that end all constrained relative motion, and
+///   returns
+///     where there are any and they are finite;
+///   - `advance(mask, share)`: adds that share of the changes, and returns where it kept them.
 /// @tparam Law  law(k, trial): the response of contact k to Δp_a that sticking would need, N s
 template <class Node, class Law>
 class ActiveSetSolver {
@@ -95,8 +97,8 @@ class ActiveSetSolver {
       add_to_velocities(node_, k, step);
       c.impulse = now;
       c.status = updated(active, response.status, c.status);
-      largest = larger(largest, dot(now, now));
-      change = larger(change, dot(step, step));
+      largest = larger(dot(now, now), largest);  // the maximum outlasts a NaN
+      change = larger(dot(step, step), change);
     });
     largest_ = largest;
     return is_converged(change, largest);
@@ -123,7 +125,8 @@ class ActiveSetSolver {
     constexpr double kSquared = constants::kSweepTolerance * constants::kSweepTolerance;
     return change <= larger(Number(kSquared * largest), noise_);
   }
-  /// Are the impulses of the last sweep less than friction that wedges fields makes?
+  /// Is the largest impulse of the last sweep below the one that only wedging by friction makes
+  /// (constants::kMostImpulse)?
   Mask is_bounded() const { return largest_ <= most_; }
 
  private:
@@ -132,7 +135,7 @@ class ActiveSetSolver {
     Number share, opens;
   };
 
-  /// `now` where the mask holds, else `before`. (For a number it holds wherever anything is computed.)
+  /// `now` where the mask holds, else `before`. (A single node is only swept while it is active.)
   template <class T>
   static T updated(Mask mask, const T& now, const T& before) {
     if constexpr (std::is_same_v<Number, double>)
@@ -177,8 +180,8 @@ class ActiveSetSolver {
       const auto& c = node_.contact(k);
       const Mask sticks = has(c.status, ContactStatus::stick);
       if (!any_of(sticks & all)) return;
-      const Vector trial =
-          c.impulse + share * c.change - c.reduced_mass * c.target_approach * c.normal;  // the law adds it
+      const Vector trial = c.impulse + share * c.change -
+                           c.reduced_mass * c.target_approach * c.normal;  // the law adds the target approach
       all = all & (opposite(sticks) | has(law_(k, trial).status, ContactStatus::stick));
     });
     return all;
@@ -196,7 +199,7 @@ class ActiveSetSolver {
       if (std::is_same_v<Number, double> && !any_of(may_open)) return;  // in lanes, a branch costs more
       const Number now = dot(c.impulse, c.normal), change = dot(c.change, c.normal), end = now + change;
       const Mask turns = may_open & (((now > 0.0) & (end < 0.0)) | (opposite(now > 0.0) & (end > 0.0)));
-      const Number share = larger(Number{}, quotient(Number(-now), chosen(turns, change, one())));
+      const Number share = larger(quotient(Number(-now), chosen(turns, change, one())), Number{});
       const Mask first = turns & (share < step.share);
       step.share = chosen(first, share, step.share);
       step.opens = chosen(first, broadcast<Number>(own), step.opens);

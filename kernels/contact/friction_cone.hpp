@@ -33,7 +33,8 @@ struct Friction {
 };
 
 /// Projects the tangential impulse that sticking needs into the cone: its length is at most `limit`.
-/// @param needed  its length, N s; positive, unless the limit is zero or infinite
+/// @param needed  its length, N s. Zero always sticks: where unloaded surfaces slip, the caller gives a tiny
+/// one.
 /// @param limit   what the law carries, N s; infinite: sticks
 template <class Vector>
 inline Friction<Vector> into_cone(const Vector& tangential, const NumberOf<Vector>& needed,

@@ -70,7 +70,7 @@ class LaneContacts {
 
   Field fields[kFields];
   Contact contacts[Pairs::kCount];
-  bool may_stick;  ///< contacts may stick in this correction: else they have one equation each
+  bool may_stick;  ///< else no contact has friction or must stick, and each has one equation
 
   static constexpr int contact_count() { return Pairs::kCount; }
   template <class F>
@@ -99,7 +99,7 @@ class LaneContacts {
     const Lanes limit =
         chosen(holds, broadcast<Lanes>(std::numeric_limits<double>::infinity()), c.friction * presses);
     const Friction<Vector> after = into_cone(tangential, needed, limit);
-    const IntLanes acts = c.acts & ~((end > 0.0) & ~c.bilateral);  // also of a NaN
+    const IntLanes acts = c.acts & ~((end > 0.0) & ~c.bilateral);  // a NaN presses, as in ActiveSetRule
     const IntLanes status =
         chosen(after.sticks, status_of<Lanes>(ContactStatus::stick), status_of<Lanes>(ContactStatus::slip));
     return {chosen(acts, end * c.normal + after.impulse, Vector{}),

@@ -35,7 +35,7 @@ struct FieldContact {
   ContactStatus status = ContactStatus::open;  ///< result
   Vec<Dim> impulse = Vec<Dim>::Zero();         ///< result: Δp_a, N s; b takes −Δp_a
   Vec<Dim> friction = Vec<Dim>::Zero();        ///< prescribed tangential part while friction lags, N s
-  Vec<Dim> change = Vec<Dim>::Zero();          ///< of the impulse in a Newton step, N s
+  Vec<Dim> change = Vec<Dim>::Zero();          ///< of the impulse in a Newton step, or of the friction, N s
 };
 
 /// The fields and contacts of one node, as ActiveSetSolver asks for them.
@@ -85,14 +85,15 @@ class NodeContacts {
   /// added
   bool advance(bool going, double share) {
     if (!going) return false;
-    const double before = friction_lags ? objective() : 0;
+    const double before = friction_lags_ ? objective() : 0;
     add_share(share);
-    if (!friction_lags || objective() <= before) return true;
+    if (!friction_lags_ || objective() <= before) return true;
     add_share(-share);
     return false;
   }
 
-  bool friction_lags = false;  ///< friction is prescribed: impulses change along the normal
+ protected:
+  bool friction_lags_ = false;  ///< friction is prescribed: impulses change along the normal
 
  private:
   void add_share(double share) {
@@ -117,7 +118,7 @@ class NodeContacts {
       if (c.status == ContactStatus::stick)
         for (int d = 0; d < Dim; ++d) push(Vec<Dim>::Unit(d), Vec<Dim>::Unit(d));
       else
-        push(friction_lags ? c.normal : slip_direction(c.impulse, c.normal), c.normal);
+        push(friction_lags_ ? c.normal : slip_direction(c.impulse, c.normal), c.normal);
     }
     return operator_.count() > 0;
   }
@@ -138,11 +139,12 @@ class NodeContacts {
 template <int Dim>
 class NodeSolver : public NodeContacts<Dim> {
  public:
-  using NodeContacts<Dim>::contacts, NodeContacts<Dim>::fields, NodeContacts<Dim>::friction_lags;
+  using NodeContacts<Dim>::contacts, NodeContacts<Dim>::fields;
 
-  /// Finds the impulses, starting from the present ones. If they do not converge, friction is prescribed and
+  /// Finds the impulses. If they do not converge, friction is prescribed and
   /// the normal impulses are solved for it, by turns; friction that would do positive work is removed.
   /// Converged or not, impulses do no positive work.
+  /// @pre the impulses are zero
   /// @param law  law(k, trial): the Response of contact k to the impulse that sticking would need
   /// @return whether they converged (constants::kSweepTolerance) and obey their laws
   template <class Law>
@@ -158,13 +160,15 @@ class NodeSolver : public NodeContacts<Dim> {
   }
 
  private:
+  using NodeContacts<Dim>::friction_lags_;
+
   /// By turns, friction is set from the last normal impulses and the normal impulses are solved for it. Both
   /// begin at zero. Fields that jam may have no impulses that obey both laws; normal impulses for given
   /// friction always exist, and do no work.
   /// @return whether the friction converged too
   template <class Law>
   bool solve_with_lagged_friction(const Law& law) {
-    friction_lags = true;
+    friction_lags_ = true;
     restart();
     const auto lagged_law = [&](std::size_t k, const Vec<Dim>& trial) {
       return normal_response(law, k, trial);
@@ -195,7 +199,7 @@ class NodeSolver : public NodeContacts<Dim> {
       restart();
       solve_normal_impulses(solver);
     }
-    friction_lags = false;
+    friction_lags_ = false;
     if (!converged) remove_work();
     return converged;
   }

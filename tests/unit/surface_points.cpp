@@ -92,7 +92,7 @@ SurfaceList<2> random_points(int count, Random& random) {
       response.velocity = {random.in(-1, 1), random.in(-1, 1)};
     }
   for (int p = 0; p < count; ++p) {
-    points.geometry[p] = {{}, {0, 1}, 0, 0, 1, PairLaws::kDefault, false, true};
+    points.geometry[p] = {Vec<2>::Zero(), {0, 1}, 0, 0, 1, PairLaws::kDefault, false, true};
     double inverse = 0;
     for (int side = 0; side < 2; ++side) {
       const double x = random.in(0, 1), y = random.in(0, 1);
@@ -103,10 +103,11 @@ SurfaceList<2> random_points(int count, Random& random) {
         inverse += std::pow(points.stencil[p].weight[side][c], 2) / points.nodes[node].mass;
       }
     }
-    points.solve[p] = {};
-    points.solve[p].reduced_mass = 1 / inverse;
-    points.solve[p].normal = points.geometry[p].normal;
-    points.solve[p].law = points.geometry[p].law;
+    PointSolve<2>& solve = points.solve[p];
+    solve.reduced_mass = 1 / inverse;
+    solve.trial.setZero();
+    solve.normal = points.geometry[p].normal;
+    solve.law = points.geometry[p].law;
     points.before[p] = {}, points.status[p] = {}, points.impulse[p] = {};
     points.status[p].target_approach = random.in(0, 0.3);
   }

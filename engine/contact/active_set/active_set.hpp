@@ -110,7 +110,8 @@ double predicted_gap(const CorrectionMethod& method, const PairGeometry<Dim>& ge
   return gap;
 }
 
-/// Decides which pairs of a node persist, and sets the approach velocities that close the gaps of the others.
+/// Decides whether a pair persists. If not, sets the approach velocity that closes its gap by the end of the
+/// step.
 ///
 /// A persistent pair stays in contact until a force pulls it apart, and its gap δ is not closed. The gap of a
 /// surface drifts from the particles' domains while its velocities are constrained; closing it against a
@@ -125,7 +126,7 @@ inline void decide_persistence(const PairHistory& before, double separation, dou
   status.target_approach = status.persistent ? 0 : std::max(0.0, separation) / dt;
 }
 
-/// The same of all pairs of a node. Without one active set no pair persists.
+/// Decides it for all pairs of a node. Without one active set no pair persists.
 template <int Dim>
 void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& node, double cell, double dt,
                         PairColumns<Dim>& pairs) {
@@ -137,7 +138,7 @@ void decide_persistence(const CorrectionMethod& method, const ContactNode<Dim>& 
 /// Is the pair in contact after the second correction? True if that correction presses, or if the first one
 /// acted and the surfaces still approach as fast as the gap needs. Velocities below kVelocityRoundOff cells a
 /// step are round-off.
-/// @param mass  of field a, kg
+/// @param mass  scale of round-off: that of field a, or m_red of a point, kg
 /// @param relative  v_b − v_a after the correction, m/s
 template <int Dim>
 bool still_touches(const PairImpulses<Dim>& impulse, const Vec<Dim>& normal, const PairStatus& status,

@@ -9,12 +9,12 @@
 
 namespace mpmfast {
 
-/// A node of the grid: a block of nodes and its number there; no block, −1: none.
+/// A node of the grid: its block of nodes (−1: none), and its number there.
 struct NodePlace {
   int block, local;
 };
 
-/// The node some steps along each axis from a contact node, at most a block away.
+/// The node some steps along each axis from a contact node, at most kTileSide of them.
 template <int Dim>
 NodePlace place_near(const Tiling<Dim>& tiling, const ContactNode<Dim>& node, const NodeIndex<Dim>& steps) {
   int block_digit = 0, stride3 = 1, local = 0, stride4 = 1, rest = node.local;

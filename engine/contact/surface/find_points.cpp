@@ -32,7 +32,7 @@ int slot_near(const State<Dim>& state, const ContactNode<Dim>& from, const NodeI
 template <int Dim>
 bool normalise(std::array<double, PointStencil<Dim>::kNodes>& weights) {
   const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-  if (sum < constants::contact::kLeastWeight) return false;
+  if (!(sum >= constants::contact::kLeastWeight)) return false;
   for (double& weight : weights) weight /= sum;
   return true;
 }
@@ -40,6 +40,7 @@ bool normalise(std::array<double, PointStencil<Dim>::kNodes>& weights) {
 /// The colour of a block of nodes: blocks of one colour are a block apart along some axis.
 template <int Dim>
 std::size_t colour_of(const NodeBlock<Dim>& block) {
+  static_assert(2 * constants::contact::kFarOffset <= kTileSide);  // then they share no node
   std::size_t colour = 0;
   for (int d = 0; d < Dim; ++d)
     colour |= static_cast<std::size_t>(floor_div(block.first_node[d], kTileSide) & 1) << d;

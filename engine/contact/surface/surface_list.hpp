@@ -26,8 +26,8 @@ struct PointGeometry {
 };
 
 /// The nodes of the cell around a point, of fields a and b, with the weights that multilinear functions have
-/// there. The weights of each field have the sum 1. In place of a node without mass stands another one of the
-/// field, with the weight 0.
+/// there. The weights of each field have the sum 1. In place of a node without mass or weight stands another
+/// one of the field, with the weight 0.
 template <int Dim>
 struct PointStencil {
   static constexpr int kNodes = 1 << Dim;
@@ -39,10 +39,10 @@ struct PointStencil {
 /// A point while impulses are found: all that a sweep reads and writes of it, beside its stencil.
 template <int Dim>
 struct PointSolve {
-  double reduced_mass;      ///< m_red = 1/(Σ w²/m over the nodes of both fields), kg
-  Vec<Dim> trial;           ///< impulse that sticking would need while the others stay, N s
-  Vec<Dim> normal;          ///< as PointGeometry
-  Vec<Dim> impulse;         ///< so far, N s
+  double reduced_mass;  ///< m_red = 1/Σ w² Σ_d n_d²/m_d over the nodes of both fields, kg; 0: none moves
+  Vec<Dim> trial;       ///< impulse that sticking would need while the others stay, N s
+  Vec<Dim> normal;      ///< as PointGeometry
+  Vec<Dim> impulse;     ///< so far, N s
   double target_approach;   ///< as PairStatus, m/s
   int law;                  ///< as PointGeometry
   ActiveSetRule<Dim> rule;  ///< of the correction
@@ -77,7 +77,8 @@ struct SurfaceList {
   Indexed<RelativeVelocities<Dim>> relative;
   Indexed<SurfaceNode<Dim>> nodes;
   Indexed<NodeResponse<Dim>> responses;  ///< of the nodes
-  /// First points of consecutive blocks, and the end. Blocks of one colour never share a node.
+  /// By colour: the first point of each block of nodes, and the one after its last. Blocks of one colour
+  /// never share a node.
   std::array<std::vector<std::array<int, 2>>, kCorners<Dim>> blocks;
 
   std::size_t size() const { return geometry.size(); }

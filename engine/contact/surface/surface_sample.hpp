@@ -3,9 +3,10 @@
 /// @file Points of the surface between two bodies, found from the cloud of particles around a contact node.
 ///
 /// A plane normal to n lies midway between the two bodies. It is cut by lines that run along the axis nearest
-/// to n, three to five to the side of a cell, so that the cuts are at most constants::contact::kPointSpacing
-/// apart. A node takes the cuts within half a cell of itself, so that neighbouring nodes share the surface
-/// among themselves. Around each cut the particles straight ahead give the gap there.
+/// to n, three to five to the side of a cell (three or four in space), so that the cuts are about
+/// constants::contact::kPointSpacing apart at most. A node takes the cuts within half a cell of itself, so
+/// that neighbouring nodes share the surface among themselves. Around each cut the particles straight ahead
+/// give the gap there.
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@ struct SampledPoint {
 
 template <int Dim>
 struct SurfaceSample {
-  static constexpr int kMost = Dim == 2 ? 5 : 16;  ///< see lines_for
+  static constexpr int kMostAcross = Dim == 2 ? 5 : 4, kMost = power(kMostAcross, Dim - 1);  ///< lines_for
 
   std::array<SampledPoint<Dim>, kMost> points;
   int count = 0;
@@ -97,6 +98,9 @@ Lines lines_for(const Vec<Dim>& normal) {
   int axis = 0;
   for (int d = 1; d < Dim; ++d)
     if (std::abs(normal[d]) > kNearerAxis * std::abs(normal[axis])) axis = d;
+  // The largest stretch, where all axes are as near as kNearerAxis lets them be, fits in a sample.
+  constexpr double kMost = SurfaceSample<Dim>::kMostAcross * kPointSpacing, kSquare = kMost * kMost;
+  static_assert((Dim == 2 ? kSquare : kSquare * kSquare) >= 1 + (Dim - 1) * kNearerAxis * kNearerAxis);
   const double tilt = std::abs(normal[axis]);  // a cell of the grid has the area 1/tilt of the surface
   const double stretch = Dim == 2 ? 1 / tilt : 1 / std::sqrt(tilt);
   return {axis, static_cast<int>(std::ceil(stretch / kPointSpacing))};
@@ -129,9 +133,9 @@ SurfaceSample<Dim> sample_surface(const SampledPair<Dim>& pair) {
     const auto ahead = reach_at<E>(own, n, x, kBeyondEdge);
     const auto behind = reach_at<E>(other, back, x, pair.meets_rigid ? 0 : kBeyondEdge);
     const double gap = -ahead.value - behind.value;
-    if (ahead.at < 0 || behind.at < 0 || gap > kFarPoint) continue;
+    if (ahead.at < 0 || behind.at < 0 || !(gap <= kFarPoint)) continue;
     x += (0.5 * (ahead.value - behind.value) - x.dot(n)) * n;
-    if (x.cwiseAbs().maxCoeff() > kFarOffset) continue;
+    if (!(x.array().abs() <= kFarOffset).all()) continue;
     sample.points[static_cast<std::size_t>(sample.count++)] = {x, gap * pair.cell};
   }
   return sample;
