@@ -116,6 +116,57 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "a puck between smooth plates that overhang it strains uniformly, wherever its faces lie in a cell") {
+  for (const double low : {1.0, 1.4}) {
+    CAPTURE(low);
+    const Scene scene = scene_from(fmt::format(R"(
+space: 3d
+grid: {{size: [12 mm, 12 mm, 8 mm], cell: 1 mm}}
+time: {{end: 0.525 ms}}
+materials:
+  rubber: {{model: neo_hookean, density: 7.83 g/cm^3, young: 200 MPa, poisson: 0.45}}
+  plate: {{model: rigid}}
+bodies:
+  - {{name: puck, box: {{from: [3 mm, 3 mm, {0} mm], to: [9 mm, 9 mm, {1} mm]}}, material: rubber}}
+  - {{name: lower, box: {{from: [1 mm, 1 mm, 0], to: [11 mm, 11 mm, {0} mm]}}, material: plate}}
+  - {{name: upper, box: {{from: [1 mm, 1 mm, {1} mm], to: [11 mm, 11 mm, {2} mm]}}, material: plate, velocity: [0, 0, [[0 us, 0 m/s], [50 us, -2 m/s]]]}}
+contact: {{family: surface, law: frictionless}}
+method: {{basis: lcpdi}}
+output: {{frames: 0, history: 4}}
+)",
+                                               low, low + 4, low + 6));
+    Step<3> step(scene);
+    finish(step, scene.time.end);
+    const Stretches found = stretches_along<3>(step.state(), 0, {0, 0, 1});
+    CHECK(found.least > 0.98 * 0.75);  // contact on nodes: 0.65 to 0.99
+    CHECK(found.most < 1.02 * 0.75);
+  }
+}
+
+TEST_CASE("a block of metal that a smooth die presses by half flows uniformly") {
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [24 mm, 12 mm], cell: 1 mm}
+time: {end: 0.275 ms}
+materials:
+  metal: {model: j2_plasticity, density: 7.83 g/cm^3, young: 200 GPa, poisson: 0.3, yield: 700 MPa, hardening: 300 MPa}
+  die: {model: rigid}
+bodies:
+  - {name: block, box: {from: [0, 0], to: [10 mm, 10 mm]}, material: metal}
+  - {name: die, box: {from: [0, 10 mm], to: [22 mm, 12 mm]}, material: die, velocity: [0, [[0 us, 0 m/s], [50 us, -20 m/s]]]}
+boundaries: {bottom: {wall: sliding, at: surface}, left: wall}
+contact: {family: surface, law: frictionless}
+method: {basis: lcpdi}
+output: {frames: 0, history: 4}
+)");
+  Step<2> step(scene);
+  finish(step, scene.time.end);
+  const Stretches found = stretches_along<2>(step.state(), 0, {0, 1});
+  CHECK(found.least > 0.98 * 0.5);  // contact on nodes: some particles fold over
+  CHECK(found.most < 1.03 * 0.5);
+}
+
 /// The stretch along a free side, in plane strain, at which it loses its stability: waves of any length stand
 /// on it. With v = (1, −i B) exp(i x − s y) on the half-space y > 0, pressed along x, the incremental moduli
 /// A give two exponents s, and no traction on the side two equations for their amplitudes, whose determinant
