@@ -93,7 +93,8 @@ class ActiveSetSolver {
       auto& c = node_.contact(k);
       const Vector trial = c.impulse + c.reduced_mass * relative_velocity(node_, k);
       const ResponseOf<Vector> response = law_(k, trial);
-      const Vector now = updated(active, response.impulse, c.impulse), step = now - c.impulse;
+      const Vector& now = updated(active, response.impulse, c.impulse);
+      const Vector step = now - c.impulse;
       add_to_velocities(node_, k, step);
       c.impulse = now;
       c.status = updated(active, response.status, c.status);
@@ -135,11 +136,12 @@ class ActiveSetSolver {
     Number share, opens;
   };
 
-  /// `now` where the mask holds, else `before`. (A single node is only swept while it is active.)
+  /// `now` where the mask holds, else `before`. (A single node is only swept while it is active; a copy of
+  /// its impulse would take longer than the arithmetic.)
   template <class T>
-  static T updated(Mask mask, const T& now, const T& before) {
+  static decltype(auto) updated(Mask mask, const T& now, const T& before) {
     if constexpr (std::is_same_v<Number, double>)
-      return now;
+      return (now);
     else
       return chosen(mask, now, before);
   }
@@ -173,9 +175,8 @@ class ActiveSetSolver {
     most_ = kMost * kMost * momentum * momentum;
   }
 
-  /// Where every sticking contact sticks over this share of the step.
-  [[gnu::flatten]] Mask all_stick(const Number& share) const {
-    Mask all = opposite(Mask{});
+  /// Where, among those asked, every sticking contact sticks over this share of the step.
+  [[gnu::flatten]] Mask all_stick(const Number& share, Mask all) const {
     node_.for_each_contact([&](auto k) {
       const auto& c = node_.contact(k);
       const Mask sticks = has(c.status, ContactStatus::stick);
@@ -204,12 +205,12 @@ class ActiveSetSolver {
       step.share = chosen(first, share, step.share);
       step.opens = chosen(first, broadcast<Number>(own), step.opens);
     });
-    const Mask keep = all_stick(step.share) | opposite(going);
-    if (!any_of(opposite(keep))) return step;
+    const Mask shorter = going & opposite(all_stick(step.share, going));
+    if (!any_of(shorter)) return step;
     Number share{}, half = 0.5 * step.share;
     for (int halved = 0; halved < constants::kStepHalvings; ++halved, half *= 0.5)
-      share = chosen(all_stick(share + half), Number(share + half), share);
-    return {chosen(keep, step.share, share), chosen(keep, step.opens, broadcast<Number>(-1.0))};
+      share = chosen(all_stick(share + half, shorter), Number(share + half), share);
+    return {chosen(shorter, share, step.share), chosen(shorter, broadcast<Number>(-1.0), step.opens)};
   }
 
   Node& node_;

@@ -46,9 +46,8 @@ using Response = ResponseOf<Vec<Dim>>;
 /// @param trial  Δp_a that sticking would need, N s
 template <int Dim>
 inline Response<Dim> response_of(const Vec<Dim>& impulse, const Vec<Dim>& trial) {
-  return {impulse, impulse.isZero(0)  ? ContactStatus::open
-                   : impulse == trial ? ContactStatus::stick
-                                      : ContactStatus::slip};
+  const ContactStatus closed = impulse == trial ? ContactStatus::stick : ContactStatus::slip;
+  return {impulse, impulse == Vec<Dim>::Zero() ? ContactStatus::open : closed};
 }
 
 }  // namespace mpmfast

@@ -51,9 +51,10 @@ class DelassusOperator {
   /// from those before gets none.
   /// @return whether all x are finite
   bool solve() {
-    pad();
-    if (count_ <= kFew)
-      solve_few();
+    if (2 * count_ <= kFew)
+      solve_few<kFew / 2>();
+    else if (count_ <= kFew)
+      solve_few<kFew>();
     else if (count_ <= 2 * kFew)
       solve_many<2 * kFewVectors>();
     else
@@ -72,17 +73,9 @@ class DelassusOperator {
   }
 
  private:
-  static constexpr int kFew = 8;  ///< so many equations stay in registers
+  static constexpr int kFew = 8;                ///< so many equations stay in registers
+  static constexpr int kSpaced = kMost + kFew;  ///< columns of a power of two apart share lines of the cache
   static constexpr int kFewVectors = (kFew + kLanes - 1) / kLanes, kMostVectors = kMost / kLanes;
-
-  void pad() {
-    const int end = count_ <= kFew ? kFew : count_ <= 2 * kFew ? 2 * kFew : padded_count(count_);
-    for (int i = count_; i < end; ++i) {
-      a_[i] = b_[i] = -1;
-      share_a_[i] = share_b_[i] = amount_[i] = 0;
-      for (int d = 0; d < Dim; ++d) motion_[d][i] = impulse_[d][i] = 0;
-    }
-  }
 
   /// The coefficients of x_j in the equations `from` to `from` + kLanes.
   Lanes coefficients(int j, int from) const {
@@ -99,31 +92,33 @@ class DelassusOperator {
     return std::abs(pivot) > constants::kRedundantPivot ? 1 / pivot : 0;
   }
 
-  /// Gauss–Jordan, a vector for all equations at once.
+  /// Gauss–Jordan in registers.
+  template <int kEquations>
   void solve_few() {
-    Lanes column[kFew][kFewVectors], right[kFewVectors], inverse[kFewVectors]{};
-    for (int v = 0; v < kFewVectors; ++v) {
+    constexpr int kVectors = (kEquations + kLanes - 1) / kLanes;
+    Lanes column[kEquations][kVectors], right[kVectors], inverse[kVectors]{};
+    for (int v = 0; v < kVectors; ++v) {
       right[v] = load_lanes(amount_ + v * kLanes);
-      for (int j = 0; j < kFew; ++j) column[j][v] = coefficients(j, v * kLanes);
+      for (int j = 0; j < kEquations; ++j) column[j][v] = coefficients(j, v * kLanes);
     }
 #pragma GCC unroll 8
-    for (int p = 0; p < kFew; ++p) {
+    for (int p = 0; p < kEquations; ++p) {
       if (p >= count_) break;
       const int at = p / kLanes, lane = p % kLanes;
       const double pivot = inverse_of(column[p][at][lane]);
       inverse[at][lane] = pivot;
-      Lanes factor[kFewVectors];
-      for (int v = 0; v < kFewVectors; ++v) factor[v] = column[p][v] * pivot;
+      Lanes factor[kVectors];
+      for (int v = 0; v < kVectors; ++v) factor[v] = column[p][v] * pivot;
       factor[at][lane] = 0;
 #pragma GCC unroll 8
-      for (int j = p + 1; j < kFew; ++j) {
+      for (int j = p + 1; j < kEquations; ++j) {
         const double own = column[j][at][lane];
-        for (int v = 0; v < kFewVectors; ++v) column[j][v] -= factor[v] * own;
+        for (int v = 0; v < kVectors; ++v) column[j][v] -= factor[v] * own;
       }
       const double own = right[at][lane];
-      for (int v = 0; v < kFewVectors; ++v) right[v] -= factor[v] * own;
+      for (int v = 0; v < kVectors; ++v) right[v] -= factor[v] * own;
     }
-    for (int v = 0; v < kFewVectors; ++v) store_lanes(amount_ + v * kLanes, right[v] * inverse[v]);
+    for (int v = 0; v < kVectors; ++v) store_lanes(amount_ + v * kLanes, right[v] * inverse[v]);
   }
 
   /// @tparam kVectors  of a column; 0: as many as it takes
@@ -151,10 +146,11 @@ class DelassusOperator {
   }
 
   int count_ = 0;
+  // Equations beyond the last fill the last vector. They hold what earlier ones left, and change no other.
   int contact_[kMost];
-  double a_[kMost], b_[kMost], share_a_[kMost], share_b_[kMost];
-  double impulse_[Dim][kMost], motion_[Dim][kMost];
-  double amount_[kMost];         ///< the residual, then x
+  double a_[kSpaced]{}, b_[kSpaced]{}, share_a_[kSpaced]{}, share_b_[kSpaced]{};
+  double impulse_[Dim][kSpaced]{}, motion_[Dim][kSpaced]{};
+  double amount_[kSpaced]{};     ///< the residual, then x
   double matrix_[kMost][kMost];  ///< [column][equation]
 };
 
