@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/geometry/conforming.hpp"
+#include "engine/geometry/outline.hpp"
 #include "engine/geometry/surface.hpp"
 
 namespace mpmfast {
@@ -193,7 +195,12 @@ Seeds fill_rings(const Shape& shape, const CellLattice& grid) {
 }  // namespace
 
 Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension) {
-  if (seeding.rings) return fill_rings(shape, grid);
+  if (seeding.kind == SeedingKind::rings) return fill_rings(shape, grid);
+  if (seeding.kind == SeedingKind::conforming && !std::holds_alternative<BoxShape>(shape)) {
+    const double spacing = grid.cell / *std::max_element(grid.particles_per_cell.begin(),
+                                                         grid.particles_per_cell.begin() + dimension);
+    return fill_conforming(outline(shape, spacing / kConformingPoints, dimension), grid);
+  }
   if (seeding.angle != 0) return fill_turned(shape, seeding.angle, grid, dimension);
   return fill_straight(shape, grid, dimension);
 }

@@ -16,12 +16,14 @@ struct CellLattice {
   std::array<int, 3> particles_per_cell{2, 2, 2};
 };
 
-/// How the particles of a body lie: on a lattice along the axes, on one turned about z, or on rings.
+/// Where the particles of a body lie: on a lattice, on rings, or along the outline about a lattice.
+enum class SeedingKind { lattice, rings, conforming };
 struct Seeding {
-  bool rings = false;
-  double angle{};  ///< rad, of the lattice
+  SeedingKind kind = SeedingKind::lattice;
+  double angle{};  ///< rad, of the lattice, about z
 
-  bool turned() const { return rings || angle != 0; }
+  /// Do domains lie at an angle to the axes?
+  bool turned() const { return kind != SeedingKind::lattice || angle != 0; }
 };
 
 /// The particles that fill a body: where they are, and their undeformed domains.
@@ -36,7 +38,8 @@ struct Seeds {
 /// its faces (spacing = edge / round(edge / h)), so that its volume is exact; every other shape keeps the
 /// points of the grid's lattice (cell / particles_per_cell, from the grid's origin) that lie inside it. A
 /// turned lattice ends on the faces of the box around the shape that is turned alike, so that the surfaces of
-/// a turned block are smooth; rings (disks and rings only) end on the outline.
+/// a turned block are smooth; rings (disks and rings only) end on the outline, and so do conforming particles
+/// (fill_conforming; a box keeps its own lattice).
 Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension);
 
 }  // namespace mpmfast

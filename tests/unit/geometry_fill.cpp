@@ -231,7 +231,7 @@ TEST_CASE("a turned lattice fills a turned block exactly, row upon row from its 
   };
   const double u = 0.213, v = 0.117;  // half-edges
   const PolygonShape block{{at(-u, -v), at(u, -v), at(u, v), at(-u, v)}, 0, 0};
-  const Seeds seeds = fill(block, {false, angle}, kGrid, 2);
+  const Seeds seeds = fill(block, {SeedingKind::lattice, angle}, kGrid, 2);
   CHECK(measure(seeds, 2) == doctest::Approx(4 * u * v).epsilon(1e-12));
   CHECK(seeds.angle == std::vector<double>(seeds.position.size(), angle));
   for (const Vec3& x : seeds.position) {  // the distance from the lower face is an odd number of half-edges
@@ -243,7 +243,7 @@ TEST_CASE("a turned lattice fills a turned block exactly, row upon row from its 
 
 TEST_CASE("a turned lattice keeps the area of every shape, in solids too") {
   const auto turned = [](const Shape& shape, int dimension) {
-    const Seeds seeds = fill(shape, {false, -0.4}, kGrid, dimension);
+    const Seeds seeds = fill(shape, {SeedingKind::lattice, -0.4}, kGrid, dimension);
     for (const Vec3& point : seeds.position) CHECK(contains(shape, point));
     return measure(seeds, dimension);
   };
@@ -261,7 +261,7 @@ TEST_CASE("rings of particles hold the area of a disk or a ring exactly, and end
     const Vec3 centre{0.41, 0.52, 0};
     const Shape shape = inner > 0 ? Shape(RingShape{centre, inner, outer, 0})
                                   : Shape(EllipsoidShape{centre, {outer, outer, 0}, 0});
-    const Seeds seeds = fill(shape, {true, 0}, kGrid, 2);
+    const Seeds seeds = fill(shape, {SeedingKind::rings}, kGrid, 2);
     double shares = 0, nearest = 1, furthest = 0;
     Vec3 mean{};
     for (std::size_t k = 0; k < seeds.position.size(); ++k) {

@@ -270,7 +270,7 @@ void check_turned(const Known& known, double angle, const CellLattice& grid, int
     half[k] = 0.5 * edge / count;
     for (int i = 0; i < count; ++i) rows[k].push_back(box.lower[k] + (2 * i + 1) * half[k]);
   }
-  const Seeds seeds = fill(known.shape, {false, angle}, grid, dimension);
+  const Seeds seeds = fill(known.shape, {SeedingKind::lattice, angle}, grid, dimension);
   const Inside inside = all ? Inside() : known.inside;
   check_same(seeds.position, looked_at(rows, angle, inside), inside);
   CHECK(seeds.angle == std::vector<double>(angle == 0 ? 0 : seeds.position.size(), angle));
@@ -336,7 +336,7 @@ TEST_CASE(
     const CellLattice grid = a_grid(draw, 2);
     const Seeds seeds = fill(disk ? Shape(EllipsoidShape{centre, {outer, outer, 0}, 0.3})
                                   : Shape(RingShape{centre, inner, outer, 0}),
-                             {true, 0}, grid, 2);
+                             {SeedingKind::rings}, grid, 2);
     const double along_radius = grid.cell / grid.particles_per_cell[0];
     const int rings = std::max(1, static_cast<int>(std::round((outer - inner) / along_radius)));
     const double depth = (outer - inner) / rings,

@@ -96,7 +96,9 @@ TEST_CASE("the resolved scene keeps how particles lie") {
                "0.3}\nbodies:\n");
   const std::string disk = "  - {disk: {centre: [5 mm, 12 mm], radius: 1 mm}, material: rubber, seeding: ";
   check_fixed_point(rubber + disk + "rings}\n");
+  check_fixed_point(rubber + disk + "conforming}\n");
   check_fixed_point(rubber + disk + "{angle: 33 deg}}\n");
+  CHECK(holds(parse(rubber + disk + "conforming}\n").resolved_yaml, "seeding: conforming"));
   CHECK(holds(parse(rubber + disk + "rings}\n").resolved_yaml, "seeding: rings"));
   CHECK(holds(parse(plain_scene()).resolved_yaml, "seeding: lattice"));
 }

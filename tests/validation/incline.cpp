@@ -226,6 +226,14 @@ TEST_CASE("incline: a plane across the grid whose particles lie on the grid's la
   CHECK(std::abs(tilted_error(kSmoothed + straight)) < 0.16);
 }
 
+TEST_CASE("incline: a block of conforming particles slides within 1 % down a plane drawn across the grid") {
+  const Overrides conforming{{"bodies.0.seeding", "conforming"}, {"bodies.1.seeding", "conforming"}};
+  for (const char* basis : {"ugimp", "lcpdi"}) {
+    CAPTURE(std::string(basis));
+    CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + conforming)) < 0.005);
+  }
+}
+
 /// Relative error of the path of a disk that rolls: (2/3) g sin.
 double roll_error(const char* cell, const Overrides& overrides) {
   const Slope slope{30, 0.6, 0, overrides + method("flip", "lcpdi") + Overrides{{"grid.cell", cell}}};
@@ -239,6 +247,12 @@ TEST_CASE("a disk of particles on rings rolls down a plane within 2 %") {
   CHECK(std::abs(roll_error("0.05 m", kDefault)) < 0.025);
   CHECK(fine < 0.1 * std::abs(roll_error("0.1 m", kDefault)));
   CHECK(std::abs(roll_error("0.025 m", kPlain)) < 0.02);
+}
+
+TEST_CASE("a disk of conforming particles rolls down a plane within 2 %") {
+  const Overrides conforming{{"bodies.1.seeding", "conforming"}};
+  CHECK(std::abs(roll_error("0.025 m", kDefault + conforming)) < 0.01);
+  CHECK(std::abs(roll_error("0.05 m", kDefault + conforming)) < 0.025);
 }
 
 TEST_CASE("slow: a disk on the grid's lattice rolls over the corners of its outline") {

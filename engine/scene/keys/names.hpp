@@ -193,10 +193,11 @@ inline constexpr std::array<Keyword<WallEnforcement>, 3> kWallEnforcements{{
     {WallEnforcement::surface, "surface", "it pushes what reaches its plane, which may part again and rub"},
 }};
 
-/// Do particles lie on rings?
-inline constexpr std::array<Keyword<bool>, 2> kSeedings{{
-    {false, "lattice", "on the grid's lattice, of a box on one of its own (default)"},
-    {true, "rings", "about the centre of a disk or a ring, so that its outline is smooth"},
+inline constexpr std::array<Keyword<SeedingKind>, 3> kSeedings{{
+    {SeedingKind::lattice, "lattice", "on the grid's lattice, of a box on one of its own (default)"},
+    {SeedingKind::rings, "rings", "about the centre of a disk or a ring, so that its outline is smooth"},
+    {SeedingKind::conforming, "conforming",
+     "one layer along the outline of any shape in the plane, the grid's lattice inside"},
 }};
 
 struct FaceName {

@@ -81,16 +81,17 @@ void describe_counts(Slot& slot, int dimension, std::array<int, 3>& counts) {
 }
 
 void describe_seeding(Slot& slot, Seeding& seeding) {
-  if (slot.is_keyword(kSeedings[0].name, !seeding.turned(), kSeedings[0].description)) return;
-  if (slot.is_keyword(kSeedings[1].name, seeding.rings, kSeedings[1].description)) {
-    seeding.rings = true;
+  for (const auto& choice : kSeedings) {
+    const bool chosen = seeding.kind == choice.value && seeding.angle == 0;
+    if (!slot.is_keyword(choice.name, chosen, choice.description)) continue;
+    seeding.kind = choice.value;
     return;
   }
   const bool map = slot.is_map(true, [&](Keys& keys) {
     keys.need("angle", "Of the lattice, about z: along the edges of a body that lies across the grid.",
               seeding.angle, Number{Measure::angle});
   });
-  if (!map) slot.complain("not lattice, rings or {angle: …}");
+  if (!map) slot.complain("not lattice, rings, conforming or {angle: …}");
 }
 
 void describe_velocity(Slot& slot, int dimension, BodySpec& body) {

@@ -52,7 +52,9 @@ void check_seeding(const Scene& scene, const BodySpec& body, const BodyLocation&
     refuse("the levels of a bitmap share the grid's lattice");
   if (scene.space == Space::axisymmetric)
     refuse("the particles of an axisymmetric scene lie along the radius");
-  if (body.seeding.rings && !is_round(scene, body.shape))
+  if (scene.dimension() == 3 && body.seeding.kind == SeedingKind::conforming)
+    refuse("conforming particles are for shapes in the plane");
+  if (body.seeding.kind == SeedingKind::rings && !is_round(scene, body.shape))
     refuse("rings are for disks and rings in the plane");
 }
 

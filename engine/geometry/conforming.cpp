@@ -1,0 +1,277 @@
+#include "engine/geometry/conforming.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/geometry/clip.hpp"
+#include "engine/geometry/outline.hpp"
+
+namespace mpmfast {
+
+namespace {
+
+using Point = std::array<double, 2>;
+
+Point operator+(const Point& a, const Point& b) { return {a[0] + b[0], a[1] + b[1]}; }
+Point operator-(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Point operator*(double s, const Point& a) { return {s * a[0], s * a[1]}; }
+double length(const Point& a) { return std::hypot(a[0], a[1]); }
+Point unit(const Point& a) { return (1 / length(a)) * a; }
+Point direction(double angle) { return {std::cos(angle), std::sin(angle)}; }
+/// The angle from a to b, −π to π.
+double angle_between(const Point& a, const Point& b) {
+  return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
+}
+
+/// A part of an outline between two corners, or a whole loop without any. The material is on its left.
+struct SmoothLine {
+  std::vector<Point> points;   ///< m; of a loop the first one again at the end
+  std::vector<Point> normals;  ///< outward, at the points
+  std::vector<double> arc;     ///< m, from the first point
+  bool closed = false;
+  double turn_before = 0, turn_after = 0;  ///< rad, of the corners at its ends; positive: convex
+
+  double length() const { return arc.back(); }
+};
+
+/// A place on a line.
+struct Spot {
+  Point point, normal;
+};
+
+/// The place at an arc length. Points lie on the segments; normals turn evenly along each.
+Spot spot_at(const SmoothLine& line, double s) {
+  const auto next = std::upper_bound(line.arc.begin() + 1, line.arc.end() - 1, s);
+  const auto k = static_cast<std::size_t>(next - line.arc.begin());
+  const double share = (s - line.arc[k - 1]) / (line.arc[k] - line.arc[k - 1]);
+  return {line.points[k - 1] + share * (line.points[k] - line.points[k - 1]),
+          unit((1 - share) * line.normals[k - 1] + share * line.normals[k])};
+}
+
+/// What a line turns by between two arc lengths, rad. Positive where it is convex.
+double turning(const SmoothLine& line, double from, double to) {
+  Point last = spot_at(line, from).normal;
+  double sum = 0;
+  for (std::size_t k = 0; k < line.arc.size(); ++k) {
+    if (line.arc[k] <= from || line.arc[k] >= to) continue;
+    sum += angle_between(last, line.normals[k]);
+    last = line.normals[k];
+  }
+  return sum + angle_between(last, spot_at(line, to).normal);
+}
+
+/// Lines in the order of their loops; those of a loop that has corners follow each other.
+std::vector<SmoothLine> smooth_lines(const Outline& outline) {
+  std::vector<SmoothLine> lines;
+  std::vector<int> first, last;  // points of the outline
+  int patch = -1;
+  for (const Outline::Facet& facet : outline.facets) {
+    const auto at = [&](int k) -> Point {
+      const Vec3& x = outline.points[static_cast<std::size_t>(facet.point[static_cast<std::size_t>(k)])];
+      return {x[0], x[1]};
+    };
+    if (facet.patch != patch) {
+      patch = facet.patch;
+      lines.emplace_back();
+      lines.back().points.push_back(at(0));
+      first.push_back(facet.point[0]);
+      last.push_back(-1);
+    }
+    lines.back().points.push_back(at(1));
+    last.back() = facet.point[1];
+    lines.back().closed = facet.point[1] == first.back() && facet.joint[1] == Joint::smooth;
+  }
+  for (SmoothLine& line : lines) {
+    const std::size_t n = line.points.size();
+    std::vector<Point> outward;  // of the segments
+    line.arc.assign(1, 0.0);
+    for (std::size_t k = 1; k < n; ++k) {
+      const Point along = line.points[k] - line.points[k - 1];
+      outward.push_back(unit({along[1], -along[0]}));
+      line.arc.push_back(line.arc.back() + length(along));
+    }
+    const Point seam = line.closed ? unit(outward.back() + outward.front()) : Point{};
+    line.normals.push_back(line.closed ? seam : outward.front());
+    for (std::size_t k = 1; k + 1 < n; ++k) line.normals.push_back(unit(outward[k - 1] + outward[k]));
+    line.normals.push_back(line.closed ? seam : outward.back());
+  }
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    for (std::size_t j = 0; j < lines.size(); ++j) {
+      if (lines[i].closed || last[i] != first[j]) continue;
+      lines[i].turn_after = angle_between(lines[i].normals.back(), lines[j].normals.front());
+      lines[j].turn_before = lines[i].turn_after;
+    }
+  return lines;
+}
+
+/// Particles along the outline, and the line where the layer ends.
+class Layer {
+ public:
+  Layer(double depth, double spacing) : depth_(depth), spacing_(spacing) {}
+
+  /// Adds the particles of a line and of the corner behind it. @return false if its corners overlap
+  bool add(const SmoothLine& line) {
+    const double begin = set_back(line.turn_before), end = line.length() - set_back(line.turn_after);
+    if (end < begin - kRoundOff * depth_) return false;
+    add_strip(line, begin, end);
+    if (line.turn_after > 0) add_corner(line);
+    return true;
+  }
+
+  /// The points of the line at the depth of the layer, with an arc about a reentrant corner behind it.
+  std::vector<Point> inner_line(const SmoothLine& line) const {
+    const double begin = set_back(line.turn_before), end = line.length() - set_back(line.turn_after);
+    std::vector<Point> out;
+    const auto push = [&](const Spot& spot) { out.push_back(spot.point - depth_ * spot.normal); };
+    push(spot_at(line, begin));
+    for (std::size_t k = 0; k < line.arc.size(); ++k)
+      if (line.arc[k] > begin && line.arc[k] < end) push({line.points[k], line.normals[k]});
+    if (!line.closed) push(spot_at(line, end));
+    const double reentrant = std::max(-line.turn_after, 0.0);
+    const auto steps = static_cast<int>(std::ceil(reentrant * kConformingPoints));
+    const double from = std::atan2(line.normals.back()[1], line.normals.back()[0]);
+    for (int k = 1; k < steps; ++k) push({line.points.back(), direction(from - reentrant * k / steps)});
+    return out;
+  }
+
+  Seeds seeds;
+
+ private:
+  static constexpr double kRoundOff = 1e-9;
+
+  /// Where the domain of a convex corner ends on the lines that meet there, m from it.
+  double set_back(double turn) const { return turn > 0 ? depth_ * std::tan(0.5 * turn) : 0; }
+
+  void push(const Point& place, double angle, double area) {
+    seeds.position.push_back({place[0], place[1], 0});
+    seeds.angle.push_back(angle);
+    seeds.share.push_back(area / (depth_ * spacing_));
+  }
+
+  void add_strip(const SmoothLine& line, double begin, double end) {
+    const double extent = end - begin;
+    if (extent <= kRoundOff * depth_) return;
+    // A loop has a multiple of four, so that the particles of an ellipse are mirrored at its axes.
+    const long group = line.closed ? 4 : 1;
+    const double wanted = extent / spacing_ / static_cast<double>(group);
+    const long count = group * std::max(std::lround(wanted), 1L);
+    const auto sector = [&](double turn) { return 0.25 * depth_ * depth_ * std::max(-turn, 0.0); };
+    for (long k = 0; k < count; ++k) {
+      const auto at = [&](double share) { return begin + extent * share / static_cast<double>(count); };
+      const double from = at(static_cast<double>(k)), to = at(static_cast<double>(k) + 1);
+      const Spot middle = spot_at(line, at(static_cast<double>(k) + 0.5));
+      double area = depth_ * (to - from) - 0.5 * depth_ * depth_ * turning(line, from, to);
+      if (k == 0) area += sector(line.turn_before);
+      if (k + 1 == count) area += sector(line.turn_after);
+      push(middle.point - 0.5 * depth_ * middle.normal, std::atan2(middle.normal[1], middle.normal[0]), area);
+    }
+  }
+
+  /// The kite between the outline and the layer's end at a convex corner, in slices of equal area along its
+  /// axis: one at a right angle, several at the tip of a wedge.
+  void add_corner(const SmoothLine& line) {
+    const double turn = line.turn_after, area = depth_ * set_back(turn);
+    const double widest = set_back(turn) * std::sin(0.5 * turn), whole = depth_ / std::cos(0.5 * turn);
+    // Distances along the axis from the tip: the kite is widest at `widest` and ends at `whole`.
+    const double axis = std::atan2(line.normals.back()[1], line.normals.back()[0]) + 0.5 * turn;
+    const long slices = std::max(std::lround(area / (depth_ * spacing_)), 1L);
+    const auto reach = [&](double share) {  // where that share of the area ends
+      const double bend = widest / whole;
+      return share < bend ? whole * std::sqrt(share * bend)
+                          : whole * (1 - std::sqrt((1 - share) * (1 - bend)));
+    };
+    for (long k = 0; k < slices; ++k) {
+      constexpr int kParts = 16;  // of a slice, for its centroid
+      double along = 0;
+      for (int part = 0; part < kParts; ++part)
+        along +=
+            reach((static_cast<double>(k) + (part + 0.5) / kParts) / static_cast<double>(slices)) / kParts;
+      if (slices == 1) along = (widest + whole) / 3;
+      push(line.points.back() - along * direction(axis), axis - std::numbers::pi / 4,
+           area / static_cast<double>(slices));
+    }
+  }
+
+  double depth_, spacing_;  ///< m, across and along the outline
+};
+
+/// Is each of the points at least this far from all points of an outline?
+bool keeps_distance(const std::vector<Vec3>& points, const Outline& outline, double distance) {
+  std::array<double, 2> low{points[0][0], points[0][1]}, high = low;
+  for (const auto* list : {&points, &outline.points})
+    for (const Vec3& x : *list)
+      for (std::size_t d = 0; d < 2; ++d) {
+        low[d] = std::min(low[d], x[d]);
+        high[d] = std::max(high[d], x[d]);
+      }
+  const auto bin = [&](double x, std::size_t d) { return static_cast<long>((x - low[d]) / distance) + 1; };
+  const long columns = bin(high[0], 0) + 2, rows = bin(high[1], 1) + 2;
+  std::vector<int> newest(static_cast<std::size_t>(columns * rows), -1), before(outline.points.size());
+  const auto index = [&](long i, long j) { return static_cast<std::size_t>(j * columns + i); };
+  for (std::size_t k = 0; k < outline.points.size(); ++k) {
+    int& head = newest[index(bin(outline.points[k][0], 0), bin(outline.points[k][1], 1))];
+    before[k] = head;
+    head = static_cast<int>(k);
+  }
+  return std::all_of(points.begin(), points.end(), [&](const Vec3& x) {
+    const long column = bin(x[0], 0), row = bin(x[1], 1);
+    for (long j = row - 1; j <= row + 1; ++j)
+      for (long i = column - 1; i <= column + 1; ++i)
+        for (int k = newest[index(i, j)]; k >= 0; k = before[static_cast<std::size_t>(k)]) {
+          const Vec3& other = outline.points[static_cast<std::size_t>(k)];
+          if (std::hypot(x[0] - other[0], x[1] - other[1]) < distance) return false;
+        }
+    return true;
+  });
+}
+
+/// The line where the layer ends, as an outline.
+Outline inner_outline(const std::vector<SmoothLine>& lines, const Layer& layer) {
+  Outline out;
+  std::size_t begin = 0;  // of the loop
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    for (const Point& p : layer.inner_line(lines[k])) out.points.push_back({p[0], p[1], 0});
+    const bool ends = k + 1 == lines.size() || lines[k].closed || lines[k + 1].closed ||
+                      lines[k].points.back() != lines[k + 1].points.front();
+    if (!ends) continue;
+    for (std::size_t i = begin; i < out.points.size(); ++i) {
+      const std::size_t next = i + 1 < out.points.size() ? i + 1 : begin;
+      out.facets.push_back({{static_cast<int>(i), static_cast<int>(next), -1}, {}, 0});
+    }
+    begin = out.points.size();
+  }
+  return out;
+}
+
+/// The lattice inside an outline, cut off there.
+Seeds cut_lattice(const Outline& outline, const CellLattice& grid) {
+  Seeds seeds;
+  for (std::size_t d = 0; d < 2; ++d) seeds.half_size[d] = 0.5 * grid.cell / grid.particles_per_cell[d];
+  clip(outline, grid.origin, seeds);
+  seeds.angle.assign(seeds.position.size(), 0);
+  return seeds;
+}
+
+}  // namespace
+
+Seeds fill_conforming(const Outline& outline, const CellLattice& grid) {
+  // A layer of less than this share of its depth is one that meets itself.
+  constexpr double kClear = 0.95;
+  const double depth = grid.cell / grid.particles_per_cell[0],
+               spacing = grid.cell / grid.particles_per_cell[1];
+  const std::vector<SmoothLine> lines = smooth_lines(outline);
+  Layer layer(depth, spacing);
+  for (const SmoothLine& line : lines)
+    if (!layer.add(line)) return cut_lattice(outline, grid);
+  const Outline inner = inner_outline(lines, layer);
+  if (!keeps_distance(inner.points, outline, kClear * depth)) return cut_lattice(outline, grid);
+  Seeds seeds = cut_lattice(inner, grid);
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  append(seeds.position, layer.seeds.position);
+  append(seeds.angle, layer.seeds.angle);
+  append(seeds.share, layer.seeds.share);
+  return seeds;
+}
+
+}  // namespace mpmfast

@@ -1,0 +1,138 @@
+// Particles that follow the outline of a plane shape (fill_conforming).
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/geometry/fill.hpp"
+#include "tests/support.hpp"
+
+namespace mpmfast {
+namespace {
+
+using namespace test;
+
+constexpr CellLattice kFourPerCell{{0, 0, 0}, {40, 40, 0}, 1, {2, 2, 1}};
+constexpr double kLayer = 0.5;
+
+Seeds conforming(const Shape& shape, const CellLattice& grid = kFourPerCell) {
+  return fill(shape, {SeedingKind::conforming}, grid, 2);
+}
+
+/// Area, centroid and polar second moment about it, with that of the domains themselves.
+struct ShapeMoments {
+  double area = 0, x = 0, y = 0, polar = 0;
+};
+ShapeMoments shape_moments(const Seeds& seeds) {
+  const double domain = 4 * seeds.half_size[0] * seeds.half_size[1];
+  ShapeMoments m;
+  for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+    const double area = domain * seeds.share[k];
+    m.area += area;
+    m.x += area * seeds.position[k][0];
+    m.y += area * seeds.position[k][1];
+  }
+  m.x /= m.area;
+  m.y /= m.area;
+  for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+    const double x = seeds.position[k][0] - m.x, y = seeds.position[k][1] - m.y;
+    m.polar += domain * seeds.share[k] * (x * x + y * y + domain / 6);
+  }
+  return m;
+}
+
+/// Where the outer face of a particle's domain has its middle.
+Vec3 outer_face(const Seeds& seeds, std::size_t k) {
+  const Vec3& x = seeds.position[k];
+  const double angle = seeds.angle[k], reach = seeds.half_size[0];
+  return {x[0] + reach * std::cos(angle), x[1] + reach * std::sin(angle), 0};
+}
+
+TEST_CASE("conforming particles of a disk have its area, its moments and its outline, wherever it lies") {
+  const double radius = 8, area = std::numbers::pi * radius * radius;
+  for (const double x : {20.0, 20.13, 20.31}) {
+    CAPTURE(x);
+    const Seeds seeds = conforming(EllipsoidShape{{x, 20.2, 0}, {radius, radius, 0}});
+    const ShapeMoments m = shape_moments(seeds);
+    CHECK(m.area == doctest::Approx(area).epsilon(5e-5));
+    CHECK(m.x == doctest::Approx(x).epsilon(1e-6));
+    CHECK(m.y == doctest::Approx(20.2).epsilon(1e-6));
+    CHECK(m.polar == doctest::Approx(0.5 * area * radius * radius).epsilon(5e-4));
+    int along = 0;
+    for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+      if (seeds.angle[k] == 0 && seeds.position[k][0] < x) continue;  // of the lattice
+      const Vec3 face = outer_face(seeds, k);
+      const double distance = std::hypot(face[0] - x, face[1] - 20.2) - radius;
+      if (std::hypot(seeds.position[k][0] - x, seeds.position[k][1] - 20.2) < radius - 0.6 * kLayer) continue;
+      ++along;
+      CHECK(std::abs(distance) < 0.002);
+    }
+    CHECK(along > 90);
+  }
+}
+
+TEST_CASE("conforming particles of an ellipse, a ring and a wedge have their areas and moments") {
+  const double pi = std::numbers::pi;
+  const ShapeMoments ellipse = shape_moments(conforming(EllipsoidShape{{20, 20, 0}, {8, 4, 0}, 0.35}));
+  CHECK(ellipse.area == doctest::Approx(32 * pi).epsilon(1e-4));
+  CHECK(ellipse.polar == doctest::Approx(pi / 4 * 32 * (64 + 16)).epsilon(1e-3));
+  const ShapeMoments ring = shape_moments(conforming(RingShape{{20, 20, 0}, 4, 8, 0}));
+  CHECK(ring.area == doctest::Approx(48 * pi).epsilon(1e-4));
+  CHECK(ring.polar == doctest::Approx(pi / 2 * (4096 - 256)).epsilon(1e-3));
+  // Corners of 75, 42 and 63 degrees: the areas of strips and corners add up to that of the triangle.
+  const ShapeMoments wedge = shape_moments(conforming(PolygonShape{{{3, 22}, {19, 22}, {6, 36}}}));
+  CHECK(wedge.area == doctest::Approx(112).epsilon(1e-6));
+  CHECK(wedge.x == doctest::Approx(28.0 / 3).epsilon(1e-4));
+  CHECK(wedge.y == doctest::Approx(80.0 / 3).epsilon(1e-4));
+  // A reentrant corner, about which the layer turns.
+  const ShapeMoments bracket =
+      shape_moments(conforming(PolygonShape{{{5, 5}, {25, 5}, {25, 12}, {13, 14}, {12, 25}, {5, 25}}}));
+  const double exact = 0.5 * std::abs((5 * 5 - 25 * 5) + (25 * 12 - 25 * 5) + (25 * 14 - 13 * 12) +
+                                      (13 * 25 - 12 * 14) + (12 * 25 - 5 * 25) + (5 * 5 - 5 * 25));
+  CHECK(bracket.area == doctest::Approx(exact).epsilon(1e-5));
+}
+
+TEST_CASE("conforming particles of a turned square end on its edges and fill its corners") {
+  const double half = 6, cosine = std::cos(0.4), sine = std::sin(0.4);
+  PolygonShape square;
+  for (const auto& [x, y] : {std::array{-half, -half}, {half, -half}, {half, half}, {-half, half}})
+    square.points.push_back({20 + cosine * x - sine * y, 20 + sine * x + cosine * y});
+  const Seeds seeds = conforming(square);
+  double farthest = 0;
+  int corners = 0;
+  for (std::size_t k = 0; k < seeds.position.size(); ++k) {
+    const double dx = seeds.position[k][0] - 20, dy = seeds.position[k][1] - 20;
+    const double x = std::abs(cosine * dx + sine * dy), y = std::abs(-sine * dx + cosine * dy);
+    farthest = std::max({farthest, x, y});
+    corners += std::abs(x - (half - 0.5 * kLayer)) < 1e-9 && std::abs(y - (half - 0.5 * kLayer)) < 1e-9;
+  }
+  CHECK(farthest == doctest::Approx(half - 0.5 * kLayer).epsilon(1e-12));
+  CHECK(corners == 4);
+  CHECK(shape_moments(seeds).area == doctest::Approx(4 * half * half).epsilon(1e-9));
+}
+
+TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts off") {
+  const Seeds seeds = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 5.8}, {5, 5.8}}});
+  CHECK(shape_moments(seeds).area == doctest::Approx(7).epsilon(1e-9));
+  CHECK(std::all_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a == 0; }));
+  // Three spacings have room for both layers.
+  const Seeds strip = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 6.6}, {5, 6.6}}});
+  CHECK(shape_moments(strip).area == doctest::Approx(15).epsilon(1e-9));
+  CHECK(std::any_of(strip.angle.begin(), strip.angle.end(), [](double a) { return a != 0; }));
+}
+
+TEST_CASE("conforming particles of an ellipse on a line of the lattice are mirrored there") {
+  const Seeds seeds = conforming(EllipsoidShape{{20, 20, 0}, {7.3, 5.1, 0}});
+  for (const Vec3& x : seeds.position)
+    CHECK(std::any_of(seeds.position.begin(), seeds.position.end(), [&](const Vec3& y) {
+      return std::abs(x[0] + y[0] - 40) < 1e-9 && std::abs(x[1] - y[1]) < 1e-9;
+    }));
+}
+
+TEST_CASE("a box keeps its own lattice, conforming or not") {
+  const BoxShape box{{3.3, 4.1, 0}, {9.7, 8.2, 0}};
+  CHECK(conforming(box).position == fill(box, {}, kFourPerCell, 2).position);
+}
+
+}  // namespace
+}  // namespace mpmfast
