@@ -7,22 +7,29 @@
 
 namespace mpmfast {
 
-/// Fills a plane shape: one layer of particles along its outline, whose domains lie along it and end on it,
-/// and the grid's lattice inside, of which each domain at the layer has its exact area and centroid.
+/// Fills a plane shape: one layer of particles along its outline, whose outer faces lie on it, and the grid's
+/// lattice inside. Lattice domains that the layer cuts keep the area and the centroid of what is left of
+/// them.
 ///
-/// The layer is one particle spacing d deep. A particle of it that has the length l of the outline, which
-/// turns by θ there, has the area l d − ½ θ d² (Steiner's formula), and a convex corner that turns by τ the
-/// area d² tan ½τ. So the areas of all particles add up to that of the shape.
+/// The layer is as deep as the particle spacing d along x. A particle of it that has the length l of the
+/// outline, which turns by θ there (positive: convex), has the area l d − ½ θ d² (Steiner's formula). A
+/// convex corner that turns by τ has a particle of the area d² tan ½τ, or several. At a reentrant one the two
+/// particles beside it share the sector ½ d² |τ|. So the areas add up to that of the shape, but for chords in
+/// place of arcs: a tenth of a domain at most.
 ///
-/// A shape with parts thinner than two spacings, or with edges too short for their corners, gets no layer:
-/// its lattice is cut off at the outline.
+/// All domains have one size. At corners other than right angles they reach up to half a spacing beyond the
+/// outline.
 ///
-/// @param outline  of the shape, with points at most kConformingPoints spacings apart
+/// The layer is left out, and the lattice cut off at the outline, for shapes with parts thinner than two
+/// spacings, with edges too short for their corners, with convex bends of less than a spacing, or with sharp
+/// corners between curves.
+///
+/// @param outline  of the shape, with points about a spacing / kConformingPoints apart
 /// @return particles with angle and share; positions, m
 Seeds fill_conforming(const Outline& outline, const CellLattice& grid);
 
-/// Points of the outline that fill_conforming wants in a particle spacing. The area of a circle of 16
-/// spacings is then exact to 1e-5. Range: 4 to 32; the cost of the layer grows with it.
+/// Points of the outline that fill_conforming wants in a particle spacing. The area of a disk of 16
+/// spacings' radius is then exact to 1e-5. Range: 4 to 32; the cost of the layer grows with it.
 inline constexpr double kConformingPoints = 8;
 
 }  // namespace mpmfast

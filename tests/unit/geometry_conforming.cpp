@@ -67,7 +67,7 @@ TEST_CASE("conforming particles of a disk have its area, its moments and its out
       ++along;
       CHECK(std::abs(distance) < 0.002);
     }
-    CHECK(along > 90);
+    CHECK(along == 100);  // the multiple of four next to 2 pi 8 / 0.5
   }
 }
 
@@ -79,7 +79,7 @@ TEST_CASE("conforming particles of an ellipse, a ring and a wedge have their are
   const ShapeMoments ring = shape_moments(conforming(RingShape{{20, 20, 0}, 4, 8, 0}));
   CHECK(ring.area == doctest::Approx(48 * pi).epsilon(1e-4));
   CHECK(ring.polar == doctest::Approx(pi / 2 * (4096 - 256)).epsilon(1e-3));
-  // Corners of 75, 42 and 63 degrees: the areas of strips and corners add up to that of the triangle.
+  // Corners of 78, 47 and 55 degrees: the areas of strips and corners add up to that of the triangle.
   const ShapeMoments wedge = shape_moments(conforming(PolygonShape{{{3, 22}, {19, 22}, {6, 36}}}));
   CHECK(wedge.area == doctest::Approx(112).epsilon(1e-6));
   CHECK(wedge.x == doctest::Approx(28.0 / 3).epsilon(3e-7));
@@ -90,6 +90,22 @@ TEST_CASE("conforming particles of an ellipse, a ring and a wedge have their are
   const double exact = 0.5 * std::abs((5 * 5 - 25 * 5) + (25 * 12 - 25 * 5) + (25 * 14 - 13 * 12) +
                                       (13 * 25 - 12 * 14) + (12 * 25 - 5 * 25) + (5 * 5 - 5 * 25));
   CHECK(bracket.area == doctest::Approx(exact).epsilon(1e-5));
+}
+
+TEST_CASE("a step of one particle spacing keeps its layer and the area of its reentrant corner") {
+  for (const auto& counts : {std::array{2, 2, 1}, {2, 3, 1}}) {
+    CellLattice grid = kFourPerCell;
+    grid.particles_per_cell = counts;
+    const PolygonShape step{{{1, 1}, {21, 1}, {21, 11}, {11, 11}, {11, 11.5}, {1, 11.5}}};
+    for (const bool clockwise : {false, true}) {
+      PolygonShape shape = step;
+      if (clockwise) std::reverse(shape.points.begin(), shape.points.end());
+      const Seeds seeds = conforming(shape, grid);
+      const double domain = 4 * seeds.half_size[0] * seeds.half_size[1];
+      CHECK(std::abs(shape_moments(seeds).area - 205) < 0.01 * domain);
+      CHECK(*std::min_element(seeds.share.begin(), seeds.share.end()) > 0.3);
+    }
+  }
 }
 
 TEST_CASE("conforming particles of a turned square end on its edges and fill its corners") {
@@ -113,7 +129,8 @@ TEST_CASE("conforming particles of a turned square end on its edges and fill its
 
 TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts off") {
   const auto straight = [](const Seeds& seeds) {
-    return std::all_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a == 0; });
+    return seeds.angle.size() == seeds.position.size() &&
+           std::all_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a == 0; });
   };
   // Edges too short for the corners at their ends.
   const Seeds seeds = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 5.8}, {5, 5.8}}});
@@ -123,6 +140,14 @@ TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts of
   const Seeds ring = conforming(RingShape{{20, 20, 0}, 7.2, 8, 0});
   CHECK(shape_moments(ring).area == doctest::Approx(std::numbers::pi * (64 - 7.2 * 7.2)).epsilon(1e-4));
   CHECK(straight(ring));
+  // So would those of rings just too thin; in the thinnest each layer would lie beyond the other side.
+  for (const double thickness : {0.02, 0.98, 0.995}) {
+    CAPTURE(thickness);
+    const double inner = 8 - thickness;
+    const Seeds thin = conforming(RingShape{{20, 20, 0}, inner, 8, 0});
+    CHECK(shape_moments(thin).area == doctest::Approx(std::numbers::pi * (64 - inner * inner)).epsilon(1e-4));
+    CHECK(straight(thin));
+  }
   // Three spacings have room for both layers.
   const Seeds strip = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 6.6}, {5, 6.6}}});
   CHECK(shape_moments(strip).area == doctest::Approx(15).epsilon(1e-9));

@@ -230,7 +230,7 @@ TEST_CASE("incline: a block of conforming particles slides within 1 % down a pla
   const Overrides conforming{{"bodies.0.seeding", "conforming"}, {"bodies.1.seeding", "conforming"}};
   for (const char* basis : {"ugimp", "lcpdi"}) {
     CAPTURE(std::string(basis));
-    CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + conforming)) < 0.005);
+    CHECK(std::abs(tilted_error(kDefault + method("flip", basis) + conforming)) < 0.005);  // 0.10 %
   }
 }
 
@@ -249,8 +249,9 @@ TEST_CASE("a disk of particles on rings rolls down a plane within 2 %") {
   CHECK(std::abs(roll_error("0.025 m", kPlain)) < 0.02);
 }
 
-TEST_CASE("a disk of conforming particles rolls down a plane within 2 %") {
+TEST_CASE("a disk of conforming particles rolls down a plane within 2.5 %") {
   const Overrides conforming{{"bodies.1.seeding", "conforming"}};
+  // Measured -0.72, -1.95 % with 20, 10 cells a radius.
   CHECK(std::abs(roll_error("0.025 m", kDefault + conforming)) < 0.01);
   CHECK(std::abs(roll_error("0.05 m", kDefault + conforming)) < 0.025);
 }

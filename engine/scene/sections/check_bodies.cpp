@@ -42,6 +42,8 @@ bool is_round(const Scene& scene, const Shape& shape) {
 /// Where particles cannot lie as `seeding` says.
 void check_seeding(const Scene& scene, const BodySpec& body, const BodyLocation& location) {
   if (!body.seeding.turned()) return;
+  const bool own_lattice = std::holds_alternative<BoxShape>(body.shape) && scene.dimension() == 2;
+  if (own_lattice && body.seeding.kind == SeedingKind::conforming) return;
   const auto refuse = [&](const char* why) {
     if (const auto seeding = location.entry.find("seeding")) seeding->complain(why);
   };
