@@ -69,11 +69,7 @@ void add_grid_motion(const State<Dim>& state, const ParticleTile<Dim>& tile, con
 template <int Dim>
 TipSample particle_sample(State<Dim>& state, std::size_t p, double thickness) {
   const auto& particles = state.particles;
-  Mat<2> start = Mat<2>::Identity();
-  if (particles.has(Quantity::initial_deformation))
-    for (int i = 0; i < 2; ++i)
-      for (int j = 0; j < 2; ++j)
-        start(i, j) = particles.column(Quantity::initial_deformation, Dim * i + j)[p];
+  const Mat<2> start = particles.initial_deformation(p).template topLeftCorner<2, 2>();
   TipSample out;
   out.gradient =
       Mat<2>::Identity() - start * particles.deformation_gradient(p).template topLeftCorner<2, 2>().inverse();

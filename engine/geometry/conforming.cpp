@@ -25,13 +25,27 @@ double angle_between(const Point& a, const Point& b) {
   return std::atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
 }
 
+/// Least angle between two segments at a corner, rad. A larger one lets the layer's end fold at corners that
+/// pass for bends; a smaller one takes the bends of coarse arcs for corners. Range: 0.15 to kCrease.
+constexpr double kCorner = 0.2;
+
+/// Largest turn of a corner in the layer, rad. Beyond it, whole domains would stand out of the tip by more
+/// than half of their size. Range: 2 to 2.8.
+constexpr double kSharpest = 2.65;
+
+struct Corner {
+  double turn = 0;  ///< rad; positive: convex
+  double area = 0;  ///< m², of a convex one: what the layer has between the lines that meet there
+};
+
 /// A part of an outline between two corners, or a whole loop without any. The material is on its left.
 struct SmoothLine {
   std::vector<Point> points;   ///< m; of a loop the first one again at the end
   std::vector<Point> normals;  ///< outward, at the points
   std::vector<double> arc;     ///< m, from the first point
   bool closed = false;
-  double turn_before = 0, turn_after = 0;  ///< rad, of the corners at its ends; positive: convex
+  Corner before, after;
+  double begin = 0, end = 0;  ///< m, arc lengths between which the layer's end runs beside the line
 
   double length() const { return arc.back(); }
 };
@@ -66,23 +80,25 @@ double turning(const SmoothLine& line, double from, double to) {
 /// Lines in the order of their loops; those of a loop that has corners follow each other.
 std::vector<SmoothLine> smooth_lines(const Outline& outline) {
   std::vector<SmoothLine> lines;
-  std::vector<int> first, last;  // points of the outline
-  int patch = -1;
-  for (const Outline::Facet& facet : outline.facets) {
-    const auto at = [&](int k) -> Point {
-      const Vec3& x = outline.points[static_cast<std::size_t>(facet.point[static_cast<std::size_t>(k)])];
-      return {x[0], x[1]};
-    };
-    if (facet.patch != patch) {
-      patch = facet.patch;
+  const auto at = [&](const Outline::Facet& facet, std::size_t k) -> Point {
+    const Vec3& x = outline.points[static_cast<std::size_t>(facet.point[k])];
+    return {x[0], x[1]};
+  };
+  const auto corner_between = [&](const Outline::Facet& a, const Outline::Facet& b) {
+    return std::abs(angle_between(at(a, 1) - at(a, 0), at(b, 1) - at(b, 0))) > kCorner;
+  };
+  std::size_t begin = 0;  // of the line, a facet
+  for (std::size_t f = 0; f < outline.facets.size(); ++f) {
+    const Outline::Facet& facet = outline.facets[f];
+    if (f == 0 || facet.patch != outline.facets[f - 1].patch ||
+        corner_between(outline.facets[f - 1], facet)) {
+      begin = f;
       lines.emplace_back();
-      lines.back().points.push_back(at(0));
-      first.push_back(facet.point[0]);
-      last.push_back(-1);
+      lines.back().points.push_back(at(facet, 0));
     }
-    lines.back().points.push_back(at(1));
-    last.back() = facet.point[1];
-    lines.back().closed = facet.point[1] == first.back() && facet.joint[1] == Joint::smooth;
+    lines.back().points.push_back(at(facet, 1));
+    const Outline::Facet& first = outline.facets[begin];
+    lines.back().closed = facet.point[1] == first.point[0] && !corner_between(facet, first);
   }
   for (SmoothLine& line : lines) {
     const std::size_t n = line.points.size();
@@ -97,14 +113,77 @@ std::vector<SmoothLine> smooth_lines(const Outline& outline) {
     line.normals.push_back(line.closed ? seam : outward.front());
     for (std::size_t k = 1; k + 1 < n; ++k) line.normals.push_back(unit(outward[k - 1] + outward[k]));
     line.normals.push_back(line.closed ? seam : outward.back());
+    line.end = line.length();
   }
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    for (std::size_t j = 0; j < lines.size(); ++j) {
-      if (lines[i].closed || last[i] != first[j]) continue;
-      lines[i].turn_after = angle_between(lines[i].normals.back(), lines[j].normals.front());
-      lines[j].turn_before = lines[i].turn_after;
-    }
   return lines;
+}
+
+/// Calls visit(line, next) for every corner: of the line that ends there and the one that begins.
+template <class Visit>
+void each_corner(std::vector<SmoothLine>& lines, Visit visit) {
+  std::size_t first = 0;  // of the loop
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const bool ends = k + 1 == lines.size() || lines[k].points.back() != lines[k + 1].points.front();
+    if (!lines[k].closed) visit(lines[k], lines[ends ? first : k + 1]);
+    if (ends) first = k + 1;
+  }
+}
+
+/// The area between two lines that meet at a convex corner and the corner of the layer's end, m².
+double kite_area(const SmoothLine& line, const SmoothLine& next, const Point& inner) {
+  const Point& tip = line.points.back();
+  double twice = 0;
+  Point last = spot_at(line, line.end).point - tip;
+  const auto go_to = [&](const Point& point) {
+    const Point to = point - tip;
+    twice += last[0] * to[1] - to[0] * last[1];
+    last = to;
+  };
+  for (std::size_t k = 0; k < line.arc.size(); ++k)
+    if (line.arc[k] > line.end) go_to(line.points[k]);
+  for (std::size_t k = 0; k < next.arc.size() && next.arc[k] < next.begin; ++k) go_to(next.points[k]);
+  go_to(spot_at(next, next.begin).point);
+  go_to(inner);
+  go_to(spot_at(line, line.end).point);
+  return 0.5 * twice;
+}
+
+/// The place beside a line at the depth of the layer, and how it moves with the arc length.
+struct Inner {
+  Point point, tangent;
+};
+
+Inner inner_at(const SmoothLine& line, double s, double depth) {
+  const double step = 1e-3 * depth;  // a small part of the distance between two points
+  const auto point = [&](double at) {
+    const Spot spot = spot_at(line, at);
+    return spot.point - depth * spot.normal;
+  };
+  return {point(s), (0.5 / step) * (point(s + step) - point(s - step))};
+}
+
+/// Finds the turn and the area of a corner, and where the layer's end has it: as far from both lines as the
+/// layer is deep, by Newton's method. @return false if there is no such place
+bool find_corner(SmoothLine& line, SmoothLine& next, double depth) {
+  constexpr int kMost = 50;           // steps; straight lines take one
+  constexpr double kRoundOff = 1e-8;  // of the depth; coordinates may be 1e7 depths
+  const double turn = angle_between(line.normals.back(), next.normals.front());
+  line.after.turn = next.before.turn = turn;
+  if (turn <= 0) return true;
+  if (turn > kSharpest) return false;
+  for (int step = 0; step < kMost; ++step) {
+    const Inner here = inner_at(line, line.end, depth), there = inner_at(next, next.begin, depth);
+    const Point gap = there.point - here.point;
+    if (length(gap) <= kRoundOff * depth) {
+      line.after.area = next.before.area = kite_area(line, next, here.point);
+      return true;
+    }
+    const Point &t = here.tangent, &u = there.tangent;  // steps s and s' close the gap: s t − s' u = gap
+    const double cross = t[0] * u[1] - t[1] * u[0];
+    line.end += (gap[0] * u[1] - gap[1] * u[0]) / cross;
+    next.begin += (gap[0] * t[1] - gap[1] * t[0]) / cross;
+  }
+  return false;
 }
 
 /// Particles along the outline, and the line where the layer ends.
@@ -114,23 +193,22 @@ class Layer {
 
   /// Adds the particles of a line and of the corner behind it. @return false if its corners overlap
   bool add(const SmoothLine& line) {
-    const double begin = set_back(line.turn_before), end = line.length() - set_back(line.turn_after);
-    if (end < begin - kRoundOff * depth_) return false;
-    add_strip(line, begin, end);
-    if (line.turn_after > 0) add_corner(line);
+    if (!(line.end >= line.begin - kRoundOff * depth_)) return false;
+    add_strip(line);
+    if (has_particle(line.after)) add_corner(line);
     return true;
   }
 
   /// The points of the line at the depth of the layer, with an arc about a reentrant corner behind it.
   std::vector<Point> inner_line(const SmoothLine& line) const {
-    const double begin = set_back(line.turn_before), end = line.length() - set_back(line.turn_after);
+    const double begin = line.begin, end = line.end;
     std::vector<Point> out;
     const auto push = [&](const Spot& spot) { out.push_back(spot.point - depth_ * spot.normal); };
     push(spot_at(line, begin));
     for (std::size_t k = 0; k < line.arc.size(); ++k)
       if (line.arc[k] > begin && line.arc[k] < end) push({line.points[k], line.normals[k]});
     if (!line.closed) push(spot_at(line, end));
-    const double reentrant = std::max(-line.turn_after, 0.0);
+    const double reentrant = std::max(-line.after.turn, 0.0);
     const auto steps = static_cast<int>(std::ceil(reentrant * kConformingPoints));
     const double from = std::atan2(line.normals.back()[1], line.normals.back()[0]);
     for (int k = 1; k < steps; ++k) push({line.points.back(), direction(from - reentrant * k / steps)});
@@ -141,9 +219,13 @@ class Layer {
 
  private:
   static constexpr double kRoundOff = 1e-9;
+  /// Least area of a corner that has a particle of its own, in domains. A smaller value lets domains reach
+  /// beyond blunt corners; above 0.75, a strip's last particle may be shorter than its corner. Range: 0.5 to
+  /// 0.75.
+  static constexpr double kLeastCorner = 0.75;
 
-  /// Where the domain of a convex corner ends on the lines that meet there, m from it.
-  double set_back(double turn) const { return turn > 0 ? depth_ * std::tan(0.5 * turn) : 0; }
+  /// Has a corner a particle of its own? Others belong to the ends of the lines that meet there.
+  bool has_particle(const Corner& corner) const { return corner.area >= kLeastCorner * depth_ * spacing_; }
 
   void push(const Point& place, double angle, double area) {
     seeds.position.push_back({place[0], place[1], 0});
@@ -151,31 +233,45 @@ class Layer {
     seeds.share.push_back(area / (depth_ * spacing_));
   }
 
-  void add_strip(const SmoothLine& line, double begin, double end) {
+  void add_strip(const SmoothLine& line) {
+    const double begin = has_particle(line.before) ? line.begin : 0,
+                 end = has_particle(line.after) ? line.end : line.length();
     const double extent = end - begin;
-    const bool reentrant = line.turn_before < 0 || line.turn_after < 0;
-    if (extent <= kRoundOff * depth_ && !reentrant) return;
+    if (extent <= kRoundOff * depth_ && line.before.turn >= 0 && line.after.turn >= 0) return;
     // A loop has a multiple of four, so that the particles of an ellipse are mirrored at its axes.
     const long group = line.closed ? 4 : 1;
     const double wanted = extent / spacing_ / static_cast<double>(group);
     const long count = group * std::max(std::lround(wanted), 1L);
-    const auto sector = [&](double turn) { return 0.25 * depth_ * depth_ * std::max(-turn, 0.0); };
+    const auto at = [&](double share) { return begin + extent * share / static_cast<double>(count); };
     for (long k = 0; k < count; ++k) {
-      const auto at = [&](double share) { return begin + extent * share / static_cast<double>(count); };
-      const double from = at(static_cast<double>(k)), to = at(static_cast<double>(k) + 1);
       const Spot middle = spot_at(line, at(static_cast<double>(k) + 0.5));
-      double area = depth_ * (to - from) - 0.5 * depth_ * depth_ * turning(line, from, to);
-      if (k == 0) area += sector(line.turn_before);
-      if (k + 1 == count) area += sector(line.turn_after);
+      double area = strip_area(line, at(static_cast<double>(k)), at(static_cast<double>(k) + 1));
+      if (k == 0) area += corner_share(line.before);
+      if (k + 1 == count) area += corner_share(line.after);
       push(middle.point - 0.5 * depth_ * middle.normal, std::atan2(middle.normal[1], middle.normal[0]), area);
     }
+  }
+
+  /// The area of the layer between two arc lengths, as far as the layer's end runs beside them, m².
+  double strip_area(const SmoothLine& line, double from, double to) const {
+    from = std::max(from, line.begin);
+    to = std::min(to, line.end);
+    return to > from ? depth_ * (to - from) - 0.5 * depth_ * depth_ * turning(line, from, to) : 0;
+  }
+
+  /// What the last particle of a strip has of the corner beside it, m²: half of the sector, or of the kite
+  /// that has no particle.
+  double corner_share(const Corner& corner) const {
+    if (corner.turn <= 0) return -0.25 * depth_ * depth_ * corner.turn;
+    return has_particle(corner) ? 0 : 0.5 * corner.area;
   }
 
   /// The kite between the outline and the layer's end at a convex corner, in slices of equal area along its
   /// axis: one at a right angle, several at the tip of a wedge.
   void add_corner(const SmoothLine& line) {
-    const double turn = line.turn_after, area = depth_ * set_back(turn);
-    const double widest = set_back(turn) * std::sin(0.5 * turn), whole = depth_ / std::cos(0.5 * turn);
+    const double turn = line.after.turn, area = line.after.area;
+    const double widest = depth_ * std::tan(0.5 * turn) * std::sin(0.5 * turn),
+                 whole = depth_ / std::cos(0.5 * turn);
     // Distances along the axis from the tip: the kite is widest at `widest` and ends at `whole`.
     const double axis = std::atan2(line.normals.back()[1], line.normals.back()[0]) + 0.5 * turn;
     const long slices = std::max(std::lround(area / (depth_ * spacing_)), 1L);
@@ -247,6 +343,28 @@ Outline inner_outline(const std::vector<SmoothLine>& lines, const Layer& layer) 
   return out;
 }
 
+/// Gives remainders of the lattice to the particle of the layer that is next to each.
+void merge_remainders(Seeds& inside, Seeds& layer) {
+  constexpr double kRemainder = 0.05;  // of a domain
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < inside.position.size(); ++k) {
+    const Vec3 x = inside.position[k];
+    if (inside.share[k] < kRemainder) {
+      const auto nearer = [&](const Vec3& a, const Vec3& b) {
+        return std::hypot(a[0] - x[0], a[1] - x[1]) < std::hypot(b[0] - x[0], b[1] - x[1]);
+      };
+      const auto next = std::min_element(layer.position.begin(), layer.position.end(), nearer);
+      layer.share[static_cast<std::size_t>(next - layer.position.begin())] += inside.share[k];
+      continue;
+    }
+    inside.position[kept] = x;
+    inside.share[kept++] = inside.share[k];
+  }
+  inside.position.resize(kept);
+  inside.share.resize(kept);
+  inside.angle.resize(kept);
+}
+
 /// The lattice inside an outline, cut off there.
 Seeds cut_lattice(const Outline& outline, const CellLattice& grid) {
   Seeds seeds;
@@ -256,45 +374,46 @@ Seeds cut_lattice(const Outline& outline, const CellLattice& grid) {
   return seeds;
 }
 
-/// m².
-double area_of(const Outline& outline) {
-  double twice = 0;
+/// Do the domains add up to the outline's area? Layers that overlap leave more. Chords in place of arcs make
+/// up to a tenth of a domain at a small hole, and a thousandth at each bend of a smooth line.
+bool has_area(const Seeds& seeds, double depth, double spacing, const Outline& outline) {
+  constexpr double kDomains = 0.1, kEverySpacing = 1e-3;
+  double along = 0;
   for (const Outline::Facet& facet : outline.facets) {
     const Vec3 &a = outline.points[static_cast<std::size_t>(facet.point[0])],
                &b = outline.points[static_cast<std::size_t>(facet.point[1])];
-    twice += a[0] * b[1] - b[0] * a[1];
+    along += std::hypot(b[0] - a[0], b[1] - a[1]);
   }
-  return 0.5 * twice;
-}
-
-/// Do the domains add up to the outline's area? Layers that overlap leave more. Chords in place of arcs make
-/// up to a tenth of a domain at a small hole, and a thousandth at each bend of a smooth line.
-bool has_area(const Seeds& seeds, double domain, const Outline& outline) {
-  constexpr double kDomains = 0.1, kShare = 1e-5;
-  const double area = area_of(outline);
-  const double filled = domain * std::accumulate(seeds.share.begin(), seeds.share.end(), 0.0);
-  return std::abs(filled - area) <= kDomains * domain + kShare * area;
+  const double filled = std::accumulate(seeds.share.begin(), seeds.share.end(), 0.0);
+  return std::abs(filled - plane_area(outline) / (depth * spacing)) <=
+         kDomains + kEverySpacing * along / spacing;
 }
 
 }  // namespace
 
-Seeds fill_conforming(const Outline& outline, const CellLattice& grid) {
+std::optional<Seeds> fill_conforming(const Outline& outline, const CellLattice& grid) {
   // Least distance of the layer's inner line from the outline, over the depth. Below it, two layers overlap.
   constexpr double kClear = 0.95;
   const double depth = grid.cell / grid.particles_per_cell[0],
                spacing = grid.cell / grid.particles_per_cell[1];
-  const std::vector<SmoothLine> lines = smooth_lines(outline);
+  std::vector<SmoothLine> lines = smooth_lines(outline);
+  bool fits = true;
+  each_corner(lines,
+              [&](SmoothLine& line, SmoothLine& next) { fits = fits && find_corner(line, next, depth); });
+  if (!fits) return {};
   Layer layer(depth, spacing);
   for (const SmoothLine& line : lines)
-    if (!layer.add(line)) return cut_lattice(outline, grid);
+    if (!layer.add(line)) return {};
   const Outline inner = inner_outline(lines, layer);
-  if (!keeps_distance(inner.points, outline, kClear * depth)) return cut_lattice(outline, grid);
+  if (!keeps_distance(inner.points, outline, kClear * depth)) return {};
   Seeds seeds = cut_lattice(inner, grid);
+  merge_remainders(seeds, layer.seeds);
   const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
   append(seeds.position, layer.seeds.position);
   append(seeds.angle, layer.seeds.angle);
   append(seeds.share, layer.seeds.share);
-  return has_area(seeds, depth * spacing, outline) ? seeds : cut_lattice(outline, grid);
+  if (!has_area(seeds, depth, spacing, outline)) return {};
+  return seeds;
 }
 
 }  // namespace mpmfast

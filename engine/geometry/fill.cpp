@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "engine/geometry/conforming.hpp"
 #include "engine/geometry/outline.hpp"
@@ -192,15 +193,40 @@ Seeds fill_rings(const Shape& shape, const CellLattice& grid) {
   return seeds;
 }
 
+/// The angle about z of a polygon that is a rectangle, rad, −π/4 to π/4.
+std::optional<double> angle_of_rectangle(const Shape& shape) {
+  constexpr double kRoundOff = 1e-9;
+  const auto* polygon = std::get_if<PolygonShape>(&shape);
+  if (!polygon || polygon->points.size() != 4) return {};
+  const auto& p = polygon->points;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto &a = p[k], &b = p[(k + 1) % 4], &c = p[(k + 2) % 4];
+    const double u = b[0] - a[0], v = b[1] - a[1], x = c[0] - b[0], y = c[1] - b[1];
+    if (!(std::abs(u * x + v * y) <= kRoundOff * std::hypot(u, v) * std::hypot(x, y))) return {};
+  }
+  return std::remainder(std::atan2(p[1][1] - p[0][1], p[1][0] - p[0][0]), std::numbers::pi / 2);
+}
+
+/// Particles along the outline of a plane shape that is no box. Where no layer of them fits, the grid's
+/// lattice, with the area of the shape.
+Seeds fill_outlined(const Shape& shape, const CellLattice& grid) {
+  if (const auto angle = angle_of_rectangle(shape)) return fill_turned(shape, *angle, grid, 2);
+  const double spacing = grid.cell / std::max(grid.particles_per_cell[0], grid.particles_per_cell[1]);
+  const Outline around = outline(shape, spacing / kConformingPoints, 2);
+  if (auto seeds = fill_conforming(around, grid)) return *std::move(seeds);
+  Seeds seeds = fill_straight(shape, grid, 2);
+  const double domain = 4 * seeds.half_size[0] * seeds.half_size[1];
+  const auto count = static_cast<double>(seeds.position.size());
+  if (count > 0) seeds.share.assign(seeds.position.size(), plane_area(around) / (domain * count));
+  return seeds;
+}
+
 }  // namespace
 
 Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension) {
+  const bool box = std::holds_alternative<BoxShape>(shape);
   if (seeding.kind == SeedingKind::rings) return fill_rings(shape, grid);
-  if (seeding.kind == SeedingKind::conforming && !std::holds_alternative<BoxShape>(shape)) {
-    const double spacing = grid.cell / *std::max_element(grid.particles_per_cell.begin(),
-                                                         grid.particles_per_cell.begin() + dimension);
-    return fill_conforming(outline(shape, spacing / kConformingPoints, dimension), grid);
-  }
+  if (seeding.kind == SeedingKind::conforming && !box) return fill_outlined(shape, grid);
   if (seeding.angle != 0) return fill_turned(shape, seeding.angle, grid, dimension);
   return fill_straight(shape, grid, dimension);
 }

@@ -39,7 +39,7 @@ struct Seeds {
 /// points of the grid's lattice (cell / particles_per_cell, from the grid's origin) that lie inside it. A
 /// turned lattice ends on the faces of the box around the shape that is turned alike, so that the surfaces of
 /// a turned block are smooth; rings (disks and rings only) end on the outline, and so do conforming particles
-/// (fill_conforming; a box keeps its own lattice).
+/// (fill_conforming; a box keeps its own lattice, and so does a rectangle across the grid).
 Seeds fill(const Shape& shape, const Seeding& seeding, const CellLattice& grid, int dimension);
 
 }  // namespace mpmfast

@@ -139,6 +139,16 @@ void add_loop(const Loop& loop, Outline& out) {
 
 }  // namespace
 
+double plane_area(const Outline& outline) {
+  double twice = 0;
+  for (const Outline::Facet& facet : outline.facets) {
+    const Vec3 &a = outline.points[static_cast<std::size_t>(facet.point[0])],
+               &b = outline.points[static_cast<std::size_t>(facet.point[1])];
+    twice += a[0] * b[1] - b[0] * a[1];
+  }
+  return 0.5 * twice;
+}
+
 Outline outline(const Shape& shape, double spacing, int dimension) {
   if (dimension == 3) return solid_outline(shape, spacing);
   Outline out;

@@ -30,6 +30,9 @@ struct Outline {
 /// smaller one makes creases of coarsely divided arcs. Range: (0, π/2).
 inline constexpr double kCrease = 0.5;
 
+/// What an outline in the plane holds, m².
+double plane_area(const Outline& outline);
+
 /// The surface of a shape, with its corners.
 /// @param spacing  about the distance of neighbouring points, m
 Outline outline(const Shape& shape, double spacing, int dimension);

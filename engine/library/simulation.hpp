@@ -95,6 +95,8 @@ class MPMFAST_API Simulation {
   std::uint64_t advance_to(double time, const std::function<bool()>& stop = {});
 
   /// Names of the columns: velocity.x, kirchhoff_stress.xy, mass … What a scene does not need is not there.
+  /// deformation_gradient is that of domains: F times initial_deformation, the angle at which each lay at the
+  /// start, where the scene has that column.
   std::vector<std::string> columns() const;
   bool has_column(std::string_view name) const;
   /// One number a particle. Throws for a column that is not there.

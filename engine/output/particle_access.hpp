@@ -13,6 +13,9 @@
 
 namespace mpmfast {
 
+/// The name in particle files of the angle about z at which undeformed domains lie, rad.
+inline constexpr const char* kDomainAngle = "domain_angle";
+
 /// Indices of the particles by ascending id: the one order that does not depend on the sort.
 template <int Dim>
 std::vector<std::uint32_t> order_by_id(const Particles<Dim>& particles);

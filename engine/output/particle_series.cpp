@@ -45,13 +45,15 @@ void add_stress(const Particles<Dim>& particles, const std::vector<std::uint32_t
       "pressure", [&](std::size_t i, float* out) { *out = static_cast<float>(cauchy(i).pressure()); });
 }
 
-/// F in double precision: small strains are its small difference from the identity.
+/// F in double precision: small strains are its small difference from the identity. The state's F holds the
+/// angle at which a domain lay at the start, files do not.
 template <int Dim>
 void add_deformation(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order,
                      VtuFile& file) {
   const auto fill = [&](std::size_t i, double* out) {
     std::fill_n(out, 9, 0.0);
-    const Mat<Dim> f = particles.deformation_gradient(order[i]);
+    const Mat<Dim> f = particles.deformation_gradient(order[i]) *
+                       particles.initial_deformation(order[i]).transpose();  // of a rotation: its inverse
     for (int row = 0; row < Dim; ++row)
       for (int column = 0; column < Dim; ++column) out[3 * row + column] = f(row, column);
     if constexpr (Dim == 2)
@@ -60,6 +62,16 @@ void add_deformation(const Particles<Dim>& particles, const std::vector<std::uin
                    : 1;
   };
   file.add_point_data<double>("deformation_gradient", fill, kMatrixNames);
+}
+
+/// Of particles whose domains lie along their body, for whoever draws them.
+template <int Dim>
+void add_domain_angle(const Particles<Dim>& particles, const std::vector<std::uint32_t>& order,
+                      VtuFile& file) {
+  file.add_point_data<double>(kDomainAngle, [&](std::size_t i, double* out) {
+    const Mat<Dim> start = particles.initial_deformation(order[i]);
+    *out = std::atan2(start(1, 0), start(0, 0));
+  });
 }
 
 template <int Dim>
@@ -128,6 +140,7 @@ void write_particles(const std::filesystem::path& vtu, const Particles<Dim>& par
         kVectorNames);
   if (particles.has(Quantity::kirchhoff_stress)) add_stress(particles, order, file);
   if (particles.has(Quantity::deformation_gradient)) add_deformation(particles, order, file);
+  if (particles.has(Quantity::initial_deformation)) add_domain_angle(particles, order, file);
   if (particles.has(Quantity::initial_volume)) add_volume(particles, order, file);
   if (particles.has(Quantity::domain_share)) add_domain_share(particles, order, file);
   add_state(particles, order, file);

@@ -56,6 +56,25 @@ void fill(const VtuReader& file, const std::string& name, std::size_t width, Qua
   }
 }
 
+/// Files hold F of the body; the state holds that of domains, which may have lain at an angle at the start.
+template <int Dim>
+void turn_domains(const VtuReader& file, Particles<Dim>& out) {
+  const VtuArray* found = file.find(kDomainAngle);
+  if (!found || !out.has(Quantity::deformation_gradient)) return;
+  const std::vector<double> angle = file.values(*found);
+  if (angle.size() != out.size())
+    throw FileError(fmt::format("{} has {} values", kDomainAngle, angle.size()));
+  for (int row = 0; row < Dim; ++row) {
+    double* along = out.column(Quantity::deformation_gradient, Dim * row);
+    double* across = out.column(Quantity::deformation_gradient, Dim * row + 1);
+    for (std::size_t p = 0; p < out.size(); ++p) {
+      const double cosine = std::cos(angle[p]), sine = std::sin(angle[p]), x = along[p], y = across[p];
+      along[p] = cosine * x + sine * y;
+      across[p] = cosine * y - sine * x;
+    }
+  }
+}
+
 template <int Dim>
 void fill_columns(const VtuReader& file, Particles<Dim>& out) {
   if constexpr (Dim == 2) {
@@ -88,6 +107,7 @@ Particles<Dim> read_frame(const VtuReader& file, const std::filesystem::path& pa
   Particles<Dim> out;
   out.allocate(file.size(), columns_of<Dim>(file, scene));
   fill_columns(file, out);
+  turn_domains(file, out);
   const std::vector<std::uint32_t> id = file.read<std::uint32_t>("id");
   const std::vector<std::uint16_t> body = file.read<std::uint16_t>("body");
   if (id.size() != out.size() || body.size() != out.size())

@@ -128,9 +128,6 @@ void plan_areas(const Scene& scene, Plan& plan) {
   need(Nodal::mass_slope);
   if (scene.contact.separation != SeparationKind::displacement)
     plan.particle_columns.push_back(Quantity::reference_position);
-  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                  [](const BodySpec& body) { return body.seeding.turned(); }))
-    plan.particle_columns.push_back(Quantity::initial_deformation);
 }
 
 /// Temperatures, and the areas of what heat crosses.
@@ -183,6 +180,9 @@ void plan_columns(const Scene& scene, Plan& plan) {
   if (facts(plan.basis).convected) plan.particle_columns.push_back(Quantity::domain_edges);
   if (plan.split_edge > 0) plan.particle_columns.push_back(Quantity::domain_share);
   if (plan.update == ParticleUpdate::apic) plan.particle_columns.push_back(Quantity::velocity_slopes);
+  if (std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                  [](const BodySpec& body) { return body.seeding.turned(); }))
+    plan.particle_columns.push_back(Quantity::initial_deformation);
   for (Quantity q : state_columns(scene.materials)) plan.particle_columns.push_back(q);
   if (plan.plane_kind != PlaneKind::plane_strain)
     plan.particle_columns.push_back(Quantity::out_of_plane_stretch);

@@ -173,8 +173,8 @@ bool move_inside(const GridSpec& grid, Vec3& x) {
 
 /// Whether the outline cuts domains. (Grains of a picture, four cells wide and pressed, hold longer with
 /// whole ones.)
-bool ends_in_steps(const BodySpec& body) {
-  return !body.seeding.turned() && !std::holds_alternative<BoxShape>(body.shape) &&
+bool ends_in_steps(const BodySpec& body, const Seeds& seeds) {
+  return seeds.angle.empty() && !std::holds_alternative<BoxShape>(body.shape) &&
          !std::holds_alternative<BitmapShape>(body.shape);
 }
 
@@ -238,7 +238,7 @@ void seed(const Scene& scene, const Plan& plan, State<Dim>& state) {
     seeds.push_back(fill(scene.bodies[b], scene.grid, Dim));
     if (seeds.back().position.empty())
       refuse(scene, b, "no particle lies in the body (it is smaller than the particle spacing)");
-    if (Dim == 2 && !surfaces.empty() && ends_in_steps(scene.bodies[b]))
+    if (Dim == 2 && !surfaces.empty() && ends_in_steps(scene.bodies[b], seeds.back()))
       clip(surfaces[b], scene.grid.origin, seeds.back());
     count += seeds.back().position.size();
     for (const Vec3& x : seeds.back().position)

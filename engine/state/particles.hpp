@@ -152,6 +152,15 @@ class Particles {
     return f;
   }
 
+  /// F of the domain at the start: a rotation where it lies at an angle.
+  Mat<Dim> initial_deformation(std::size_t p) const {
+    Mat<Dim> f = Mat<Dim>::Identity();
+    if (!has(Quantity::initial_deformation)) return f;
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j < Dim; ++j) f(i, j) = column(Quantity::initial_deformation, Dim * i + j)[p];
+    return f;
+  }
+
   /// Of the undeformed domain along a direction, over that of the body's domains: less than 1 of a particle
   /// that was split.
   double domain_share(std::size_t p, int direction) const {

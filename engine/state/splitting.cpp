@@ -68,9 +68,7 @@ void move_by(Particles<Dim>& particles, Quantity q, std::size_t p, const Vec<Dim
 template <int Dim>
 Vec<Dim> reference_offset(const State<Dim>& state, std::size_t p, int k) {
   const auto& particles = state.particles;
-  Vec<Dim> offset = Vec<Dim>::Unit(k);
-  if (particles.has(Quantity::initial_deformation))
-    for (int d = 0; d < Dim; ++d) offset[d] = particles.column(Quantity::initial_deformation, Dim * d + k)[p];
+  const Vec<Dim> offset = particles.initial_deformation(p).col(k);
   return 0.5 * state.bodies[particles.body()[p]].half_size[k] * particles.domain_share(p, k) * offset;
 }
 

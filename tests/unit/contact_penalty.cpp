@@ -223,9 +223,9 @@ TEST_CASE("domains that an outline cuts keep its area and its moments, whatever 
 }
 
 TEST_CASE(
-    "a body has the mass within its outline, and its boundary points a thousandth of the cells along it") {
+    "a lattice has the mass within its outline, and its boundary points a thousandth of the cells along it") {
   const Scene scene =
-      scene_from(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}",
+      scene_from(two_bodies("disk: {centre: [12 mm, 20 mm], radius: 5 mm}, seeding: lattice",
                             "box: {from: [20 mm, 10 mm], to: [30 mm, 30 mm]}", "law: frictionless"));
   const Step<2> step(scene);
   const auto& state = step.state();

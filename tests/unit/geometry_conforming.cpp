@@ -108,12 +108,36 @@ TEST_CASE("a step of one particle spacing keeps its layer and the area of its re
   }
 }
 
+/// A square of edge 2 half about (20, 20), turned by 0.4 rad; with a point in the middle of an edge it is no
+/// rectangle to the program.
+PolygonShape turned_square(double half, bool divided) {
+  const double cosine = std::cos(0.4), sine = std::sin(0.4);
+  PolygonShape square;
+  std::vector<std::array<double, 2>> corners{{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+  if (divided) corners.push_back({-half, 0});
+  for (const auto& [x, y] : corners)
+    square.points.push_back({20 + cosine * x - sine * y, 20 + sine * x + cosine * y});
+  return square;
+}
+
+TEST_CASE("a rectangle across the grid has the lattice of a box that is turned alike") {
+  const Seeds seeds = conforming(turned_square(6, false));
+  const Seeds turned = fill(turned_square(6, false), {SeedingKind::lattice, 0.4}, kFourPerCell, 2);
+  REQUIRE(seeds.position.size() == 24 * 24);
+  CHECK(seeds.share.empty());
+  for (std::size_t k = 0; k < seeds.position.size(); ++k)
+    for (std::size_t d = 0; d < 2; ++d)
+      CHECK(seeds.position[k][d] == doctest::Approx(turned.position[k][d]).epsilon(1e-12));
+  // A parallelogram is none, and one along the grid lies as a box does.
+  CHECK(!conforming(PolygonShape{{{5, 5}, {15, 5}, {16, 15}, {6, 15}}}).share.empty());
+  const Seeds straight = conforming(PolygonShape{{{3, 4}, {9, 4}, {9, 8}, {3, 8}}});
+  CHECK(straight.position.size() == 12 * 8);
+  CHECK(straight.angle[0] == 0);
+}
+
 TEST_CASE("conforming particles of a turned square end on its edges and fill its corners") {
   const double half = 6, cosine = std::cos(0.4), sine = std::sin(0.4);
-  PolygonShape square;
-  for (const auto& [x, y] : {std::array{-half, -half}, {half, -half}, {half, half}, {-half, half}})
-    square.points.push_back({20 + cosine * x - sine * y, 20 + sine * x + cosine * y});
-  const Seeds seeds = conforming(square);
+  const Seeds seeds = conforming(turned_square(half, true));
   double farthest = 0;
   int corners = 0;
   for (std::size_t k = 0; k < seeds.position.size(); ++k) {
@@ -127,13 +151,10 @@ TEST_CASE("conforming particles of a turned square end on its edges and fill its
   CHECK(shape_moments(seeds).area == doctest::Approx(4 * half * half).epsilon(1e-9));
 }
 
-TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts off") {
-  const auto straight = [](const Seeds& seeds) {
-    return seeds.angle.size() == seeds.position.size() &&
-           std::all_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a == 0; });
-  };
+TEST_CASE("a shape too thin for a layer has the grid's lattice, with its area") {
+  const auto straight = [](const Seeds& seeds) { return seeds.angle.empty(); };
   // Edges too short for the corners at their ends.
-  const Seeds seeds = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 5.8}, {5, 5.8}}});
+  const Seeds seeds = conforming(PolygonShape{{{5, 5.1}, {9, 5.1}, {15, 5.1}, {15, 5.8}, {5, 5.8}}});
   CHECK(shape_moments(seeds).area == doctest::Approx(7).epsilon(1e-9));
   CHECK(straight(seeds));
   // Layers of both sides would overlap.
@@ -141,7 +162,7 @@ TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts of
   CHECK(shape_moments(ring).area == doctest::Approx(std::numbers::pi * (64 - 7.2 * 7.2)).epsilon(1e-4));
   CHECK(straight(ring));
   // So would those of rings just too thin; in the thinnest each layer would lie beyond the other side.
-  for (const double thickness : {0.02, 0.98, 0.995}) {
+  for (const double thickness : {0.1, 0.98, 0.995}) {
     CAPTURE(thickness);
     const double inner = 8 - thickness;
     const Seeds thin = conforming(RingShape{{20, 20, 0}, inner, 8, 0});
@@ -149,7 +170,7 @@ TEST_CASE("a shape too thin for a layer has the lattice that its outline cuts of
     CHECK(straight(thin));
   }
   // Three spacings have room for both layers.
-  const Seeds strip = conforming(PolygonShape{{{5, 5.1}, {15, 5.1}, {15, 6.6}, {5, 6.6}}});
+  const Seeds strip = conforming(PolygonShape{{{5, 5.1}, {9, 5.1}, {15, 5.1}, {15, 6.6}, {5, 6.6}}});
   CHECK(shape_moments(strip).area == doctest::Approx(15).epsilon(1e-9));
   CHECK(!straight(strip));
 }
@@ -160,6 +181,101 @@ TEST_CASE("conforming particles of an ellipse on a line of the lattice are mirro
     CHECK(std::any_of(seeds.position.begin(), seeds.position.end(), [&](const Vec3& y) {
       return std::abs(x[0] + y[0] - 40) < 1e-9 && std::abs(x[1] - y[1]) < 1e-9;
     }));
+}
+
+/// How far the corners of the domains of all particles lie beyond a convex polygon, at most.
+double reach_beyond(const Seeds& seeds, const PolygonShape& polygon) {
+  double farthest = -1;
+  for (std::size_t k = 0; k < seeds.position.size(); ++k)
+    for (const auto& [a, b] : {std::array{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      const double u = a * seeds.half_size[0], v = b * seeds.half_size[1];
+      const double cosine = std::cos(seeds.angle[k]), sine = std::sin(seeds.angle[k]);
+      const double x = seeds.position[k][0] + cosine * u - sine * v,
+                   y = seeds.position[k][1] + sine * u + cosine * v;
+      for (std::size_t i = 0; i < polygon.points.size(); ++i) {
+        const auto &p = polygon.points[i], &q = polygon.points[(i + 1) % polygon.points.size()];
+        const double ex = q[0] - p[0], ey = q[1] - p[1];
+        farthest = std::max(farthest, (ey * (x - p[0]) - ex * (y - p[1])) / std::hypot(ex, ey));
+      }
+    }
+  return farthest;
+}
+
+TEST_CASE("domains end on regular polygons, whose areas are exact") {
+  for (const int corners : {5, 6, 8, 13, 16, 25}) {
+    CAPTURE(corners);
+    PolygonShape polygon;
+    const double pi = std::numbers::pi, radius = 8;
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * pi * (k + 0.3) / corners;
+      polygon.points.push_back({20.2 + radius * std::cos(angle), 20.1 + radius * std::sin(angle)});
+    }
+    const Seeds seeds = conforming(polygon);
+    CHECK(shape_moments(seeds).area ==
+          doctest::Approx(0.5 * corners * radius * radius * std::sin(2 * pi / corners)).epsilon(1e-9));
+    // A strip of n spacings' length has particles a spacing apart but for half a spacing over n.
+    CHECK(reach_beyond(seeds, polygon) < 0.02 * kLayer);
+    CHECK(std::any_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a != 0; }));
+  }
+}
+
+TEST_CASE("half disks and lenses have a layer, and their areas") {
+  const double pi = std::numbers::pi;
+  PolygonShape half_disk, lens;
+  constexpr int kSteps = 400;
+  for (const double radius : {2.0, 4.0, 8.0}) {
+    CAPTURE(radius);
+    half_disk.points.clear();
+    for (int k = 0; k <= kSteps; ++k)
+      half_disk.points.push_back(
+          {20.1 + radius * std::cos(pi * k / kSteps), 20.3 + radius * std::sin(pi * k / kSteps)});
+    const Seeds seeds = conforming(half_disk);
+    CHECK(shape_moments(seeds).area == doctest::Approx(0.5 * pi * radius * radius).epsilon(4e-4));
+    CHECK(std::abs(shape_moments(seeds).y - (20.3 + 4 * radius / (3 * pi))) < 0.015 * kLayer);
+    CHECK(std::any_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a != 0; }));
+  }
+  // Two arcs of a third of a turn each, of radius 8.
+  for (int side = 0; side < 2; ++side)
+    for (int k = 0; k < kSteps; ++k) {
+      const double angle = (side == 0 ? pi / 6 : 7 * pi / 6) + 2 * pi / 3 * k / kSteps;
+      lens.points.push_back({20 + 8 * std::cos(angle), 20.2 + 8 * std::sin(angle) + (side == 0 ? -4 : 4)});
+    }
+  const Seeds seeds = conforming(lens);
+  CHECK(shape_moments(seeds).area == doctest::Approx(64 * (2 * pi / 3 - std::sin(2 * pi / 3))).epsilon(1e-4));
+  CHECK(std::any_of(seeds.angle.begin(), seeds.angle.end(), [](double a) { return a != 0; }));
+}
+
+TEST_CASE("a wedge of 30 degrees has its layer, one of 25 the grid's lattice with its area") {
+  for (const double degrees : {30.0, 25.0}) {
+    CAPTURE(degrees);
+    const double height = 20 * std::tan(degrees * std::numbers::pi / 180);
+    const Seeds seeds = conforming(PolygonShape{{{5, 5}, {25, 5}, {25, 5 + height}}});
+    CHECK(seeds.angle.empty() == (degrees < 28));
+    double area = 0;
+    for (const double share : seeds.share) area += share * kLayer * kLayer;
+    CHECK(area == doctest::Approx(10 * height).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a plate with a round notch has its layer, however small the notch and far the plate") {
+  const double pi = std::numbers::pi;
+  for (const double radius : {0.15, 0.25, 0.5, 0.8, 2.0})
+    for (const double away : {0.0, 4e5}) {
+      CAPTURE(radius);
+      CAPTURE(away);
+      PolygonShape plate{{{10 + away, 10}, {30 + away, 10}, {30 + away, 30}}};
+      for (int k = 0; k <= 40; ++k)
+        plate.points.push_back(
+            {20 + away + radius * std::cos(pi * k / 40), 30 - radius * std::sin(pi * k / 40)});
+      plate.points.push_back({10 + away, 30});
+      CellLattice grid = kFourPerCell;
+      grid.origin[0] = away;
+      const Seeds seeds = conforming(plate, grid);
+      double area = 0;
+      for (const double share : seeds.share) area += share * kLayer * kLayer;
+      CHECK(area == doctest::Approx(400 - 0.5 * pi * radius * radius).epsilon(2e-5));
+      CHECK(!seeds.angle.empty());
+    }
 }
 
 TEST_CASE("a box keeps its own lattice, conforming or not") {

@@ -14,7 +14,7 @@ space: plane_strain
 grid: {origin: [-10 mm, -10 mm], size: [20 mm, 20 mm], cell: 1 mm}
 time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1200 kg/m^3, bulk: 80 MPa, shear: 30 MPa}}
-bodies: [{name: a, disk: {centre: [0.1 mm, 0.2 mm], radius: 5 mm}, material: m}]
+bodies: [{name: a, disk: {centre: [0.1 mm, 0.2 mm], radius: 5 mm}, seeding: lattice, material: m}]
 )";
 
 /// Share of its angular momentum about its centre that a disk has lost after a twentieth of a turn. By half a

@@ -240,8 +240,9 @@ double shear_area(double degrees, double offset, const char* area, const char* b
   };
   const auto block = [&](const char* name, double low, double high, double speed) {
     return fmt::format(
-        "  - {{name: {}, polygon: [{}, {}, {}, {}], material: m, particles_per_cell: 4, velocity: [{} m/s, "
-        "{} m/s]}}\n",
+        "  - {{name: {}, polygon: [{}, {}, {}, {}], seeding: lattice, material: m, particles_per_cell: 4, "
+        "velocity: "
+        "[{} m/s, {} m/s]}}\n",
         name, point(-8, low), point(8, low), point(8, high), point(-8, high), speed * (c * 0.5 + s * 1e-3),
         speed * (s * 0.5 - c * 1e-3));
   };

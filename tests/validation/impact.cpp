@@ -8,8 +8,15 @@ namespace {
 using namespace test;
 
 using Overrides = std::vector<Override>;
-const Overrides kPlain{{"contact.normal", "logistic_regression"}, {"method.basis", "lcpdi"}};
-const Overrides kSmoothed{{"contact.normal", "smoothed_logistic_regression"}, {"method.basis", "lcpdi"}};
+// Published normals with the particles of their time, on a lattice.
+const Overrides kPlain{{"contact.normal", "logistic_regression"},
+                       {"method.basis", "lcpdi"},
+                       {"bodies.0.seeding", "lattice"},
+                       {"bodies.1.seeding", "lattice"}};
+const Overrides kSmoothed{{"contact.normal", "smoothed_logistic_regression"},
+                          {"method.basis", "lcpdi"},
+                          {"bodies.0.seeding", "lattice"},
+                          {"bodies.1.seeding", "lattice"}};
 const Overrides kDefault{{"contact.normal", "smoothed_max_margin"}, {"method.basis", "lcpdi"}};
 
 struct Impact {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string_view>
 
+#include "engine/output/particle_access.hpp"
 #include "engine/state/particles.hpp"
 
 namespace mpmfast {
@@ -13,7 +14,8 @@ namespace mpmfast {
 namespace {
 
 // Shown by means of their own: who a particle is, and its shape.
-constexpr std::array<std::string_view, 5> kNoFields{"id", "body", "material", "volume", "domain_share"};
+constexpr std::array<std::string_view, 6> kNoFields{"id",     "body",         "material",
+                                                    "volume", "domain_share", kDomainAngle};
 // A page that must leave fields out keeps these.
 constexpr std::array<std::string_view, 5> kFirst{"pressure", "von_mises", "speed", "plastic_strain",
                                                  "temperature"};
@@ -52,9 +54,16 @@ std::vector<double> FrameField::values(const FrameFile& file) const {
   const std::size_t n = found->components;
   const VtuArray* const split = kind == Kind::domain ? file.reader().find("domain_share") : nullptr;
   const double* const share = split != nullptr ? file.values(*split).data() : nullptr;
+  const VtuArray* const turned = kind == Kind::domain ? file.reader().find(kDomainAngle) : nullptr;
+  const double* const angle = turned != nullptr ? file.values(*turned).data() : nullptr;
   for (std::size_t i = 0; i < out.size(); ++i) {
     const double* tuple = all.data() + n * i;
     if (kind == Kind::component || kind == Kind::domain) out[i] = tuple[component];
+    if (angle != nullptr && component % 3 < 2) {
+      const double* row = tuple + component - component % 3;
+      out[i] = component % 3 == 0 ? std::cos(angle[i]) * row[0] + std::sin(angle[i]) * row[1]
+                                  : std::cos(angle[i]) * row[1] - std::sin(angle[i]) * row[0];
+    }
     if (share != nullptr) out[i] *= share[3 * i + component % 3];
     if (kind == Kind::magnitude) out[i] = std::hypot(tuple[0], tuple[1], tuple[2]);
     if (kind == Kind::determinant) out[i] = determinant(tuple);

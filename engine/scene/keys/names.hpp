@@ -194,7 +194,7 @@ inline constexpr std::array<Keyword<WallEnforcement>, 3> kWallEnforcements{{
 }};
 
 inline constexpr std::array<Keyword<SeedingKind>, 3> kSeedings{{
-    {SeedingKind::lattice, "lattice", "on the grid's lattice, of a box on one of its own (default)"},
+    {SeedingKind::lattice, "lattice", "on the grid's lattice, of a box on one of its own"},
     {SeedingKind::rings, "rings", "about the centre of a disk or a ring, so that its outline is smooth"},
     {SeedingKind::conforming, "conforming",
      "one layer along the outline of any shape in the plane, the grid's lattice inside"},

@@ -165,8 +165,11 @@ void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string
                 body.field, Name{});
     map.at("particles_per_cell", "Particles along the side of a cell, for all directions or for each.",
            [&](Slot& counts) { describe_counts(counts, dimension, body.particles_per_cell); });
-    map.at("seeding", "How the particles lie; a map turns their lattice.",
-           [&](Slot& seeding) { describe_seeding(seeding, body.seeding); });
+    map.derived_at(
+        "seeding",
+        "How the particles lie; a map turns their lattice. If not given, in the plane: conforming for "
+        "whatever is no box, with as many particles along both sides of a cell; else: lattice.",
+        [&](Slot& seeding) { describe_seeding(seeding, body.seeding); });
     map.at("velocity", "At the start; of a rigid body always, and each component may be a table in time.",
            [&](Slot& velocity) { describe_velocity(velocity, dimension, body); });
     map.at("acceleration", "A body force over mass of its own, beside gravity and with its ramp.",
@@ -188,6 +191,7 @@ void describe_body(Slot& slot, const Scene& scene, const std::vector<std::string
 
 void add(BodySpec body, const BodyLocation& location, Scene& scene, std::vector<BodyLocation>& locations) {
   if (body.field.empty()) body.field = body.name;
+  if (!location.entry.find("seeding")) body.seeding.kind = usual_seeding(scene, body);
   check_tables(location.entry, scene, body);
   scene.bodies.push_back(std::move(body));
   locations.push_back(location);

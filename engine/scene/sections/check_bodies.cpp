@@ -39,25 +39,23 @@ bool is_round(const Scene& scene, const Shape& shape) {
   return std::holds_alternative<RingShape>(shape) || (ellipse && ellipse->radii[0] == ellipse->radii[1]);
 }
 
-/// Where particles cannot lie as `seeding` says.
-void check_seeding(const Scene& scene, const BodySpec& body, const BodyLocation& location) {
-  if (!body.seeding.turned()) return;
+/// Why particles cannot lie as a seeding says; nothing where they can.
+const char* obstacle(const Scene& scene, const BodySpec& body, const Seeding& seeding) {
+  if (!seeding.turned()) return nullptr;
   const bool own_lattice = std::holds_alternative<BoxShape>(body.shape) && scene.dimension() == 2;
-  if (own_lattice && body.seeding.kind == SeedingKind::conforming) return;
-  const auto refuse = [&](const char* why) {
-    if (const auto seeding = location.entry.find("seeding")) seeding->complain(why);
-  };
+  if (own_lattice && seeding.kind == SeedingKind::conforming) return nullptr;
   const auto& model = scene.materials[static_cast<std::size_t>(body.material)].model;
   if (std::holds_alternative<LinearElastic>(model))
-    refuse("linear_elastic takes turned particles for strained ones (neo_hookean does not)");
+    return "linear_elastic takes turned particles for strained ones (neo_hookean does not)";
   if (std::holds_alternative<BitmapShape>(body.shape))
-    refuse("the levels of a bitmap share the grid's lattice");
+    return "the levels of a bitmap share the grid's lattice";
   if (scene.space == Space::axisymmetric)
-    refuse("the particles of an axisymmetric scene lie along the radius");
-  if (scene.dimension() == 3 && body.seeding.kind == SeedingKind::conforming)
-    refuse("conforming particles are for shapes in the plane");
-  if (body.seeding.kind == SeedingKind::rings && !is_round(scene, body.shape))
-    refuse("rings are for disks and rings in the plane");
+    return "the particles of an axisymmetric scene lie along the radius";
+  if (scene.dimension() == 3 && seeding.kind == SeedingKind::conforming)
+    return "conforming particles are for shapes in the plane";
+  if (seeding.kind == SeedingKind::rings && !is_round(scene, body.shape))
+    return "rings are for disks and rings in the plane";
+  return nullptr;
 }
 
 /// Particles have indices of 32 bits, and nobody means a billion of them.
@@ -119,7 +117,8 @@ void check_bodies(const Scene& scene, const std::vector<BodyLocation>& locations
       locations[b].name.report("history.csv calls the means over all bodies 'all': they would share columns",
                                "Give the body another name");
     fields.insert(body.field);
-    check_seeding(scene, body, locations[b]);
+    const char* why = obstacle(scene, body, body.seeding);
+    if (const auto seeding = locations[b].entry.find("seeding"); seeding && why) seeding->complain(why);
     if (!grid_known) continue;
     check_inside(scene, body, locations[b]);
     check_count(scene, body, locations[b]);
@@ -131,6 +130,13 @@ void check_bodies(const Scene& scene, const std::vector<BodyLocation>& locations
   if (scene.bodies.size() > kMostBodies) {
     locations[0].entry.report(fmt::format("{} bodies (at most {})", scene.bodies.size(), kMostBodies));
   }
+}
+
+SeedingKind usual_seeding(const Scene& scene, const BodySpec& body) {
+  const bool box = std::holds_alternative<BoxShape>(body.shape);
+  const bool alike = body.particles_per_cell[0] == body.particles_per_cell[1];
+  return !box && alike && !obstacle(scene, body, {SeedingKind::conforming}) ? SeedingKind::conforming
+                                                                            : SeedingKind::lattice;
 }
 
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body) {

@@ -84,6 +84,8 @@ void check_axisymmetric(const Value& top, bool grid_known, Scene& scene);
 
 /// What a body must not be, beside others, in this grid, of this material.
 void check_bodies(const Scene& scene, const std::vector<BodyLocation>& locations, bool grid_known);
+/// How the particles of a body lie where a scene does not say: along its outline where they can.
+SeedingKind usual_seeding(const Scene& scene, const BodySpec& body);
 /// Tables make sense only where the body obeys them.
 void check_tables(const Value& entry, const Scene& scene, const BodySpec& body);
 
