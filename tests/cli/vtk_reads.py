@@ -64,7 +64,7 @@ class VtkReads(unittest.TestCase):
             for name in ["velocity", "contact_normal", "contact_impulse"]:
                 self.assertEqual(arrays[name][1], VECTOR)
             mass = sum(float(row[f"{name}.mass_kg"]) for name in ["left", "right"])
-            self.assertAlmostEqual(values["mass"].sum(), mass, delta=1e-12 * mass)
+            self.assertAlmostEqual(values["mass"].sum(), mass, delta=1e-8 * mass)  # the history has nine digits
             momentum = (values["mass"][:, None] * values["velocity"]).sum(axis=0)
             scale = 10 * mass
             self.assertAlmostEqual(momentum[0], 0, delta=1e-6 * scale)  # single precision

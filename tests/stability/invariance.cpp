@@ -60,7 +60,7 @@ TEST_CASE("an impact is the same in millimetres and in kilometres") {
       CAPTURE(std::string(basis));
       CAPTURE(std::string(update));
       const Compared found = compare(impact(1e-3, 0, basis, update), impact(1e3, 0, basis, update), kSteps);
-      CHECK(found.pressure > 1e5);  // they are in contact
+      CHECK(found.pressure > 5e4);  // they are in contact
       CHECK(found.velocity < 1e-10);
       CHECK(found.stress < 1e-10);
     }
@@ -99,7 +99,7 @@ grid: {size: [12 mm, 12 mm], cell: 1 mm}
 time: {end: 1 s}
 materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 8 MPa, shear: 3 MPa}}
 bodies:
-  - {name: a, disk: {centre: [6.3 mm, 5.2 mm], radius: 3 mm}, material: m}
+  - {name: a, disk: {centre: [6.3 mm, 5.2 mm], radius: 3 mm}, seeding: lattice, material: m}
   - {name: b, box: {from: [3 mm, 8.2 mm], to: [9 mm, 10 mm]}, material: m}
 )",
                                      {{"method.basis", basis}, {"method.update", update}});
@@ -108,6 +108,24 @@ bodies:
       advance(step, 300);
       CHECK(by_id(step.state().particles, Quantity::position) == before);
     }
+}
+
+TEST_CASE("a body at rest whose domains lie at an angle moves by round-off alone") {
+  // R R^T is 1 to round-off, which is a stress of 1e-16 of the modulus.
+  const Scene scene = scene_from(R"(
+space: plane_strain
+grid: {size: [12 mm, 12 mm], cell: 1 mm}
+time: {end: 1 s}
+materials: {m: {model: neo_hookean, density: 1000 kg/m^3, bulk: 8 MPa, shear: 3 MPa}}
+bodies: [{name: a, disk: {centre: [6.3 mm, 5.2 mm], radius: 3 mm}, material: m}]
+)");
+  Step<2> step(scene);
+  const auto before = by_id(step.state().particles, Quantity::position);
+  advance(step, 300);
+  const auto after = by_id(step.state().particles, Quantity::position);
+  double moved = 0;
+  for (std::size_t k = 0; k < before.size(); ++k) moved = std::max(moved, std::abs(after[k] - before[k]));
+  CHECK(moved < 1e-15);  // m; cells of 1e-3 m
 }
 
 TEST_CASE("slow: a body at rest does not move by a bit in a million steps") {

@@ -29,7 +29,8 @@ bodies:
          (flat ? "], polygon: [[3 mm, 3 mm], [7 mm, 3 mm], [5.4 mm, 9 mm], [3 mm, 9 mm]]}"
                : ", 5 m/s], box: {from: [3 mm, 3 mm, 3 mm], to: [6 mm, 7 mm, 7 mm]}}") +
          "\n  - {name: right, material: rubber, velocity: [20 m/s, 12 m/s" +
-         (flat ? "], polygon: [[7.7 mm, 3 mm], [12 mm, 3 mm], [12 mm, 9 mm], [6.1 mm, 9 mm]]}"
+         (flat ? "], polygon: [[7.7 mm, 3 mm], [12 mm, 3 mm], [12 mm, 9 mm], [6.1 mm, 9 mm]], seeding: "
+                 "lattice}"
                : ", 4 m/s], box: {from: [6.6 mm, 3.3 mm, 3.3 mm], to: [9 mm, 7 mm, 7 mm]}}") +
          "\ncontact: " + contact + "\n";
 }
