@@ -440,6 +440,21 @@ void Conditions<Dim>::enforce(State<Dim>& state, double dt) {
   });
 }
 
+template <int Dim>
+void Conditions<Dim>::hold_order(State<Dim>& state, double dt, bool last) {
+  const auto velocity = [&](int slot) -> Vec<Dim> { return state.nodes.vector(Nodal::star, slot); };
+  apply(state, dt, [&](double mass, int slot, const Vec<Dim>& e, double speed) {
+    const double change = speed - velocity(slot).dot(e);
+    state.nodes.set(Nodal::star, slot, velocity(slot) + change * e);
+    return last ? mass * change / dt : 0;
+  });
+  const double* masses = state.nodes.column(Nodal::mass);
+  apply_cuts(state, velocity, [&](int component, int slot, const Vec<Dim>& e, double impulse) {
+    state.nodes.set(Nodal::star, slot, velocity(slot) + (impulse / masses[slot]) * e);
+    if (last) record_impulse(component, impulse, dt);
+  });
+}
+
 template class Conditions<2>;
 template class Conditions<3>;
 

@@ -51,6 +51,11 @@ class Conditions {
   /// After the second contact correction: momentum and force together.
   void enforce(State<Dim>& state, double dt);
 
+  /// Puts the prescribed components into the velocities of an order of FMPM (Nodal::star). Walls `at:
+  /// surface` act once a step, and not here.
+  /// @param last  particles take this order: the impulses are reactions
+  void hold_order(State<Dim>& state, double dt, bool last);
+
   /// What conditions prescribe of a slot's velocity: which combination of theirs (−1: none), and axes, a bit
   /// each.
   struct Constraint {

@@ -139,7 +139,7 @@ void Contact<Dim>::correct_first(State<Dim>& state) {
   if (phases_->surface) return phases_->surface->correct_first(state, phases_->times);
   phases_->corrections.correct_first(state, phases_->free, phases_->times, list_);
   if (phases_->corrections.method().first_stays)
-    record_impulses(state, laws_, phases_->pivots, list_, ledger_);
+    record_impulses(state, laws_, phases_->pivots, list_, Entry::made, ledger_);
 }
 
 template <int Dim>
@@ -147,7 +147,7 @@ void Contact<Dim>::correct_second(State<Dim>& state) {
   if (phases_->surface)
     return phases_->surface->correct_second(state, phases_->times, phases_->pivots, ledger_);
   phases_->corrections.correct_second(state, phases_->free, phases_->times, phases_->interfaces, list_);
-  record_impulses(state, laws_, phases_->pivots, list_, ledger_);
+  record_impulses(state, laws_, phases_->pivots, list_, Entry::made, ledger_);
   if (!phases_->corrections.method().one_set) end_step(state);
 }
 
@@ -156,6 +156,28 @@ void Contact<Dim>::correct_re_extrapolated(State<Dim>& state) {
   if (phases_->surface) return phases_->surface->correct_re_extrapolated(state, phases_->times, ledger_);
   phases_->corrections.correct_re_extrapolated(state, phases_->free, phases_->times, list_);
   if (phases_->corrections.method().one_set) end_step(state);
+}
+
+template <int Dim>
+bool Contact<Dim>::acts_on_nodes() const {
+  return !phases_->surface && !list_.nodes.empty();
+}
+
+template <int Dim>
+void Contact<Dim>::begin_orders(State<Dim>& state, Nodal momenta) {
+  if (!acts_on_nodes()) return;
+  record_impulses(state, laws_, phases_->pivots, list_, Entry::taken_back, ledger_);
+  phases_->corrections.take_out_impulses(state, momenta, list_);
+}
+
+template <int Dim>
+void Contact<Dim>::correct_order(State<Dim>& state) {
+  if (acts_on_nodes()) phases_->corrections.correct_order(state, phases_->free, phases_->times, list_);
+}
+
+template <int Dim>
+void Contact<Dim>::end_orders(const State<Dim>& state) {
+  if (acts_on_nodes()) record_impulses(state, laws_, phases_->pivots, list_, Entry::made, ledger_);
 }
 
 /// After the last correction: the interfaces and the friction work of the step.

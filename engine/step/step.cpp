@@ -139,8 +139,8 @@ void Step<Dim>::advance_in_parallel(double dt, bool stresses) {
   enforce(dt);
   end_velocities(dt);
   find_work_of_loads(dt);
-  filter_velocities();  // Eq. 42 to 44
-  re_extrapolate();     // NN §2.8
+  filter_velocities(dt);  // Eq. 42 to 44
+  re_extrapolate();       // NN §2.8
   conduct_heat(dt);
   find_moving_velocities();
   update_particles(dt);  // Eq. 32, 35, 38, 41

@@ -149,7 +149,8 @@ class Step {
   ParticleUpdate update_rule() const { return filters() ? plan_.update : ParticleUpdate::flip; }
   double wall_share() const { return update_rule() == ParticleUpdate::flip ? plan_.wall_share : 1; }
   void find_work_of_loads(double dt);
-  void filter_velocities();
+  void filter_velocities(double dt);
+  void filter_full_mass(double dt);
   void re_extrapolate();
   void impose_on_re_extrapolated();
   void conduct_heat(double dt);

@@ -138,6 +138,26 @@ TEST_CASE("a perfect interface reproduces one field to round-off with smooth bas
                        "");
     }
 }
+/// None, at nodes, and along a plane that cuts cells.
+const char* const kPressed[] = {
+    "", "boundaries: {left: {piston: 20 m/s, direction: right, position: 1 mm}, bottom: fixed}\n",
+    "boundaries: {left: {piston: 20 m/s, direction: right, position: 0.6 mm, at: plane}, bottom: fixed}\n"};
+
+TEST_CASE("a perfect interface reproduces one field to round-off with FMPM of every order") {
+  for (const char* basis : {"ugimp", "lcpdi", "bspline2"})
+    for (const char* update : {"fmpm(2)", "fmpm(3)", "fmpm(5)", "fmpm(10)"})
+      for (const char* boundaries : kPressed) {
+        CAPTURE(std::string(basis));
+        CAPTURE(std::string(update));
+        CAPTURE(std::string(boundaries));
+        std::vector<Override> overrides{
+            {"method.basis", basis}, {"method.update", update}, {"method.deformation_terms", "2"}};
+        check_perfect<2>(overrides, boundaries);
+        if (boundaries == kPressed[0]) check_perfect<3>(overrides, "");
+        overrides.push_back({"method.every", "3"});
+        check_perfect<2>(overrides, boundaries);
+      }
+}
 TEST_CASE("a perfect interface reproduces one field to round-off between a floor and a piston") {
   check_all_perfect<2>(
       "boundaries: {left: {piston: 20 m/s, direction: right, position: 1 mm}, bottom: fixed}\n");

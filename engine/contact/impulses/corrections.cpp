@@ -201,6 +201,34 @@ void Corrections<Dim>::correct_re_extrapolated(State<Dim>& state, const FreeDire
   solve_nodes(pass, begin, finish);
 }
 
+template <int Dim>
+void Corrections<Dim>::take_out_impulses(State<Dim>& state, Nodal momenta,
+                                         const ContactList<Dim>& list) const {
+  using constants::threads::kFewNodes;
+  for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFewNodes, [&](std::int64_t k) {
+    const ContactNode<Dim>& node = list.nodes[k];
+    thread_local NodeMotion<Dim> motion;
+    motion.read(NodeFields<Dim>(state, list, node));
+    sum_impulses(node, list.pairs, false, motion);
+    for (const auto& field : motion)
+      state.nodes.set(momenta, field.slot, state.nodes.vector(momenta, field.slot) - field.impulse);
+  });
+}
+
+template <int Dim>
+void Corrections<Dim>::correct_order(State<Dim>& state, const FreeDirections<Dim>& free,
+                                     const StepTimes& times, ContactList<Dim>& list) {
+  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, second_rule(method_), true, list);
+  const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
+    work.motion.read(pass.fields(node));
+  };
+  const auto finish = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
+    sum_impulses(node, list.pairs, false, work.motion);
+    change_momenta(state, work.motion);
+  };
+  solve_nodes(pass, begin, finish);
+}
+
 /// Stores the relative velocities before any correction, and decides which pairs persist.
 template <int Dim>
 void Corrections<Dim>::begin_active_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,

@@ -38,6 +38,13 @@ class Corrections {
   void correct_re_extrapolated(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
                                ContactList<Dim>& list);
 
+  /// Takes the impulses of the last correction out of nodal momenta.
+  void take_out_impulses(State<Dim>& state, Nodal momenta, const ContactList<Dim>& list) const;
+  /// Corrects the momenta of an order of FMPM as the second correction does. What pairs remember of the step
+  /// stays the second correction's.
+  void correct_order(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
+                     ContactList<Dim>& list);
+
  private:
   struct Counts {
     std::uint64_t converged{}, unconverged{};  ///< nodes of simultaneous or explicit pairs

@@ -75,7 +75,7 @@ double friction_work_of(const CorrectionMethod& method, const PairColumns<Dim>& 
 
 template <int Dim>
 void record_impulses(const State<Dim>& state, const PairLaws& laws, const std::vector<Vec<Dim>>& pivots,
-                     const ContactList<Dim>& list, ContactLedger<Dim>& ledger) {
+                     const ContactList<Dim>& list, Entry entry, ContactLedger<Dim>& ledger) {
   const PairColumns<Dim>& pairs = list.pairs;
   if (laws.none_by_fields() &&
       std::find(state.field_rigid.begin(), state.field_rigid.end(), true) == state.field_rigid.end())
@@ -85,7 +85,7 @@ void record_impulses(const State<Dim>& state, const PairLaws& laws, const std::v
     const NodeFields<Dim> fields(state, list, node);
     for (int e = node.pair_begin; e < node.pair_end; ++e) {
       const ContactPair& pair = pairs.pair[e];
-      const Vec<Dim> kept = kept_impulse(pairs, e);
+      const Vec<Dim> kept = entry == Entry::made ? kept_impulse(pairs, e) : Vec<Dim>(-kept_impulse(pairs, e));
       if (meets_rigid(node, pair)) record_rigid(state, fields, node, kept, pivots, ledger);
       if (laws.none_by_fields() || pair.crack >= 0) continue;
       const int number = laws.number_of(fields, node, pair);
@@ -139,9 +139,9 @@ void record_friction(const State<Dim>& state, const PairLaws& laws, const Correc
 }
 
 template void record_impulses(const State<2>&, const PairLaws&, const std::vector<Vec<2>>&,
-                              const ContactList<2>&, ContactLedger<2>&);
+                              const ContactList<2>&, Entry, ContactLedger<2>&);
 template void record_impulses(const State<3>&, const PairLaws&, const std::vector<Vec<3>>&,
-                              const ContactList<3>&, ContactLedger<3>&);
+                              const ContactList<3>&, Entry, ContactLedger<3>&);
 template void record_friction(const State<2>&, const PairLaws&, const CorrectionMethod&, ContactList<2>&,
                               ContactLedger<2>&, std::vector<double>&);
 template void record_friction(const State<3>&, const PairLaws&, const CorrectionMethod&, ContactList<3>&,

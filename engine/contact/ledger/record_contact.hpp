@@ -10,12 +10,15 @@
 
 namespace mpmfast {
 
-/// Adds the impulses that particles keep of the correction at hand: on rigid bodies with their moments and
+/// Is an impulse entered, or an entry taken back?
+enum class Entry { made, taken_back };
+
+/// Enters the impulses that particles keep of the correction at hand: on rigid bodies with their moments and
 /// work, and between the pairs that the scene names.
 /// @param pivots  points about which moments count, by field, m
 template <int Dim>
 void record_impulses(const State<Dim>& state, const PairLaws& laws, const std::vector<Vec<Dim>>& pivots,
-                     const ContactList<Dim>& list, ContactLedger<Dim>& ledger);
+                     const ContactList<Dim>& list, Entry entry, ContactLedger<Dim>& ledger);
 
 /// The friction work of each pair (PairImpulses::friction_work), and its sums, in an order that does not
 /// depend on the threads.
