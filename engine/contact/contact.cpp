@@ -177,7 +177,9 @@ void Contact<Dim>::correct_order(State<Dim>& state) {
 
 template <int Dim>
 void Contact<Dim>::end_orders(const State<Dim>& state) {
-  if (acts_on_nodes()) record_impulses(state, laws_, phases_->pivots, list_, Entry::made, ledger_);
+  if (!acts_on_nodes()) return;
+  phases_->corrections.add_friction(state, list_);
+  record_impulses(state, laws_, phases_->pivots, list_, Entry::made, ledger_);
 }
 
 /// After the last correction: the interfaces and the friction work of the step.

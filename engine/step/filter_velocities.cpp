@@ -57,16 +57,17 @@ void Step<Dim>::filter_velocities(double dt) {
 }
 
 /// FMPM(m) (Nairn and Hammerquist 2021), with contact and conditions in each order (Nairn 2026). Let p be the
-/// nodal momenta without the impulses of the second correction, M the lumped and M̃ the full mass matrix. From
-/// v_1 = v⁺ on,
+/// nodal momenta without the normal impulses of the second correction, M the lumped and M̃ the full mass
+/// matrix. From v_1 = v⁺ on,
 ///
 ///   v_{k+1} = C(v_k + M⁻¹(p − M̃ v_k)),   M̃ v = M S⁺S v,
 ///
-/// where C corrects by contact and conditions. Each order finds the whole impulse of contact anew, and the
-/// particles take that of the last order alone. Without contact and conditions C = 1, and v_m is the sum of
-/// the first m terms of M̃⁻¹p = Σ_k (I − S⁺S)^k M⁻¹p. With C each order is a step of a projected gradient
-/// descent towards the velocities that minimise ½(v − M̃⁻¹p)ᵀM̃(v − M̃⁻¹p) under the conditions of contact. A
-/// tie makes C the mean by mass of the two fields; two tied fields are then one field to round-off.
+/// where C corrects by contact without friction, and by conditions. Each order finds the whole normal impulse
+/// of contact anew, and the particles take that of the last order alone. Friction is a force of the second
+/// correction, within p. Without contact and conditions C = 1, and v_m is the sum of the first m terms of M̃⁻¹p
+/// = Σ_k (I − S⁺S)^k M⁻¹p. With C each order is a step of a projected gradient descent towards the velocities
+/// that minimise ½(v − M̃⁻¹p)ᵀM̃(v − M̃⁻¹p) under the conditions of contact. A tie makes C the mean by mass of
+/// the two fields; two tied fields are then one field to round-off.
 template <int Dim>
 void Step<Dim>::filter_full_mass(double dt) {
   auto& nodes = state_.nodes;

@@ -201,24 +201,50 @@ void Corrections<Dim>::correct_re_extrapolated(State<Dim>& state, const FreeDire
   solve_nodes(pass, begin, finish);
 }
 
+/// With one active set, the tangential impulse of the second correction between surfaces that may part is a
+/// force: it stays what it is in every order of FMPM. Friction found anew in each order makes energy, since
+/// only normal impulses are a projection (twenty fields that meet: 18 % with fmpm(6)).
+/// @pre impulse.second is the second correction's
+template <int Dim>
+Vec<Dim> Corrections<Dim>::force_of_friction(const PairColumns<Dim>& pairs, int e) const {
+  if (!method_.one_set || !pairs.status[e].separable) return Vec<Dim>::Zero();
+  return split(Vec<Dim>(pairs.impulse[e].second - pairs.impulse[e].as_force), pairs.geometry[e].normal)
+      .tangential;
+}
+
 template <int Dim>
 void Corrections<Dim>::take_out_impulses(State<Dim>& state, Nodal momenta,
                                          const ContactList<Dim>& list) const {
   using constants::threads::kFewNodes;
+  const PairColumns<Dim>& pairs = list.pairs;
   for_each_of(static_cast<std::int64_t>(list.nodes.size()), state.threads, kFewNodes, [&](std::int64_t k) {
     const ContactNode<Dim>& node = list.nodes[k];
-    thread_local NodeMotion<Dim> motion;
-    motion.read(NodeFields<Dim>(state, list, node));
-    sum_impulses(node, list.pairs, false, motion);
-    for (const auto& field : motion)
-      state.nodes.set(momenta, field.slot, state.nodes.vector(momenta, field.slot) - field.impulse);
+    const auto take = [&](int field, const Vec<Dim>& impulse) {
+      const int slot = list.fields[node.field_begin + field].slot;
+      state.nodes.set(momenta, slot, state.nodes.vector(momenta, slot) - impulse);
+    };
+    for (int e = node.pair_begin; e < node.pair_end; ++e) {
+      const ContactPair& pair = pairs.pair[e];
+      const Vec<Dim> found_anew = pairs.impulse[e].now - force_of_friction(pairs, e);
+      take(pair.a, found_anew);
+      if (!pair.is_lumped() && pair.b != node.rigid) take(pair.b, -found_anew);
+    }
+  });
+}
+
+template <int Dim>
+void Corrections<Dim>::add_friction(const State<Dim>& state, ContactList<Dim>& list) const {
+  for_each_pair(list, state.threads, [&](const ContactNode<Dim>&, int e) {
+    list.pairs.impulse[e].now += force_of_friction(list.pairs, e);
   });
 }
 
 template <int Dim>
 void Corrections<Dim>::correct_order(State<Dim>& state, const FreeDirections<Dim>& free,
                                      const StepTimes& times, ContactList<Dim>& list) {
-  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, second_rule(method_), true, list);
+  CorrectionRule rule = second_rule(method_);
+  rule.friction = false;
+  const CorrectionPass<Dim> pass = make_pass(state, free, times.dt, rule, method_.strain_may_stick(), list);
   const auto begin = [&](const ContactNode<Dim>& node, NodeWorkspace<Dim>& work) {
     work.motion.read(pass.fields(node));
   };

@@ -38,12 +38,15 @@ class Corrections {
   void correct_re_extrapolated(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
                                ContactList<Dim>& list);
 
-  /// Takes the impulses of the last correction out of nodal momenta.
+  /// The orders of FMPM. What they find anew is taken out of nodal momenta: the impulses of the second
+  /// correction without friction (force_of_friction).
   void take_out_impulses(State<Dim>& state, Nodal momenta, const ContactList<Dim>& list) const;
-  /// Corrects the momenta of an order of FMPM as the second correction does. What pairs remember of the step
-  /// stays the second correction's.
+  /// Corrects the momenta of an order as the second correction does, without friction. What pairs remember of
+  /// the step stays the second correction's.
   void correct_order(State<Dim>& state, const FreeDirections<Dim>& free, const StepTimes& times,
                      ContactList<Dim>& list);
+  /// Adds the friction of the second correction to the impulses of the last order.
+  void add_friction(const State<Dim>& state, ContactList<Dim>& list) const;
 
  private:
   struct Counts {
@@ -53,6 +56,7 @@ class Corrections {
                                 const CorrectionRule& rule, bool may_stick, ContactList<Dim>& list) const;
   template <class Begin, class Finish>
   Counts solve_nodes(const CorrectionPass<Dim>& pass, const Begin& begin, const Finish& finish);
+  Vec<Dim> force_of_friction(const PairColumns<Dim>& pairs, int e) const;
   void begin_active_set(const CorrectionPass<Dim>& pass, const ContactNode<Dim>& node,
                         const NodeMotion<Dim>& motion) const;
 
