@@ -64,10 +64,10 @@ void Step<Dim>::filter_velocities(double dt) {
 ///
 /// where C corrects by contact without friction, and by conditions. Each order finds the whole normal impulse
 /// of contact anew, and the particles take that of the last order alone. Friction is a force of the second
-/// correction, within p. Without contact and conditions C = 1, and v_m is the sum of the first m terms of M̃⁻¹p
-/// = Σ_k (I − S⁺S)^k M⁻¹p. With C each order is a step of a projected gradient descent towards the velocities
-/// that minimise ½(v − M̃⁻¹p)ᵀM̃(v − M̃⁻¹p) under the conditions of contact. A tie makes C the mean by mass of
-/// the two fields; two tied fields are then one field to round-off.
+/// correction, within p. Without contact and conditions C = 1, and v_m is the sum of the first m terms of
+/// M̃⁻¹p = Σ_k (I − S⁺S)^k M⁻¹p. With C each order is a step of a projected gradient descent towards the
+/// velocities that minimise ½(v − M̃⁻¹p)ᵀM̃(v − M̃⁻¹p) under the conditions of contact. A tie makes C the mean
+/// by mass of the two fields; two tied fields are then one field to round-off.
 template <int Dim>
 void Step<Dim>::filter_full_mass(double dt) {
   auto& nodes = state_.nodes;
