@@ -203,7 +203,8 @@ void Corrections<Dim>::correct_re_extrapolated(State<Dim>& state, const FreeDire
 
 /// With one active set, the tangential impulse of the second correction between surfaces that may part is a
 /// force: it stays what it is in every order of FMPM. Friction found anew in each order makes energy, since
-/// only normal impulses are a projection (twenty fields that meet: 18 % with fmpm(6)).
+/// only normal impulses are a projection (theory, "XPIC and FMPM").
+/// @return  on field a, N s; zero for pairs whose whole impulse each order finds
 /// @pre impulse.second is the second correction's
 template <int Dim>
 Vec<Dim> Corrections<Dim>::force_of_friction(const PairColumns<Dim>& pairs, int e) const {
