@@ -43,9 +43,9 @@ class Contact {
   void correct_first(State<Dim>& state);
   void correct_second(State<Dim>& state);
   void correct_re_extrapolated(State<Dim>& state);
-  /// FMPM meets contact in each of its orders (Step::filter_full_mass). First the normal impulses of the second
-  /// correction are taken out of `momenta`; then the momenta of each order are corrected, each from the
-  /// beginning; last the ledger has the impulses of the last order in place of the second correction's.
+  /// FMPM meets contact in each of its orders (Step::filter_full_mass). First the normal impulses of the
+  /// second correction are taken out of `momenta`; then the momenta of each order are corrected, each from
+  /// the beginning; last the ledger has the impulses of the last order in place of the second correction's.
   void begin_orders(State<Dim>& state, Nodal momenta);
   void correct_order(State<Dim>& state);
   void end_orders(const State<Dim>& state);
